@@ -1,0 +1,447 @@
+"""The kinematic chain: links and the joints between them, without frame and without size.
+
+The waist of the house: everything below describes what a chain is made of, everything above asks questions
+of chains. A chain is a value. It is sound or it is not constructed, it never changes, and two chains are
+equal when they have the same space, the same links and the same joints (whatever the order of writing).
+Whether two chains have the same *structure*, names aside, is asked of `gruebler.isomorphism`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from gruebler import notation
+from gruebler.errors import ChainError, NotationError
+from gruebler.pairs import Alphabet, Pair, Space, pair
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+__all__ = ["Chain", "Joint"]
+
+_LONGEST_NAME = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """A place where two or more links meet with one pair; a joint of k links counts k - 1."""
+
+    pair: Pair
+    links: tuple[str, ...]
+
+    @property
+    def count(self) -> int:
+        """How often the joint counts in F: k - 1."""
+        return len(self.links) - 1
+
+    def __str__(self) -> str:
+        return notation.joint_text(self.pair.symbol(), self.links)
+
+    @property
+    def _key(self) -> tuple[str, tuple[str, ...]]:
+        return self.pair.name, tuple(sorted(self.links))
+
+
+class Chain:
+    """Links and joints in one space.
+
+    Args:
+        joints: each a `Joint` or (pair or its full name, link names). Joints between the same links may repeat.
+        links: the names of the links, if their order matters or a slip in a joint is to be found; otherwise
+            the links are those the joints name, in that order. Numbers serve as names.
+        space: ``planar`` (default), ``spherical`` or ``spatial``.
+
+    Raises:
+        ChainError: fewer than three links, a link without joint, a joint with fewer than two links or the same
+            link twice, doubled or unusable names, a joint naming a link that was not declared, a pair
+            with more than two links that cannot be shared, or a chain in several parts.
+        PairError: an unknown pair, or one that the space does not allow.
+
+    The constructor costs O(links + joint elements).
+
+    >>> slider_crank = Chain([("revolute", ["frame", "crank"]), ("revolute", ["crank", "rod"]),
+    ...                       ("revolute", ["rod", "piston"]), ("prismatic", ["frame", "piston"])])
+    >>> print(slider_crank)
+    R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)
+    >>> slider_crank == Chain.parse("P(piston-frame) R(frame-crank) R(crank-rod) R(rod-piston)")
+    True
+    """
+
+    __slots__ = ("__dict__", "joints", "links", "space")
+
+    links: tuple[str, ...]
+    joints: tuple[Joint, ...]
+    space: Space
+
+    def __init__(
+        self,
+        joints: Iterable[Joint | tuple[str | Pair, Sequence[str | int]]],
+        *,
+        links: Iterable[str | int] | None = None,
+        space: str | Space = Space.PLANAR,
+    ) -> None:
+        where = notation.space_of(space)
+        made = tuple(_joint(j, where) for j in joints)
+        named = tuple(dict.fromkeys(link for j in made for link in j.links))
+        declared = named if links is None else _declared(links, named, made)
+        _check_whole(declared, made)
+        object.__setattr__(self, "links", declared)
+        object.__setattr__(self, "joints", made)
+        object.__setattr__(self, "space", where)
+
+    # --- reading and writing -------------------------------------------------------------------------
+
+    @classmethod
+    def parse(cls, text: str, space: str | Space | None = None) -> Chain:
+        """The chain that a text describes; see `gruebler.notation` for the grammar.
+
+        ``g6:`` followed by a graph6 code gives a planar chain of revolute joints, its links named 0, 1, 2, ...
+
+        >>> Chain.parse("D(0-1) D(1-2) S(2-0)").joints[2].pair
+        <pair prismatic>
+        >>> len(Chain.parse("g6:Cr").joints)
+        4
+        """
+        if text.lstrip().lower().startswith("g6:"):
+            return cls.from_graph6(text.strip()[3:].strip())
+        where, joints = notation.read(text, space)
+        return cls(joints, space=where)
+
+    @classmethod
+    def from_edges(
+        cls,
+        edges: Iterable[tuple[object, object]],
+        pair: str | Pair = "revolute",
+        *,
+        space: str | Space = "planar",
+    ) -> Chain:
+        """A chain of simple joints of one kind, one for each edge; links are named as the edges name them.
+
+        >>> print(Chain.from_edges([(0, 1), (1, 2), (2, 3), (3, 0)]))
+        R(0-1) R(1-2) R(2-3) R(3-0)
+        """
+        return cls([(pair, (str(a), str(b))) for a, b in edges], space=space)
+
+    @classmethod
+    def from_graph6(cls, code: str) -> Chain:
+        """The planar chain of revolute joints whose link graph this graph6 code describes."""
+        import networkx as nx  # it takes longer to import than most questions to answer
+
+        try:
+            graph = nx.from_graph6_bytes(code.encode("ascii"))
+        except (nx.NetworkXError, ValueError, IndexError) as error:
+            raise NotationError(f"{code!r} is not a graph6 code: {error}") from None
+        order = [str(v) for v in range(graph.number_of_nodes())]
+        return cls([("revolute", (str(a), str(b))) for a, b in sorted(graph.edges)], links=order)
+
+    @classmethod
+    def from_json(cls, document: str | Mapping[str, Any]) -> Chain:
+        """The chain of a JSON document made by `to_json` (the text, or the object already read)."""
+        if isinstance(document, str):
+            try:
+                document = json.loads(document)
+            except json.JSONDecodeError as error:
+                raise NotationError(f"not a JSON document: {error}") from None
+        if not isinstance(document, Mapping):
+            raise NotationError(f"a chain is a JSON object, not {type(document).__name__}")
+        unknown = sorted(set(document) - {"space", "links", "joints"})
+        if unknown:
+            raise NotationError(f"unknown key {unknown[0]!r} in a chain: expected space, links, joints")
+        joints = document.get("joints")
+        if not isinstance(joints, Sequence) or isinstance(joints, str):
+            raise NotationError('a chain needs a list under "joints"')
+        links = document.get("links")
+        if links is not None and (not isinstance(links, Sequence) or isinstance(links, str)):
+            raise NotationError('"links" must be a list of names')
+        return cls(
+            [_joint_of_json(number, j) for number, j in enumerate(joints, 1)],
+            links=links,
+            space=document.get("space", Space.PLANAR),
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for `json.dumps`: space, links and joints, all names in full.
+
+        >>> Chain.parse("R(0-1) R(1-2) R(2-0)").to_json()["joints"][0]
+        {'pair': 'revolute', 'links': ['0', '1']}
+        """
+        return {
+            "space": str(self.space),
+            "links": list(self.links),
+            "joints": [{"pair": j.pair.name, "links": list(j.links)} for j in self.joints],
+        }
+
+    def text(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
+        """The text form in one alphabet; `parse` takes it back.
+
+        >>> Chain.parse("R(0-1) R(1-2) P(2-0)").text("german")
+        'D(0-1) D(1-2) S(2-0)'
+        """
+        return notation.write(self.space, [(j.pair, j.links) for j in self.joints], Alphabet(alphabet))
+
+    __str__ = text
+
+    def __repr__(self) -> str:
+        return f"Chain.parse({self.text()!r})"
+
+    # --- a value -----------------------------------------------------------------------------------
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a chain does not change; build another one instead of setting {name!r}")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a chain does not change; {name!r} stays")
+
+    @cached_property
+    def _key(self) -> tuple[Space, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]:
+        return self.space, tuple(sorted(self.links)), tuple(sorted(j._key for j in self.joints))
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, Chain) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return _rebuilt, (self.joints, self.links, self.space)
+
+    def __copy__(self) -> Chain:
+        return self
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Chain:
+        return self
+
+    # --- counts ------------------------------------------------------------------------------------
+
+    @property
+    def n(self) -> int:
+        """The number of links, the later frame included."""
+        return len(self.links)
+
+    @property
+    def g(self) -> int:
+        """The number of joints, a joint of k links counted k - 1 times."""
+        return sum(j.count for j in self.joints)
+
+    @property
+    def loops(self) -> int:
+        """The number of independent loops, g - n + 1."""
+        return self.g - self.n + 1
+
+    @cached_property
+    def joints_by_freedom(self) -> dict[int, int]:
+        """g1, g2, ...: how many joints have f = 1, 2, ... freedoms (a joint of k links counted k - 1 times).
+
+        >>> Chain.parse("R(0-1) R(1-2-3) R(3-0) R(2-0)").joints_by_freedom
+        {1: 5}
+        """
+        counts: Counter[int] = Counter()
+        for j in self.joints:
+            counts[j.pair.f(self.space)] += j.count
+        return dict(sorted(counts.items()))
+
+    @cached_property
+    def degrees(self) -> dict[str, int]:
+        """For each link the number of joints it carries (a multiple joint is one joint of each of its links)."""
+        counts = Counter(link for j in self.joints for link in j.links)
+        return {link: counts[link] for link in self.links}
+
+    @cached_property
+    def link_kinds(self) -> dict[int, int]:
+        """n1, n2, n3, ...: how many links are singular, binary, ternary, ...
+
+        >>> Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)").link_kinds
+        {2: 4, 3: 2}
+        """
+        return dict(sorted(Counter(self.degrees.values()).items()))
+
+    @cached_property
+    def multiple_joints(self) -> tuple[Joint, ...]:
+        """The joints of more than two links."""
+        return tuple(j for j in self.joints if len(j.links) > 2)
+
+    def joints_of(self, link: str) -> tuple[Joint, ...]:
+        """The joints that this link carries; `ChainError` for a name the chain does not have."""
+        self.index(link)
+        return tuple(j for j in self.joints if link in j.links)
+
+    def index(self, link: str) -> int:
+        """The place of this link among the links; `ChainError` for a name the chain does not have."""
+        try:
+            return self._places[link]
+        except KeyError:
+            raise ChainError(f"the chain has no link {link!r}{_nearest(link, self.links)}") from None
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {link: i for i, link in enumerate(self.links)}
+
+    def joint_names(self) -> tuple[str, ...]:
+        """A text for each joint that tells it from every other: ``R(a-b)``, or ``R(a-b)#2`` where it repeats."""
+        seen: Counter[tuple[str, tuple[str, ...]]] = Counter()
+        symbols = notation.symbols_for((j.pair for j in self.joints), self.space)
+        names = []
+        for j in self.joints:
+            seen[j._key] += 1
+            again = f"#{seen[j._key]}" if seen[j._key] > 1 else ""
+            names.append(notation.joint_text(symbols[j.pair], j.links) + again)
+        return tuple(names)
+
+    # --- other chains ------------------------------------------------------------------------------
+
+    def renamed(self, names: Mapping[str, str | int]) -> Chain:
+        """The same chain with other link names; names that the mapping leaves out stay.
+
+        >>> print(Chain.parse("R(0-1) R(1-2) R(2-0)").renamed({"0": "frame"}))
+        R(frame-1) R(1-2) R(2-frame)
+        """
+        for link in names:
+            self.index(link)
+        new = {link: str(names.get(link, link)) for link in self.links}
+        return Chain(
+            [Joint(j.pair, tuple(new[link] for link in j.links)) for j in self.joints],
+            links=[new[link] for link in self.links],
+            space=self.space,
+        )
+
+    def with_joint(self, kind: str | Pair, links: Sequence[str]) -> Chain:
+        """The chain with one more joint; links it does not have yet are added at the end."""
+        more = [link for link in links if link not in self._places]
+        return Chain([*self.joints, (kind, links)], links=[*self.links, *dict.fromkeys(more)], space=self.space)
+
+    def without_joint(self, number: int) -> Chain:
+        """The chain without its joint of this number; `ChainError` if what is left is not a chain."""
+        if not 0 <= number < len(self.joints):
+            raise ChainError(f"the chain has joints 0 to {len(self.joints) - 1}, not {number}")
+        rest = self.joints[:number] + self.joints[number + 1 :]
+        return Chain(rest, links=self.links, space=self.space)
+
+    # --- networkx ----------------------------------------------------------------------------------
+
+    def link_graph(self) -> nx.MultiGraph:
+        """Links as nodes; an edge with ``joint`` (number) and ``pair`` for every two links of a joint.
+
+        A joint of k links gives the k(k-1)/2 edges between them; `incidence_graph` loses nothing.
+        """
+        import networkx as nx
+
+        graph = nx.MultiGraph(space=str(self.space))
+        graph.add_nodes_from(self.links)
+        for number, j in enumerate(self.joints):
+            for i, a in enumerate(j.links):
+                graph.add_edges_from((a, b, {"joint": number, "pair": j.pair.name}) for b in j.links[i + 1 :])
+        return graph
+
+    def incidence_graph(self) -> nx.Graph:
+        """Nodes ("link", name) and ("joint", number), an edge wherever a link carries a joint."""
+        import networkx as nx
+
+        graph = nx.Graph(space=str(self.space))
+        graph.add_nodes_from((("link", link) for link in self.links), kind="link")
+        for number, j in enumerate(self.joints):
+            graph.add_node(("joint", number), kind="joint", pair=j.pair.name)
+            graph.add_edges_from((("joint", number), ("link", link)) for link in j.links)
+        return graph
+
+
+def _rebuilt(joints: tuple[Joint, ...], links: tuple[str, ...], space: Space) -> Chain:
+    return Chain(joints, links=links, space=space)
+
+
+def _joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
+    kind, links = (raw.pair, raw.links) if isinstance(raw, Joint) else raw
+    if isinstance(links, str):
+        raise ChainError(f"the links of a joint are a list of names, not the text {links!r}")
+    made = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
+    if len(made.links) < 2:
+        raise ChainError(f"the joint {made} has {_links(len(made.links))}; a joint joins at least two")
+    if len(set(made.links)) < len(made.links):
+        twice = next(link for link, k in Counter(made.links).items() if k > 1)
+        raise ChainError(f"the joint {made} names the link {twice!r} twice; a joint joins different links")
+    made.pair.f(space)
+    if len(made.links) > 2 and not made.pair.is_group:
+        raise ChainError(
+            f"the joint {made} has {len(made.links)} links, but a {made.pair.name} joint ({made.pair.german}) joins "
+            "exactly two: such relative motions do not compose; write one joint for each contact"
+        )
+    return made
+
+
+def _joint_of_json(number: int, document: object) -> tuple[str, Sequence[str]]:
+    match document:
+        case {"pair": str(kind), "links": [*links], **rest} if not rest and all(
+            isinstance(link, str) for link in links
+        ):
+            return kind, [str(link) for link in links]
+    raise NotationError(f'joint {number} must be an object with a text "pair" and a list of names "links"')
+
+
+def _name(raw: str | int) -> str:
+    if not isinstance(raw, str | int) or isinstance(raw, bool):
+        raise ChainError(f"a link is named by a text or a whole number, not by {raw!r}")
+    name = str(raw)
+    if not name.strip() or name != name.strip() or not name.isprintable():
+        raise ChainError(f"{name!r} cannot name a link: a name has visible characters and no blank at its ends")
+    if len(name) > _LONGEST_NAME:
+        raise ChainError(f"the link name {name[:20]!r}... has {len(name)} characters; at most {_LONGEST_NAME}")
+    return name
+
+
+def _declared(links: Iterable[str | int], named: tuple[str, ...], joints: tuple[Joint, ...]) -> tuple[str, ...]:
+    declared = tuple(_name(link) for link in links)
+    if len(set(declared)) < len(declared):
+        twice = next(link for link, k in Counter(declared).items() if k > 1)
+        raise ChainError(f"two links are called {twice!r}; every link needs a name of its own")
+    stranger = next((link for link in named if link not in set(declared)), None)
+    if stranger is not None:
+        where = next(j for j in joints if stranger in j.links)
+        raise ChainError(
+            f"the joint {where} names the link {stranger!r}, which is not among the links"
+            + _nearest(stranger, declared)
+        )
+    lonely = next((link for link in declared if link not in set(named)), None)
+    if lonely is not None:
+        raise ChainError(f"the link {lonely!r} has no joint; every link of a chain carries at least one")
+    return declared
+
+
+def _check_whole(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
+    if len(links) < 3:
+        raise ChainError(f"a kinematic chain has at least three links, this one has {_links(len(links))}")
+    root = {link: link for link in links}
+
+    def find(link: str) -> str:
+        while root[link] != link:
+            root[link] = link = root[root[link]]
+        return link
+
+    for j in joints:
+        for other in j.links[1:]:
+            root[find(other)] = find(j.links[0])
+    parts: dict[str, list[str]] = {}
+    for link in links:
+        parts.setdefault(find(link), []).append(link)
+    if len(parts) > 1:
+        sizes = sorted(parts.values(), key=len)
+        raise ChainError(
+            f"the chain falls into {len(parts)} parts: no joint connects {_some(sizes[0])} with the rest"
+        )
+
+
+def _links(number: int) -> str:
+    return "one link" if number == 1 else f"{number or 'no'} links"
+
+
+def _some(names: Sequence[str]) -> str:
+    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+
+
+def _nearest(word: str, known: Iterable[str]) -> str:
+    close = get_close_matches(word, list(known), n=1, cutoff=0.6)
+    return f"; did you mean {close[0]!r}?" if close else ""

@@ -1,0 +1,354 @@
+"""The table of joint kinds: what each lets two links do, and how it is written.
+
+A pair is described by its *freedoms*: motion directions in the joint's own axes. ``Rz`` is a turn about
+the z axis, ``Tx`` a shift along x, ``Hz`` a screw about z (one freedom that turns and shifts at once).
+A space has ``b`` motion directions; a pair with ``f`` freedoms takes away ``u = b - f`` of them.
+
+Symbols belong to an alphabet, for the same letter means different things: ``S`` is the German
+*Schubgelenk* (prismatic) and the international spherical pair. A text is therefore read as a whole, in one
+alphabet (`read_symbols`); the full name of a pair, English or German, may stand anywhere.
+
+Source: table 2.2 of the seeds (documents 000 and 003), reconstructed against ISO 3952; the planar pairs from
+their sections 2.5 and 2.6.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from enum import StrEnum
+from types import MappingProxyType
+
+from gruebler.errors import PairError
+
+__all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "pair", "read_symbols"]
+
+
+class Space(StrEnum):
+    """Where the links live: in a plane, on a sphere about a fixed point, or in space."""
+
+    PLANAR = "planar"
+    SPHERICAL = "spherical"
+    SPATIAL = "spatial"
+
+    @property
+    def b(self) -> int:
+        """The number of motion directions of a free link: 3, 3 or 6."""
+        return len(self.directions)
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """The motion directions of a free link, in the order used for twists everywhere."""
+        return _DIRECTIONS[self]
+
+    @property
+    def greatest_freedom(self) -> int:
+        """The most freedoms that still make a joint: b - 1."""
+        return self.b - 1
+
+
+_DIRECTIONS = {
+    Space.PLANAR: ("Rz", "Tx", "Ty"),
+    Space.SPHERICAL: ("Rx", "Ry", "Rz"),
+    Space.SPATIAL: ("Rx", "Ry", "Rz", "Tx", "Ty", "Tz"),
+}
+
+
+class Alphabet(StrEnum):
+    """A set of symbols that are read together."""
+
+    GERMAN = "german"
+    INTERNATIONAL = "international"
+
+
+class Contact(StrEnum):
+    """How the two elements touch: in a surface (lower), in a line or point (higher), or through a body between."""
+
+    LOWER = "lower"
+    HIGHER = "higher"
+    COMPOUND = "compound"
+
+
+class Closure(StrEnum):
+    """What keeps the two elements together: their form, a force, or the material itself (a flexure)."""
+
+    FORM = "form"
+    FORCE = "force"
+    MATERIAL = "material"
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """One row of the table. Compared and hashed by its name."""
+
+    name: str
+    """The English name, also usable in texts: ``revolute``."""
+    german: str
+    symbols: Mapping[Alphabet, str]
+    """The symbol in each alphabet that has one."""
+    freedoms: Mapping[Space, tuple[str, ...]]
+    """The motion directions, for each space in which the pair exists."""
+    contact: Contact
+    closures: tuple[Closure, ...]
+    """The closures met in practice, the usual one first."""
+    is_group: bool
+    """Whether relative motions compose to motions of the same kind, so that more than two links can share it."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Pair) and self.name == other.name
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def __reduce__(self) -> tuple[object, tuple[str]]:
+        return pair, (self.name,)
+
+    def __repr__(self) -> str:
+        return f"<pair {self.name}>"
+
+    def f(self, space: Space) -> int:
+        """Freedoms in this space; `PairError` where the pair does not exist."""
+        try:
+            return len(self.freedoms[space])
+        except KeyError:
+            raise PairError(
+                f"the {self.name} pair ({self.german}) does not exist in {space} chains; it exists in "
+                + " and ".join(f"{s} ones with f = {len(d)}" for s, d in self.freedoms.items())
+            ) from None
+
+    def u(self, space: Space) -> int:
+        """Motions taken away in this space, u = b - f."""
+        return space.b - self.f(space)
+
+    def symbol(self, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str:
+        """The symbol in this alphabet, or the full name where the alphabet has none."""
+        return self.symbols.get(alphabet, self.name if alphabet is Alphabet.INTERNATIONAL else self.german)
+
+
+def _row(
+    name: str,
+    german: str,
+    symbols: tuple[str, str],
+    freedoms: dict[Space, str],
+    contact: Contact,
+    closures: tuple[Closure, ...],
+    is_group: bool = False,
+) -> Pair:
+    letters = {a: s for a, s in zip((Alphabet.GERMAN, Alphabet.INTERNATIONAL), symbols, strict=True) if s}
+    return Pair(
+        name,
+        german,
+        MappingProxyType(letters),
+        MappingProxyType({space: tuple(d.split()) for space, d in freedoms.items()}),
+        contact,
+        closures,
+        is_group,
+    )
+
+
+_PLANE, _SPHERE, _SPACE = Space.PLANAR, Space.SPHERICAL, Space.SPATIAL
+_LOWER, _HIGHER = Contact.LOWER, Contact.HIGHER
+_FORM, _FORCE, _MATERIAL = Closure.FORM, Closure.FORCE, Closure.MATERIAL
+
+# name, German name, (German symbol, international symbol), freedoms by space, contact, closures, group?
+PAIRS: tuple[Pair, ...] = (
+    _row(
+        "revolute",
+        "Drehgelenk",
+        ("D", "R"),
+        {_PLANE: "Rz", _SPHERE: "Rz", _SPACE: "Rz"},
+        _LOWER,
+        (_FORM, _MATERIAL),
+        is_group=True,
+    ),
+    _row(
+        "prismatic",
+        "Schubgelenk",
+        ("S", "P"),
+        {_PLANE: "Tx", _SPACE: "Tx"},
+        _LOWER,
+        (_FORM, _FORCE, _MATERIAL),
+        is_group=True,
+    ),
+    _row("helical", "Schraubgelenk", ("W", "H"), {_SPACE: "Hz"}, _LOWER, (_FORM,), is_group=True),
+    _row("rolling", "Wälzgelenk", ("W", "W"), {_PLANE: "Rz", _SPHERE: "Rz"}, _HIGHER, (_FORCE,)),
+    _row("cylindrical", "Drehschubgelenk", ("DS", "C"), {_SPACE: "Rz Tz"}, _LOWER, (_FORM,), is_group=True),
+    _row(
+        "roll_slide",
+        "Gleitwälzgelenk",
+        ("G", "G"),
+        {_PLANE: "Rz Tx", _SPHERE: "Rz Rx", _SPACE: "Rz Tx"},
+        _HIGHER,
+        (_FORM, _FORCE),
+    ),
+    _row(
+        "double_slide",
+        "Doppelschubgelenk",
+        ("S2", ""),
+        {_PLANE: "Tx Ty", _SPACE: "Tx Ty"},
+        _LOWER,
+        (_FORM, _FORCE),
+        is_group=True,
+    ),
+    _row("universal", "Kreuzgelenk", ("D2", "U"), {_SPACE: "Rx Ry"}, _LOWER, (_FORM,)),
+    _row("spherical", "Kugelgelenk", ("D3", "S"), {_SPACE: "Rx Ry Rz"}, _LOWER, (_FORM,), is_group=True),
+    _row("planar", "Plattengelenk", ("DS2", "E"), {_SPACE: "Rz Tx Ty"}, _LOWER, (_FORCE, _FORM), is_group=True),
+    _row("ball_groove", "Kugelrillengelenk", ("D2S", ""), {_SPACE: "Ry Rz Tx"}, _HIGHER, (_FORM,)),
+    _row("ball_cylinder", "Kugelrohrgelenk", ("D3S", ""), {_SPACE: "Rx Ry Rz Tx"}, _HIGHER, (_FORM,)),
+    _row(
+        "cylinder_plane",
+        "Zylinderflächengelenk",
+        ("D2S2", ""),
+        {_SPACE: "Ry Rz Tx Tz"},
+        _HIGHER,
+        (_FORCE,),
+    ),
+    _row(
+        "double_cylindrical",
+        "Doppeldrehschubgelenk",
+        ("D2S2", ""),
+        {_SPACE: "Rx Ry Tx Ty"},
+        Contact.COMPOUND,
+        (_FORM,),
+    ),
+    _row("ball_plane", "Kugelflächengelenk", ("D3S2", ""), {_SPACE: "Rx Ry Rz Tx Tz"}, _HIGHER, (_FORCE,)),
+)
+
+_BY_NAME = {p.name: p for p in PAIRS}
+_BY_FULL_NAME = {p.name: p for p in PAIRS} | {p.german.casefold(): p for p in PAIRS}
+
+
+def pair(name: str) -> Pair:
+    """The pair of this full name, English or German.
+
+    >>> pair("revolute").f(Space.PLANAR)
+    1
+    >>> pair("Gleitwälzgelenk").u(Space.PLANAR)
+    1
+
+    Raises `PairError` for any other word, with the nearest name.
+    """
+    found = _BY_NAME.get(name) or _BY_FULL_NAME.get(name.replace("-", "_").casefold())
+    if found is None:
+        raise PairError(f"unknown pair {name!r}{_nearest(name, _BY_FULL_NAME)}")
+    return found
+
+
+def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
+    """Which pair each symbol of one text means, the text being read in one alphabet.
+
+    Full names, English or German, are understood beside either alphabet. A set of symbols that only one
+    alphabet has, or that both read alike, is accepted; one that mixes alphabets, or that has two sound
+    readings, is refused with both readings.
+
+    >>> read_symbols(["D", "S"], Space.PLANAR)
+    {'D': <pair revolute>, 'S': <pair prismatic>}
+    >>> read_symbols(["S"], Space.SPATIAL)
+    Traceback (most recent call last):
+        ...
+    gruebler.errors.PairError: 'S' is ambiguous: prismatic in the German alphabet, spherical in the
+    international one; write the full name (prismatic or spherical) or add a joint that only one alphabet has
+    """
+    wanted = list(dict.fromkeys(symbols))
+    named = {s: _BY_FULL_NAME[s.casefold()] for s in wanted if s.casefold() in _BY_FULL_NAME}
+    letters = [s for s in wanted if s not in named]
+    _refuse_unknown(letters)
+    readings = {a: r for a in Alphabet if (r := _reading(letters, a, space)) is not None}
+    if not readings:
+        raise _mixed(letters)
+    sound = {a: r for a, r in readings.items() if all(len(meanings) > 0 for meanings in r.values())}
+    if not sound:
+        raise _impossible(readings, space)
+    distinct: list[dict[str, tuple[Pair, ...]]] = []
+    for reading in sound.values():
+        if reading not in distinct:
+            distinct.append(reading)
+    if len(distinct) > 1:
+        raise _two_alphabets(*distinct)
+    for symbol, meanings in distinct[0].items():
+        if len(meanings) > 1:
+            raise PairError(
+                f"{symbol!r} is ambiguous: "
+                + " or ".join(f"{p.name} ({p.german})" for p in meanings)
+                + "; write the full name"
+            )
+    return named | {symbol: meanings[0] for symbol, meanings in distinct[0].items()}
+
+
+def _meanings(symbol: str, alphabet: Alphabet) -> tuple[Pair, ...]:
+    return tuple(p for p in PAIRS if p.symbols.get(alphabet) == symbol)
+
+
+def _reading(letters: list[str], alphabet: Alphabet, space: Space) -> dict[str, tuple[Pair, ...]] | None:
+    """The pairs of this space that each symbol may mean; None if the alphabet lacks one of the symbols."""
+    if not all(_meanings(s, alphabet) for s in letters):
+        return None
+    return {s: tuple(p for p in _meanings(s, alphabet) if space in p.freedoms) for s in letters}
+
+
+def _refuse_unknown(letters: list[str]) -> None:
+    known = {s for p in PAIRS for s in p.symbols.values()}
+    for symbol in letters:
+        if symbol not in known:
+            raise PairError(
+                f"unknown joint symbol {symbol!r}{_nearest(symbol, (*known, *_BY_FULL_NAME))}; the symbols are "
+                + ", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols}))
+                + " (international) and "
+                + ", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS))
+                + " (German), or the full name of a pair"
+            )
+
+
+def _mixed(letters: list[str]) -> PairError:
+    readings = []
+    for alphabet in Alphabet:
+        words = [
+            f"{s} = {' or '.join(p.name for p in _meanings(s, alphabet))}"
+            if _meanings(s, alphabet)
+            else f"{s} is unknown"
+            for s in letters
+        ]
+        readings.append(f"{_TITLE[alphabet]}: {', '.join(words)}")
+    return PairError(f"the symbols mix two alphabets ({'; '.join(readings)}); write all joints in one of them")
+
+
+_TITLE = {Alphabet.GERMAN: "German", Alphabet.INTERNATIONAL: "international"}
+
+
+def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Space) -> PairError:
+    alphabet, reading = next(iter(readings.items()))
+    symbol = next(s for s, meanings in reading.items() if not meanings)
+    meant = _meanings(symbol, alphabet)[0]
+    others = {
+        p.name: p.symbol(alphabet)
+        for a in Alphabet
+        if a not in readings
+        for p in _meanings(symbol, a)
+        if space in p.freedoms
+    }
+    hint = "".join(
+        f"; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}"
+        for name, right in others.items()
+    )
+    freedom = len(next(iter(meant.freedoms.values())))
+    return PairError(
+        f"{symbol!r} is the {meant.name} pair ({meant.german}, f = {freedom}), which {space} chains do not have: "
+        f"their joints have at most f = {space.greatest_freedom} and are "
+        + ", ".join(f"{p.symbol(alphabet)} {p.name}" for p in PAIRS if space in p.freedoms)
+        + hint
+    )
+
+
+def _two_alphabets(german: dict[str, tuple[Pair, ...]], other: dict[str, tuple[Pair, ...]]) -> PairError:
+    symbol = next(s for s in german if german[s] != other[s])
+    one, two = (" or ".join(p.name for p in r[symbol]) for r in (german, other))
+    return PairError(
+        f"{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; "
+        f"write the full name ({one} or {two}) or add a joint that only one alphabet has"
+    )
+
+
+def _nearest(word: str, known: Iterable[str]) -> str:
+    close = get_close_matches(word, list(known), n=1, cutoff=0.5)
+    return f"; did you mean {close[0]!r}?" if close else ""
