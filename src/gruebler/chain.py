@@ -17,7 +17,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gruebler import notation
-from gruebler.errors import ChainError, NotationError
+from gruebler.errors import ChainError, NotationError, PairError
 from gruebler.pairs import Alphabet, Pair, Space, pair
 
 if TYPE_CHECKING:
@@ -364,7 +364,11 @@ def _joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) ->
     if len(set(made.links)) < len(made.links):
         twice = next(link for link, k in Counter(made.links).items() if k > 1)
         raise ChainError(f"the joint {made} names the link {twice!r} twice; a joint joins different links")
-    made.pair.f(space)
+    if space not in made.pair.freedoms:
+        try:
+            made.pair.f(space)
+        except PairError as error:
+            raise PairError(f"the joint {made} is not possible: {error}") from None
     if len(made.links) > 2 and not made.pair.is_group:
         raise ChainError(
             f"the joint {made} has {len(made.links)} links, but a {made.pair.name} joint ({made.pair.german}) joins "

@@ -1,0 +1,97 @@
+"""Generic mobility: what almost all sizes of a chain give, by exact rank at a random placement.
+
+A rank modulo a prime never exceeds the generic rank, so an error can go one way only: mobility and
+redundancy would come out too large, never too small. The answer is proved (`exact`) when the rank reaches the
+number of constraints or of unknowns, or when a theorem lets the pebble game confirm it. Otherwise two
+independent placements are compared and the bound on the probability of error is given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.prime_field import Echelon, echelon, null_space, transposed
+from gruebler.chain import Chain
+from gruebler.mobility.placement import Placement, place
+from gruebler.mobility.sparsity import pebble_mobility, theorem
+
+__all__ = ["Generic", "generic", "generic_mobility"]
+
+_FIRST_SEED = 20_261_121
+_TRIES = 4  # placements tried before a rank below the theorem's is called impossible
+
+
+@dataclass(frozen=True)
+class Generic:
+    """The rank at one random placement, and the spaces of motions and stresses that come with it."""
+
+    chain: Chain
+    placement: Placement
+    form: Echelon
+    exact: bool
+    error_bound: float
+    """0 if exact; else how likely at most it is that mobility and redundancy are stated too large."""
+
+    @property
+    def mobility(self) -> int:
+        """The dimension of the motions when the first link stands still."""
+        return self.placement.columns - self.form.rank
+
+    @property
+    def redundancy(self) -> int:
+        """How many constraints follow from the others: constraints minus rank."""
+        return len(self.placement.rows) - self.form.rank
+
+    @cached_property
+    def motions(self) -> NDArray[np.int64]:
+        """A basis of the motions, shape (mobility, n, b): a twist modulo P for each link, zero for the first."""
+        basis = null_space(self.form)
+        b = self.chain.space.b
+        still = np.zeros((len(basis), b), np.int64)
+        return np.hstack([still, basis]).reshape(len(basis), self.chain.n, b)
+
+    @cached_property
+    def stresses(self) -> NDArray[np.int64]:
+        """A basis of the self-stresses, shape (redundancy, constraints): the dependencies among the constraints."""
+        if self.redundancy == 0:
+            return np.zeros((0, len(self.placement.rows)), np.int64)
+        turned = transposed(self.placement.rows, self.placement.columns)
+        return null_space(echelon(turned, len(self.placement.rows)))
+
+
+def generic(chain: Chain) -> Generic:
+    """The generic rank of a chain, with its certificate.
+
+    Cost: about linear for chains that grow dyad by dyad, cubic in the dense core of others; see
+    benchmarks/README.md.
+    """
+    licensed = theorem(chain)
+    known = None
+    for attempt in range(_TRIES):
+        placement = place(chain, _FIRST_SEED + attempt)
+        form = echelon(placement.rows, placement.columns)
+        if form.rank == min(len(placement.rows), placement.columns):
+            return Generic(chain, placement, form, True, 0.0)
+        if licensed:
+            known = pebble_mobility(chain) if known is None else known
+            if placement.columns - form.rank == known:
+                return Generic(chain, placement, form, True, 0.0)
+        elif attempt:
+            best = max((form, placement), previous, key=lambda pair: pair[0].rank)
+            bound = best[1].error_bound(best[0].rank)
+            return Generic(chain, best[1], best[0], False, bound**2)
+        previous = (form, placement)
+    raise AssertionError(f"{_TRIES} random placements stay below the rank that theory gives for {chain!r}")
+
+
+def generic_mobility(chain: Chain) -> int:
+    """The generic mobility by exact rank over a prime field.
+
+    >>> generic_mobility(Chain.parse("P(0-1) P(1-2) P(2-0)"))  # counted 0: three sliders cannot turn the links
+    1
+    """
+    return generic(chain).mobility

@@ -1,0 +1,63 @@
+"""Idle freedoms: motions of one link alone that change nothing else, such as the spin of a rod between two balls.
+
+Two kinds are told apart. *Certain*: with all its neighbours held, the constraints at a link's joints leave it a
+freedom at a random placement. *If round*: a binary link on one revolute and one roll-slide joint (a cam
+roller) spins idly when its contour is a circle about the pin. Structure cannot know that: a planet wheel looks
+the same. The condition is therefore reported with the freedom, only where the chain has freedoms to spare
+(mobility of two or more) and only for links whose pin is not on the frame.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from gruebler._numeric.prime_field import Row, echelon
+from gruebler.mobility.generic import Generic
+
+__all__ = ["IdleFreedom", "When", "idle_freedoms"]
+
+
+class When(StrEnum):
+    """Under which condition a freedom is idle."""
+
+    ALWAYS = "always"
+    ROUND = "round"
+
+
+@dataclass(frozen=True, slots=True)
+class IdleFreedom:
+    """Freedoms that belong to one link alone."""
+
+    link: str
+    freedoms: int
+    when: When
+
+
+def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
+    """The idle freedoms, in the order of the links. Links on a single joint are not idle: they hang free.
+
+    >>> from gruebler.chain import Chain
+    >>> from gruebler.mobility.generic import generic
+    >>> rod = Chain.parse("spatial: R(frame-arm1) S(arm1-rod) S(rod-arm2) R(arm2-frame)")
+    >>> idle_freedoms(generic(rod), "frame")
+    (IdleFreedom(link='rod', freedoms=1, when=<When.ALWAYS: 'always'>),)
+    """
+    chain = rank.chain
+    found = []
+    for link in chain.links:
+        mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+        if len(mine) < 2:
+            continue
+        rows: list[Row] = [dict(enumerate(f)) for k in mine for f in rank.placement.functionals[k]]
+        left = chain.space.b - echelon(rows, chain.space.b).rank
+        if left:
+            found.append(IdleFreedom(link, left, When.ALWAYS))
+        elif rank.mobility >= 2 and _may_be_roller(rank, link, mine, frame):
+            found.append(IdleFreedom(link, 1, When.ROUND))
+    return tuple(found)
+
+
+def _may_be_roller(rank: Generic, link: str, joints: list[int], frame: str) -> bool:
+    mine = {rank.chain.joints[k].pair.name: rank.chain.joints[k] for k in joints}
+    return len(joints) == 2 and set(mine) == {"revolute", "roll_slide"} and frame not in mine["revolute"].links
