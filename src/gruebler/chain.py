@@ -282,10 +282,10 @@ class Chain:
     def _places(self) -> dict[str, int]:
         return {link: i for i, link in enumerate(self.links)}
 
-    def joint_names(self) -> tuple[str, ...]:
+    def joint_names(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> tuple[str, ...]:
         """A text for each joint that tells it from every other: ``R(a-b)``, or ``R(a-b)#2`` where it repeats."""
         seen: Counter[tuple[str, tuple[str, ...]]] = Counter()
-        symbols = notation.symbols_for((j.pair for j in self.joints), self.space)
+        symbols = notation.symbols_for((j.pair for j in self.joints), self.space, Alphabet(alphabet))
         names = []
         for j in self.joints:
             seen[j._key] += 1
@@ -433,9 +433,7 @@ def _check_whole(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
         parts.setdefault(find(link), []).append(link)
     if len(parts) > 1:
         sizes = sorted(parts.values(), key=len)
-        raise ChainError(
-            f"the chain falls into {len(parts)} parts: no joint connects {_some(sizes[0])} with the rest"
-        )
+        raise ChainError(f"the chain falls into {len(parts)} parts: no joint connects {_some(sizes[0])} with the rest")
 
 
 def _links(number: int) -> str:

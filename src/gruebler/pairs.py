@@ -335,7 +335,11 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
     return PairError(
         f"{symbol!r} is the {meant.name} pair ({meant.german}, f = {freedom}), which {space} chains do not have: "
         f"their joints have at most f = {space.greatest_freedom} and are "
-        + ", ".join(f"{p.symbol(alphabet)} {p.name}" for p in PAIRS if space in p.freedoms)
+        + ", ".join(
+            p.name if p.symbol(alphabet) == p.name else f"{p.symbol(alphabet)} ({p.name})"
+            for p in PAIRS
+            if space in p.freedoms
+        )
         + hint
     )
 

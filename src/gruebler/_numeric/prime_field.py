@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["P", "Echelon", "echelon", "inverse", "left_null_space", "null_space", "product", "reduced", "transposed"]
+__all__ = ["Echelon", "P", "echelon", "inverse", "left_null_space", "null_space", "product", "reduced", "transposed"]
 
 P = 2**31 - 1
 

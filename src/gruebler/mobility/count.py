@@ -71,9 +71,7 @@ def count(chain: Chain, b: int | None = None) -> Count:
     too_free = max(by_freedom)
     if too_free >= motions:
         joint = next(j for j in chain.joints if j.pair.f(chain.space) == too_free)
-        raise ChainError(
-            f"the joint {joint} has f = {too_free}, which leaves nothing to constrain when b = {motions}"
-        )
+        raise ChainError(f"the joint {joint} has f = {too_free}, which leaves nothing to constrain when b = {motions}")
     return Count(chain.n, motions, tuple(by_freedom.items()))
 
 

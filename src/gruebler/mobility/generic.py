@@ -71,6 +71,7 @@ def generic(chain: Chain) -> Generic:
     """
     licensed = theorem(chain)
     known = None
+    best: tuple[Placement, Echelon] | None = None
     for attempt in range(_TRIES):
         placement = place(chain, _FIRST_SEED + attempt)
         form = echelon(placement.rows, placement.columns)
@@ -80,11 +81,11 @@ def generic(chain: Chain) -> Generic:
             known = pebble_mobility(chain) if known is None else known
             if placement.columns - form.rank == known:
                 return Generic(chain, placement, form, True, 0.0)
-        elif attempt:
-            best = max((form, placement), previous, key=lambda pair: pair[0].rank)
-            bound = best[1].error_bound(best[0].rank)
-            return Generic(chain, best[1], best[0], False, bound**2)
-        previous = (form, placement)
+        elif best is None:
+            best = placement, form
+        else:
+            placement, form = max(best, (placement, form), key=lambda pair: pair[1].rank)
+            return Generic(chain, placement, form, False, placement.error_bound(form.rank) ** 2)
     raise AssertionError(f"{_TRIES} random placements stay below the rank that theory gives for {chain!r}")
 
 

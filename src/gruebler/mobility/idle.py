@@ -53,11 +53,11 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
         left = chain.space.b - echelon(rows, chain.space.b).rank
         if left:
             found.append(IdleFreedom(link, left, When.ALWAYS))
-        elif rank.mobility >= 2 and _may_be_roller(rank, link, mine, frame):
+        elif rank.mobility >= 2 and _may_be_roller(rank, mine, frame):
             found.append(IdleFreedom(link, 1, When.ROUND))
     return tuple(found)
 
 
-def _may_be_roller(rank: Generic, link: str, joints: list[int], frame: str) -> bool:
+def _may_be_roller(rank: Generic, joints: list[int], frame: str) -> bool:
     mine = {rank.chain.joints[k].pair.name: rank.chain.joints[k] for k in joints}
     return len(joints) == 2 and set(mine) == {"revolute", "roll_slide"} and frame not in mine["revolute"].links

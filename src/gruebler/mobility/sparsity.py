@@ -86,9 +86,7 @@ def pebble_mobility(chain: Chain, *, points: bool | None = None) -> int:
         vertices, edges = _point_graph(chain)
         return 2 * vertices - 3 - pebble_rank(vertices, edges, 2, 3)
     b, bars = chain.space.b, _BARS[chain.space]
-    edges = [
-        (chain.index(j.links[0]), chain.index(j.links[1])) for j in chain.joints for _ in range(bars[j.pair.name])
-    ]
+    edges = [(chain.index(j.links[0]), chain.index(j.links[1])) for j in chain.joints for _ in range(bars[j.pair.name])]
     return b * (chain.n - 1) - pebble_rank(chain.n, edges, b, b)
 
 
@@ -129,6 +127,13 @@ def pebble_rank(vertices: int, edges: Iterable[tuple[int, int]], k: int, l: int)
     pebbles = [k] * vertices
     out: list[list[int]] = [[] for _ in range(vertices)]
 
+    def turn_path(came_from: dict[int, int], root: int, end: int) -> None:
+        while end != root:
+            back = came_from[end]
+            out[back].remove(end)
+            out[end].append(back)
+            end = back
+
     def fetch(root: int, other: int) -> bool:
         """Bring one free pebble to root along the arcs, leaving those on other where they are."""
         came_from = {root: root, other: other}
@@ -142,11 +147,7 @@ def pebble_rank(vertices: int, edges: Iterable[tuple[int, int]], k: int, l: int)
                 if pebbles[there]:
                     pebbles[there] -= 1
                     pebbles[root] += 1
-                    while there != root:
-                        back = came_from[there]
-                        out[back].remove(there)
-                        out[there].append(back)
-                        there = back
+                    turn_path(came_from, root, there)
                     return True
                 stack.append(there)
         return False

@@ -1,0 +1,74 @@
+"""Every claim of an entry derived again: what is printed against what the library finds."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gruebler.catalog.records import Claims
+from gruebler.chain import Chain
+from gruebler.mobility import Count, MobilityReport, counted, mobility_report
+
+__all__ = ["Checked", "WrongClaim", "check"]
+
+
+@dataclass(frozen=True, slots=True)
+class WrongClaim:
+    """A claim that does not hold."""
+
+    key: str
+    printed: object
+    derived: object
+
+    def __str__(self) -> str:
+        return f"{self.key}: printed {self.printed}, derived {self.derived}"
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """A chain with its report and the claims made of it."""
+
+    id: str
+    origin: str
+    """The file that makes the claims, for messages; empty if there is none."""
+    report: MobilityReport
+    claims: Claims
+    wrong: tuple[WrongClaim, ...]
+
+    @property
+    def holds(self) -> bool:
+        """Whether every claim holds."""
+        return not self.wrong
+
+
+def check(chain: Chain, claims: Claims, *, id: str, frame: str | None = None, origin: str = "") -> Checked:
+    """Derive every claim again.
+
+    A claimed mobility is what special dimensions give; structure can only say that it must not be less than
+    the generic one and, where it differs, that a reason is given.
+
+    >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
+    >>> [str(w) for w in check(four_bar, Claims(n=4, counted=2), id="four-bar").wrong]
+    ['claims.counted: printed 2, derived 1']
+    """
+    report = mobility_report(chain, frame=frame)
+    derived: dict[str, object] = {"n": chain.n, "counted": report.counted} | _joint_counts(report.count)
+    wrong = [
+        WrongClaim(f"claims.{key}", getattr(claims, key), value)
+        for key, value in derived.items()
+        if getattr(claims, key) is not None and getattr(claims, key) != value
+    ]
+    if claims.mobility is not None and claims.mobility < report.generic:
+        wrong.append(WrongClaim("claims.mobility", claims.mobility, f"at least {report.generic}"))
+    if claims.mobility is not None and claims.mobility != report.generic and claims.reason is None:
+        wrong.append(WrongClaim("claims.reason", "none", "a mobility other than the generic one needs a reason"))
+    if claims.group is not None and (f := counted(chain, claims.group.b)) != claims.group.counted:
+        wrong.append(WrongClaim("claims.group.counted", claims.group.counted, f))
+    idle = tuple(freedom.link for freedom in report.idle_freedoms)
+    if claims.idle and set(claims.idle) != set(idle):
+        wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or "none"))
+    return Checked(id, origin, report, claims, tuple(wrong))
+
+
+def _joint_counts(count: Count) -> dict[str, object]:
+    by_freedom = dict(count.by_freedom)
+    return {f"g{f}": by_freedom.get(f, 0) for f in range(1, 6)}

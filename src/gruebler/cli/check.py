@@ -1,0 +1,195 @@
+"""`gruebler check`: chains from the command line, the catalog or files, counted and checked."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+from gruebler.catalog import (
+    Checked,
+    Claims,
+    check,
+    check_all,
+    check_entry,
+    check_exercise,
+    entries,
+    entry,
+    exercises,
+    read_entry,
+)
+from gruebler.chain import Chain
+from gruebler.cli.tables import print_table
+from gruebler.errors import CatalogError, GrueblerError, NotationError
+from gruebler.mobility import mobility_report
+from gruebler.mobility.prose import verdict_word
+
+__all__ = ["explanation", "print_checked", "run"]
+
+_HEADERS = {
+    "en": ("chain", "n", "joints", "F counted", "generic", "verdict", "claims"),
+    "de": ("Kette", "n", "Gelenke", "F gezählt", "generisch", "Urteil", "Angaben"),
+}
+_CLAIMS = {"en": {True: "hold", False: "WRONG", None: "-"}, "de": {True: "stimmen", False: "FALSCH", None: "-"}}
+_SUMMARY = {
+    "en": ("{n} chains, every claim holds.", "{n} chains, {wrong} with wrong claims."),
+    "de": ("{n} Ketten, alle Angaben stimmen.", "{n} Ketten, {wrong} mit falschen Angaben."),
+}
+_TRUTH = {
+    "en": "Dimensions decide: the entry's machine moves with mobility {mobility}, not {generic}. {reason} "
+    "Links concerned: {links}.",
+    "de": "Die Abmessungen entscheiden: Die Maschine des Eintrags hat den Laufgrad {mobility}, nicht {generic}. "
+    "{reason} Betroffene Glieder: {links}.",
+}
+_GROUP = {
+    "en": "With b = {b} the count gives {counted}. {reason}",
+    "de": "Mit b = {b} ergibt die Zählung {counted}. {reason}",
+}
+_WIDEST_NAME = 44
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Check what the arguments name; 1 if a claim fails."""
+    if arguments.chains:
+        found = [one for word in arguments.chains for one in _checked(word, arguments)]
+    else:
+        found = check_all()
+    if arguments.json:
+        print(json.dumps([to_json(one) for one in found], ensure_ascii=False, indent=2))
+    elif arguments.explain:
+        print("\n\n".join(explanation(one, arguments.lang) for one in found))
+    else:
+        print_checked(found, arguments.lang)
+    _complain(found)
+    return int(any(not one.holds for one in found))
+
+
+def to_json(one: Checked) -> dict[str, Any]:
+    """One object of the list that --json prints."""
+    holds = None if one.claims == Claims() else one.holds
+    return {"name": one.id, **one.report.to_json(), "claims_hold": holds}
+
+
+def print_checked(found: Iterable[Checked], lang: str) -> None:
+    """The table, and a line that sums it up where there are claims."""
+    rows = []
+    claims = []
+    for one in found:
+        holds = None if one.claims == Claims() else one.holds
+        claims.append(holds)
+        rows.append(
+            (
+                one.id if len(one.id) <= _WIDEST_NAME else one.id[: _WIDEST_NAME - 3] + "...",
+                str(one.report.chain.n),
+                " ".join(f"g{f}={g}" for f, g in one.report.count.by_freedom),
+                str(one.report.counted),
+                str(one.report.generic),
+                verdict_word(one.report.verdict, lang),
+                _CLAIMS[lang][holds],
+            )
+        )
+    print_table(_HEADERS[lang], rows, numbers=(1, 3, 4))
+    wrong = claims.count(False)
+    if any(holds is not None for holds in claims):
+        print("\n" + _SUMMARY[lang][wrong > 0].format(n=len(rows), wrong=wrong))
+
+
+def explanation(one: Checked, lang: str) -> str:
+    """The report in words under the entry's name, with what the entry adds to it."""
+    known = entries().get(one.id) if one.origin else None
+    title = f"{known.name.said(lang)} ({one.id})" if known else one.id
+    lines = [title, "-" * len(title), one.report.explain(lang)]
+    claims = one.claims
+    if claims.mobility is not None and claims.reason is not None and claims.mobility != one.report.generic:
+        clusters = one.report.rigid_clusters or (one.report.chain.links,)
+        lines.append(
+            _TRUTH[lang].format(
+                mobility=claims.mobility,
+                generic=one.report.generic,
+                reason=claims.reason.said(lang),
+                links=", ".join(link for cluster in clusters for link in cluster),
+            )
+        )
+    if claims.group is not None:
+        lines.append(
+            _GROUP[lang].format(b=claims.group.b, counted=claims.group.counted, reason=claims.group.reason.said(lang))
+        )
+    return "\n".join(lines)
+
+
+def _complain(found: Iterable[Checked]) -> None:
+    for one in found:
+        for claim in one.wrong:
+            print(f"{one.origin or one.id}: {claim}", file=sys.stderr)
+
+
+def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
+    """What one argument names: a chain, a catalog entry, an exercise or a file."""
+    if word == "-":
+        yield from _lines(sys.stdin.read(), "standard input", arguments)
+    elif "(" in word or word.lower().startswith("g6:"):
+        yield _plain(Chain.parse(word, arguments.space), word, arguments)
+    elif (path := Path(word)).is_file() or path.suffix in {".toml", ".json", ".txt"}:
+        yield from _file(path, arguments)
+    elif word in exercises():
+        yield from check_exercise(exercises()[word])
+    else:
+        record = entry(word)
+        if arguments.b is None and arguments.frame is None:
+            yield check_entry(record)
+        else:
+            yield _plain(record.chain(), word, arguments)
+
+
+def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
+    """A chain that claims nothing."""
+    if arguments.b is None:
+        return check(chain, Claims(), id=name, frame=arguments.frame)
+    return Checked(name, "", mobility_report(chain, b=arguments.b, frame=arguments.frame), Claims(), ())
+
+
+def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
+    if path.suffix == ".toml":
+        yield check_entry(read_entry(path), origin=str(path))
+        return
+    try:
+        text = path.read_text(encoding="utf-8")
+    except OSError as error:
+        raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
+    except UnicodeDecodeError:
+        raise CatalogError(f"{path}: is not UTF-8 text") from None
+    if path.suffix == ".json":
+        yield from _json(path, text, arguments)
+    else:
+        yield from _lines(text, str(path), arguments)
+
+
+def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:
+    try:
+        document = json.loads(text)
+    except (json.JSONDecodeError, RecursionError) as error:
+        raise NotationError(f"{path}: is not JSON: {error}") from None
+    documents = document if isinstance(document, list) else [document]
+    for number, one in enumerate(documents, 1):
+        name = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        try:
+            yield _plain(Chain.from_json(one), name, arguments)
+        except GrueblerError as error:
+            raise NotationError(f"{name}: {error}") from None
+
+
+def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Checked]:
+    empty = True
+    for number, line in enumerate(text.splitlines(), 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        empty = False
+        try:
+            yield _plain(Chain.parse(line, arguments.space), line.strip(), arguments)
+        except GrueblerError as error:
+            raise NotationError(f"{source}, line {number}: {error}") from None
+    if empty:
+        raise NotationError(f"{source}: no chain in it; expected one a line")
