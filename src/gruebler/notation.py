@@ -102,6 +102,7 @@ def _unquoted(name: str) -> str:
 
 def _unreadable(text: str, position: int, expected: str) -> NotationError:
     rest = text[position:].strip()
+    position = len(text) - len(text[position:].lstrip())
     found = f"found {_shortened(rest)!r}" if rest else "the text ends"
     return NotationError(f"expected {expected} at character {position + 1}, but {found}")
 

@@ -1,9 +1,9 @@
 """How many freedoms a chain has, by the formula and in truth, and what is wrong where the two differ."""
 
 from gruebler.mobility.circuits import Overconstrained, overconstrained
-from gruebler.mobility.count import Count, count, counted
-from gruebler.mobility.generic import Generic, generic, generic_mobility
+from gruebler.mobility.counting import Count, count, counted
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
+from gruebler.mobility.rank import Generic, generic, generic_mobility
 from gruebler.mobility.report import MobilityReport, Verdict, mobility_report
 from gruebler.mobility.sparsity import License, pebble_mobility, pebble_rank, theorem
 

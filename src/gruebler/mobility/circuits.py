@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.prime_field import P, left_null_space, product, reduced
-from gruebler.mobility.generic import Generic
+from gruebler.mobility.rank import Generic
 
 __all__ = ["Overconstrained", "overconstrained"]
 
@@ -52,19 +52,23 @@ def overconstrained(rank: Generic) -> tuple[Overconstrained, ...]:
     Cost O(redundancy · constraints) where circuits do not overlap.
 
     >>> from gruebler.chain import Chain
-    >>> from gruebler.mobility.generic import generic
+    >>> from gruebler.mobility.rank import generic
     >>> braced = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(3-4) R(4-5) R(5-6) R(6-7) R(7-3)")
     >>> [(part.links, part.redundancy) for part in overconstrained(generic(braced))]
     [(('0', '1', '2', '3'), 1)]
     """
     found = []
-    for basis in _connected_parts(rank.stresses):
+    for basis in _connected_parts(rank):
         found += _Part(rank, basis).minimal_supports()
     return tuple(sorted(found, key=lambda part: (len(part.links), part.joints)))
 
 
-def _connected_parts(stresses: Matrix) -> list[Matrix]:
-    """Split a basis of the form [I | D] into the connected components of its matroid."""
+def _connected_parts(rank: Generic) -> list[Matrix]:
+    """Split the basis of the stresses, which is of the form [I | D], into parts that share no constraint.
+
+    Within a multiple joint the loads on a link mix the constraints, so such a joint connects as a whole.
+    """
+    stresses = rank.stresses
     root = list(range(len(stresses)))
 
     def find(i: int) -> int:
@@ -72,10 +76,14 @@ def _connected_parts(stresses: Matrix) -> list[Matrix]:
             root[i] = i = root[root[i]]
         return i
 
-    for column in stresses.T:
-        loaded = np.flatnonzero(column)
-        for other in loaded[1:]:
-            root[find(int(other))] = find(int(loaded[0]))
+    multiple = {number for number, joint in enumerate(rank.chain.joints) if joint.count > 1}
+    loaded: dict[tuple[int, int], list[int]] = {}
+    for row, (joint, *_) in enumerate(rank.placement.owners):
+        place = (joint, 0) if joint in multiple else (-1, row)
+        loaded.setdefault(place, []).extend(int(i) for i in np.flatnonzero(stresses[:, row]))
+    for sharing in loaded.values():
+        for other in sharing[1:]:
+            root[find(other)] = find(sharing[0])
     parts: dict[int, list[int]] = {}
     for i in range(len(stresses)):
         parts.setdefault(find(i), []).append(i)

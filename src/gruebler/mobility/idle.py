@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from gruebler._numeric.prime_field import Row, echelon
-from gruebler.mobility.generic import Generic
+from gruebler.mobility.rank import Generic
 
 __all__ = ["IdleFreedom", "When", "idle_freedoms"]
 
@@ -38,7 +38,7 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
     """The idle freedoms, in the order of the links. Links on a single joint are not idle: they hang free.
 
     >>> from gruebler.chain import Chain
-    >>> from gruebler.mobility.generic import generic
+    >>> from gruebler.mobility.rank import generic
     >>> rod = Chain.parse("spatial: R(frame-arm1) S(arm1-rod) S(rod-arm2) R(arm2-frame)")
     >>> idle_freedoms(generic(rod), "frame")
     (IdleFreedom(link='rod', freedoms=1, when=<When.ALWAYS: 'always'>),)

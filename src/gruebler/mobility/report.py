@@ -8,9 +8,9 @@ from typing import Any
 
 from gruebler.chain import Chain
 from gruebler.mobility.circuits import Overconstrained, overconstrained
-from gruebler.mobility.count import Count, count
-from gruebler.mobility.generic import Generic, generic
+from gruebler.mobility.counting import Count, count
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
+from gruebler.mobility.rank import Generic, generic
 
 __all__ = ["MobilityReport", "Verdict", "mobility_report"]
 
@@ -111,7 +111,7 @@ def mobility_report(chain: Chain, *, b: int | None = None, frame: str | None = N
         frame: the link that stands still; the first one if left out. It matters only for rollers
             (`gruebler.mobility.idle`): mobility does not depend on it.
 
-    Cost: see `gruebler.mobility.generic.generic`.
+    Cost: see `gruebler.mobility.rank.generic`.
 
     >>> vee = Chain.parse("R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) "
     ...                   "P(frame-piston1) P(frame-piston2)")

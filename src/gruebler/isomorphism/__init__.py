@@ -1,0 +1,19 @@
+"""Sameness of chains: canonical codes, correspondences and symmetry. Exact for every chain."""
+
+from gruebler.isomorphism.automorphisms import Permutation, Symmetry, symmetry
+from gruebler.isomorphism.codes import CODE_PREFIX, Marked, canonical_order, code, decode
+from gruebler.isomorphism.matching import Isomorphism, find_isomorphism, is_isomorphic
+
+__all__ = [
+    "CODE_PREFIX",
+    "Isomorphism",
+    "Marked",
+    "Permutation",
+    "Symmetry",
+    "canonical_order",
+    "code",
+    "decode",
+    "find_isomorphism",
+    "is_isomorphic",
+    "symmetry",
+]

@@ -1,0 +1,98 @@
+"""The symmetry of a chain: its automorphisms, and which links, joints and flags they make alike."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Hashable, Iterable
+from dataclasses import dataclass
+from typing import TypeVar
+
+from gruebler.chain import Chain
+from gruebler.isomorphism.colouring import Coloured, coloured
+
+__all__ = ["Permutation", "Symmetry", "symmetry"]
+
+T = TypeVar("T", bound=Hashable)
+
+
+@dataclass(frozen=True, slots=True)
+class Permutation:
+    """Where an automorphism sends each link and each joint, by number."""
+
+    links: tuple[int, ...]
+    joints: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Symmetry:
+    """The automorphism group of a chain. Orbits are sorted tuples, in the order of their first member."""
+
+    generators: tuple[Permutation, ...]
+    order: int
+    link_orbits: tuple[tuple[str, ...], ...]
+    joint_orbits: tuple[tuple[int, ...], ...]
+    flag_orbits: tuple[tuple[tuple[str, int], ...], ...]
+    """A flag is a link with a joint that it carries."""
+
+
+def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int] = ()) -> Symmetry:
+    """The automorphisms that keep space, pairs, a marked frame and marked joints.
+
+    Cost: as for the canonical code, plus O(generators · joint elements).
+
+    >>> four_bar = symmetry(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
+    >>> four_bar.order, len(four_bar.link_orbits), len(four_bar.flag_orbits)
+    (8, 1, 1)
+    """
+    from gruebler._numeric.canonical import canonical_form
+
+    graph = coloured(chain, frame, drives)
+    found = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour)
+    generators = tuple(_permutation(chain, graph, [int(v) for v in image]) for image in found.generators)
+    links = range(chain.n)
+    joints = range(len(chain.joints))
+    flags = sorted((chain.index(link), k) for k, joint in enumerate(chain.joints) for link in joint.links)
+    on_flags = [{(i, k): (g.links[i], g.joints[k]) for i, k in flags} for g in generators]
+    return Symmetry(
+        generators,
+        found.order,
+        tuple(
+            tuple(chain.links[i] for i in orbit)
+            for orbit in _orbits(links, [dict(enumerate(g.links)) for g in generators])
+        ),
+        tuple(_orbits(joints, [dict(enumerate(g.joints)) for g in generators])),
+        tuple(tuple((chain.links[i], k) for i, k in orbit) for orbit in _orbits(flags, on_flags)),
+    )
+
+
+def _permutation(chain: Chain, graph: Coloured, image: list[int]) -> Permutation:
+    joint_of_vertex = {vertex: number for number, vertex in graph.joint_vertex.items()}
+    edge_joint = {
+        frozenset(map(chain.index, joint.links)): number
+        for number, joint in enumerate(chain.joints)
+        if number not in graph.joint_vertex
+    }
+    joints = [
+        joint_of_vertex[image[graph.joint_vertex[number]]]
+        if number in graph.joint_vertex
+        else edge_joint[frozenset(image[chain.index(link)] for link in joint.links)]
+        for number, joint in enumerate(chain.joints)
+    ]
+    return Permutation(tuple(image[: chain.n]), tuple(joints))
+
+
+def _orbits(items: Iterable[T], maps: list[dict[T, T]]) -> list[tuple[T, ...]]:
+    """The classes of items that the maps connect, each in the order of the items."""
+    root = {item: item for item in items}
+
+    def find(item: T) -> T:
+        while root[item] != item:
+            root[item] = item = root[root[item]]
+        return item
+
+    for image in maps:
+        for item in root:
+            root[find(image[item])] = find(item)
+    classes: dict[T, list[T]] = {}
+    for item in root:
+        classes.setdefault(find(item), []).append(item)
+    return [tuple(members) for members in classes.values()]

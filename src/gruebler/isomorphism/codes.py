@@ -1,0 +1,115 @@
+"""The canonical code: one text for each structure, equal if and only if the structures are the same.
+
+    code = "gr1:" text [ ";frame=" link ] [ ";drives=" joint { "," joint } ]
+
+The text is the chain's own notation with its links numbered canonically and its joints sorted, without blanks;
+links and joints count from 0. The prefix names the version: a code of another version is refused, since its
+numbering may differ.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from typing import NamedTuple
+
+from gruebler.chain import Chain, Joint
+from gruebler.errors import NotationError
+from gruebler.isomorphism.colouring import coloured
+
+__all__ = ["CODE_PREFIX", "Marked", "canonical_order", "code", "decode"]
+
+CODE_PREFIX = "gr1:"
+
+
+class Marked(NamedTuple):
+    """A chain with a marked frame and marked joints, as a code describes it."""
+
+    chain: Chain
+    frame: str | None
+    drives: tuple[int, ...]
+
+
+class Order(NamedTuple):
+    """The canonical order of a chain's links and joints, as numbers of the chain."""
+
+    links: tuple[int, ...]
+    joints: tuple[int, ...]
+
+
+def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> Order:
+    """Links and joints in canonical order: for chains of the same structure the k-th ones correspond.
+
+    Exact for every chain. Cost: microseconds for usual chains; see docs/theory/canonical-code.md.
+    """
+    from gruebler._numeric.canonical import canonical_form
+
+    graph = coloured(chain, frame, drives)
+    place = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour).labelling
+    links = sorted(range(chain.n), key=lambda link: (graph.vertex_colour[link], place[link]))
+    rank = {chain.links[link]: k for k, link in enumerate(links)}
+
+    def key(number: int) -> tuple[list[int], str, bool, int]:
+        joint = chain.joints[number]
+        vertex = graph.joint_vertex.get(number)
+        again = 0 if vertex is None else int(place[vertex])
+        return sorted(rank[link] for link in joint.links), joint.pair.name, number in drives, again
+
+    return Order(tuple(links), tuple(sorted(range(len(chain.joints)), key=key)))
+
+
+def code(chain: Chain, *, frame: str | None = None, drives: Collection[int] = ()) -> str:
+    """The canonical code of a chain, optionally with a marked frame and marked joints (drives, by number).
+
+    >>> code(Chain.parse("R(a-b) R(b-c) R(c-d) R(d-a)")) == code(Chain.parse("R(1-3) R(3-2) R(2-4) R(4-1)"))
+    True
+    >>> code(Chain.parse("R(a-b) R(b-c) P(c-a)"))
+    'gr1:P(0-1)R(0-2)R(1-2)'
+    """
+    order = canonical_order(chain, frame, drives)
+    rank = {chain.links[link]: str(k) for k, link in enumerate(order.links)}
+    joints = [
+        Joint(chain.joints[k].pair, tuple(sorted((rank[link] for link in chain.joints[k].links), key=int)))
+        for k in order.joints
+    ]
+    text = Chain(joints, space=chain.space).text().replace(" ", "")
+    marks = "" if frame is None else f";frame={rank[frame]}"
+    if drives:
+        marks += f";drives={','.join(str(k) for k, number in enumerate(order.joints) if number in drives)}"
+    return CODE_PREFIX + text + marks
+
+
+def decode(text: str) -> Marked:
+    """The chain, frame and marked joints that a code describes; links are named 0, 1, 2, ...
+
+    Any text of the form of a code is read, canonical or not; `NotationError` for anything else.
+
+    >>> decode("gr1:R(0-1)R(0-2)R(1-3)R(2-3);frame=0").chain.n
+    4
+    """
+    prefix = re.match(r"gr(\d+):", text)
+    if prefix is None or prefix[0] != CODE_PREFIX:
+        raise NotationError(f"a code begins with {CODE_PREFIX!r}, not with {text[:8]!r}")
+    body, *marks = text[len(CODE_PREFIX) :].split(";")
+    chain = Chain.parse(body)
+    ordered = sorted((_number(link), link) for link in chain.links)
+    chain = Chain(chain.joints, links=[link for _, link in ordered], space=chain.space)
+    frame: str | None = None
+    drives: tuple[int, ...] = ()
+    for mark in marks:
+        if match := re.fullmatch(r"frame=(\d+)", mark):
+            frame = match[1]
+            chain.index(frame)
+        elif match := re.fullmatch(r"drives=(\d+(?:,\d+)*)", mark):
+            drives = tuple(int(number) for number in match[1].split(","))
+            if max(drives) >= len(chain.joints):
+                raise NotationError(f"{mark!r}: the code has joints 0 to {len(chain.joints) - 1}")
+        else:
+            raise NotationError(f"{mark!r} is no mark of a code: expected frame=LINK or drives=JOINT,JOINT")
+    return Marked(chain, frame, drives)
+
+
+def _number(link: str) -> int:
+    if not link.isascii() or not link.isdigit():
+        raise NotationError(f"the links of a code are numbers, not {link!r}")
+    return int(link)

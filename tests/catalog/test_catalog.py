@@ -1,0 +1,192 @@
+"""Every claim of the catalog is derived again, and wrong files are refused in a sentence that names file and key."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from gruebler import CatalogError, Chain
+from gruebler.catalog import (
+    Claims,
+    Query,
+    catalog_folder,
+    check,
+    check_all,
+    check_entry,
+    entries,
+    entry,
+    exercises,
+    read_entry,
+    search,
+)
+from gruebler.catalog.records import same_joint
+from gruebler.isomorphism import is_isomorphic
+from gruebler.mobility import pebble_mobility, theorem
+
+# REFERENCE A3, computed independently of this project: id, b, n, g1, g2, F, mobility with the real dimensions.
+# (M is given where it differs from max(F, 0).)
+REFERENCE = json.loads((Path(__file__).parent / "reference_machines.json").read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize("checked", check_all(), ids=lambda c: c.id)
+def test_every_claim_holds(checked):
+    assert [str(w) for w in checked.wrong] == []
+    assert checked.report.exact
+
+
+@pytest.mark.parametrize("row", REFERENCE, ids=lambda row: row["id"])
+def test_the_machines_of_the_reference(row):
+    machine = entry(row["id"])
+    chain = machine.chain()
+    report = check_entry(machine).report
+    assert chain.n == row["n"]
+    assert chain.joints_by_freedom == {int(f): g for f, g in row["by_f"].items()}
+    assert report.counted == row["F"]
+    assert report.generic == max(row["F"], 0)
+    assert (machine.claims.mobility if machine.claims.mobility is not None else report.generic) == row["M"]
+    assert machine.figure_lost == row["figure_lost"]
+    if theorem(chain):
+        assert pebble_mobility(chain) == report.generic
+
+
+def test_the_structural_exercises():
+    assert set(exercises()) == {"exercise-3", "exercise-4", "exercise-5", "exercise-5b", "exercise-6"}
+    watt, stephenson, with_coupler = (entry(id).chain() for id in ("e3_watt", "e3_steph", "e4"))
+    assert not is_isomorphic(watt, stephenson)
+    assert is_isomorphic(with_coupler, stephenson)  # the coupler joins links that are not neighbours
+    cases = {c.id: c.report for c in check_all() if c.id.startswith("exercise-")}
+    assert len(cases) >= 11
+    machines = {case.machine for exercise in exercises().values() for case in exercise.cases}
+    assert {"quad", "e3_watt", "e3_steph", "pent", "e4", "garage_norail", "diff", "vcomp"} <= machines
+
+
+def test_both_languages_everywhere():
+    for record in [*entries().values(), *exercises().values()]:
+        texts = [record.name, getattr(record, "remark", None), getattr(record, "task", None)]
+        for text in filter(None, texts):
+            assert text.en.strip()
+            assert text.de.strip()
+            assert not any(wrong in text.de for wrong in ("ae ", "fuer", "ueber", "Getriebegrad")), record.id
+
+
+@pytest.mark.parametrize(
+    ("query", "ids"),
+    [
+        (Query(words=("Kompressor",), pairs=("P",)), {"compressor", "vcomp"}),
+        (Query(words=("scissor",), links=4), {"hubpodium"}),
+        (Query(mobility=3), {"drafting3", "excavator"}),
+        (Query(pairs=("helical",)), {"winch_screw"}),
+        (Query(pairs=("Wälzgelenk",), joints=4), {"friction_forced"}),
+        (Query(words=("no such thing",)), set()),
+    ],
+)
+def test_search(query, ids):
+    assert {e.id for e in search(query)} == ids
+
+
+def test_search_by_drive():
+    driven = {e.id for e in search(Query(drive="P"))}
+    assert {"loader", "crane_cyl", "hubpodium_blocks"} <= driven
+    assert "vcomp" not in driven
+
+
+GOOD = """
+id = "it"
+name.en = "Four-bar"
+name.de = "Viergelenk"
+source = "test"
+joints = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
+frame = "frame"
+drives = ["R(crank-frame)"]
+outputs = ["rocker"]
+
+[links]
+frame = "Gestell"
+crank = "Kurbel"
+rod = "Koppel"
+rocker = "Schwinge"
+
+[claims]
+n = 4
+g1 = 4
+g2 = 0
+counted = 1
+"""
+
+TEN_MISTAKES = [
+    ("not TOML", "[links]", "[links", "is not TOML"),
+    ("unknown key", 'frame = "frame"', 'fram = "frame"', "unknown key 'fram'; did you mean 'frame'?"),
+    ("unknown inner key", "counted = 1", "countd = 1", "unknown key 'claims.countd'; did you mean 'counted'?"),
+    ("wrong type", "n = 4", 'n = "four"', "claims.n: expected"),
+    ("missing key", 'source = "test"', "", "source"),
+    ("unknown symbol", "R(crank-rod)", "Q(crank-rod)", "joints: unknown joint symbol 'Q'"),
+    ("a slip in a name", "R(crank-rod)", "R(cranc-rod)", "did you mean 'crank'?"),
+    ("a strange frame", 'frame = "frame"', 'frame = "wall"', "frame: the chain has no link 'wall'"),
+    ("a strange drive", "R(crank-frame)", "P(crank-frame)", "drives: 'P(crank-frame)' is not one of the joints"),
+    ("a strange space", 'source = "test"', 'source = "test"\nspace = "flat"', "space: "),
+    ("one language only", 'name.de = "Viergelenk"', "", "de"),
+    ("a link without joint", 'rocker = "Schwinge"', 'rocker = "Schwinge"\nextra = "Zusatz"', "'extra' has no joint"),
+]
+
+
+def test_the_good_file_is_good(tmp_path):
+    path = tmp_path / "it.toml"
+    path.write_text(GOOD, encoding="utf-8")
+    assert check_entry(read_entry(path)).holds
+
+
+@pytest.mark.parametrize(("right", "wrong", "words"), [m[1:] for m in TEN_MISTAKES], ids=[m[0] for m in TEN_MISTAKES])
+def test_mistakes_one_by_one(tmp_path, right, wrong, words):
+    path = tmp_path / "it.toml"
+    assert right in GOOD
+    path.write_text(GOOD.replace(right, wrong, 1), encoding="utf-8")
+    with pytest.raises(CatalogError) as caught:
+        read_entry(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value).strip()
+
+
+def test_a_wrong_claim_names_key_printed_and_derived(tmp_path):
+    path = tmp_path / "it.toml"
+    path.write_text(GOOD.replace("counted = 1", "counted = 2\nmobility = 2"), encoding="utf-8")
+    checked = check_entry(read_entry(path), origin=str(path))
+    assert [str(w) for w in checked.wrong] == [
+        "claims.counted: printed 2, derived 1",
+        "claims.reason: printed none, derived a mobility other than the generic one needs a reason",
+    ]
+    low = check(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), Claims(mobility=0), id="x")
+    assert str(low.wrong[0]) == "claims.mobility: printed 0, derived at least 1"
+
+
+def test_files_that_cannot_be_read(tmp_path):
+    with pytest.raises(CatalogError, match=r"cannot be read"):
+        read_entry(tmp_path / "none.toml")
+    (tmp_path / "latin.toml").write_bytes(b'id = "\xe9"')
+    with pytest.raises(CatalogError, match=r"not UTF-8"):
+        read_entry(tmp_path / "latin.toml")
+    (tmp_path / "big.toml").write_bytes(b"#" * 1_000_001)
+    with pytest.raises(CatalogError, match=r"larger than"):
+        read_entry(tmp_path / "big.toml")
+    (tmp_path / "deep.toml").write_text("a = " + "[" * 5000 + "]" * 5000, encoding="utf-8")
+    with pytest.raises(CatalogError):
+        read_entry(tmp_path / "deep.toml")
+
+
+def test_an_unknown_id_gets_the_nearest_ones():
+    with pytest.raises(CatalogError, match=r"no entry 'vcom'; did you mean vcomp"):
+        entry("vcom")
+
+
+def test_joints_are_found_as_they_are_written():
+    chain = Chain.parse("R(0-1-2) P(0-3) R(3-1)")
+    assert same_joint("R(2-0-1)", chain) == 0
+    assert same_joint("S(0-3)", chain) == 1
+    assert same_joint("prismatic(3-0)", chain) == 1
+    assert same_joint("P(0-1-2)", chain) is None
+    assert same_joint("nonsense", chain) is None
+
+
+def test_files_are_named_as_their_entries():
+    for folder, records in (("machines", entries()), ("exercises", exercises())):
+        assert {p.stem for p in (catalog_folder() / folder).iterdir()} == set(records)

@@ -1,0 +1,183 @@
+"""The command line as a user meets it: output, JSON, exit statuses, and one sentence for every mistake."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from gruebler.catalog import entries
+from gruebler.cli import main
+
+FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
+KEYS = {
+    "name",
+    "links",
+    "joints",
+    "space",
+    "counted",
+    "generic",
+    "verdict",
+    "exact",
+    "overconstrained",
+    "rigid_clusters",
+    "immobile_joints",
+    "idle_freedoms",
+    "claims_hold",
+}
+
+
+def run(capsys, *arguments):
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_the_whole_catalog(capsys):
+    status, out, err = run(capsys, "check")
+    assert (status, err) == (0, "")
+    for id in entries():
+        assert f"\n{id} " in out
+    assert "every claim holds" in out
+    assert "\x1b" not in out
+
+
+def test_json_has_its_keys(capsys):
+    status, out, _ = run(capsys, "check", "--json", "vcomp", FOUR_BAR, "g6:C~")
+    assert status == 0
+    machine, chain, braced = json.loads(out)
+    assert set(machine) == set(chain) == set(braced) == KEYS
+    assert machine["claims_hold"] is True
+    assert chain["claims_hold"] is None
+    assert braced["overconstrained"][0]["redundancy"] == 3
+    assert braced["rigid_clusters"] == [["0", "1", "2", "3"]]
+    assert braced["verdict"] == "overconstrained"
+
+
+def test_explanations_in_both_languages(capsys):
+    _, english, _ = run(capsys, "check", "loco3", "--explain")
+    assert "Dimensions decide" in english
+    assert "F = 3(n - 1) - 2 g1 = 3(5 - 1) - 2·6 = 0" in english
+    _, german, _ = run(capsys, "check", "loco3", "--explain", "--lang", "de")
+    assert "Die Abmessungen entscheiden" in german
+    _, winch, _ = run(capsys, "check", "winch_screw", "--explain")
+    assert "With b = 2 the count gives 1" in winch
+    _, own, _ = run(capsys, "check", "winch_screw", "--b", "2", "--explain")
+    assert "F = 2(n - 1) - g1 = 2(3 - 1) - 3 = 1" in own
+
+
+def test_demo(capsys):
+    status, out, _ = run(capsys, "demo")
+    assert status == 0
+    for title in ("(vcomp)", "(diff)", "(loco3)", "(quad_strut)"):
+        assert title in out
+
+
+def test_catalog_list_show_search(capsys):
+    status, out, _ = run(capsys, "catalog", "list", "--lang", "de")
+    assert status == 0
+    assert "exercise-5b" in out
+    _, out, _ = run(capsys, "catalog", "show", "vcomp", "exercise-6", "--lang", "de")
+    assert "D(crank-conrod1-conrod2)" in out
+    assert "Aufgabe" in out
+    _, out, _ = run(capsys, "catalog", "search", "compressor", "--links", "6", "--json")
+    assert [e["id"] for e in json.loads(out)] == ["vcomp"]
+    _, out, _ = run(capsys, "catalog", "search", "unicorn")
+    assert out == "No entry answers.\n"
+
+
+def test_files(capsys, tmp_path):
+    lines = tmp_path / "chains.txt"
+    lines.write_text(f"# two chains\n{FOUR_BAR}\n\ng6:C~\n", encoding="utf-8")
+    document = tmp_path / "chain.json"
+    joint = {"pair": "revolute", "links": ["a", "b"]}
+    document.write_text(json.dumps([{"joints": [joint, joint, {**joint, "links": ["b", "c"]}]}]), encoding="utf-8")
+    status, out, _ = run(capsys, "check", str(lines), str(document), "--json")
+    assert status == 0
+    assert [one["counted"] for one in json.loads(out)] == [1, -3, 0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["check", "R(0-1) R(1-2"], "')' at character 13"),
+        (["check", "R(0-1) S(1-2)"], "spherical"),
+        (["check", "no-such-machine"], "the catalog has no entry 'no-such-machine'"),
+        (["check", "missing.toml"], "missing.toml: cannot be read"),
+        (["check", "missing.json"], "missing.json: cannot be read"),
+        (["check", "vcomp", "--frame", "wall"], "no link 'wall'"),
+        (["check", "vcomp", "--b", "9"], "1 to 6"),
+        (["check", "vcomp", "--b", "x"], "invalid int value"),
+        (["check", "--lang", "fr"], "invalid choice"),
+        (["check", "--nonsense"], "unrecognized arguments"),
+        (["catalog"], "required"),
+        (["catalog", "show", "nothing"], "no entry 'nothing'"),
+        (["catalog", "search", "--pair", "revolut"], "did you mean 'revolute'"),
+        ([], "required"),
+    ],
+)
+def test_wrong_usage_is_one_sentence_and_status_2(capsys, arguments, words):
+    status, out, err = run(capsys, *arguments)
+    assert status == 2
+    assert out == ""
+    assert words in err
+    assert len(err.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "words"),
+    [
+        ("a.json", "{", "is not JSON"),
+        ("b.json", "[[]]", "b.json[1]: a chain is a JSON object"),
+        ("c.txt", "R(0-1) R(1-2) R(2-0)\nR(0-1)\n", "c.txt, line 2: a kinematic chain has at least three links"),
+        ("d.txt", "\n# nothing\n", "no chain in it"),
+    ],
+)
+def test_bad_files_are_named(capsys, tmp_path, name, text, words):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    status, _, err = run(capsys, "check", str(path))
+    assert status == 2
+    assert words in err
+    assert name in err
+
+
+def test_a_wrong_claim_is_status_1_and_says_file_key_printed_derived(capsys, tmp_path):
+    source = entries()["quad"]
+    path = tmp_path / "quad.toml"
+    links = "\n".join(f'"{link}" = "{german}"' for link, german in source.links.items())
+    path.write_text(
+        f'id = "quad"\nname.en = "x"\nname.de = "x"\nsource = "x"\njoints = """{source.joints}"""\n'
+        f"[links]\n{links}\n[claims]\nn = 5\n",
+        encoding="utf-8",
+    )
+    status, out, err = run(capsys, "check", str(path))
+    assert status == 1
+    assert "WRONG" in out
+    assert err == f"{path}: claims.n: printed 5, derived 4\n"
+
+
+def test_standard_input_and_a_closed_pipe():
+    command = [sys.executable, "-m", "gruebler"]
+    done = subprocess.run([*command, "check", "-"], input=FOUR_BAR, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "constrained" in done.stdout
+    piped = subprocess.run(
+        f"{sys.executable} -m gruebler catalog list | head -n 1",
+        shell=True,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert piped.stderr == ""
+
+
+def test_help_names_every_command(capsys):
+    status, out, _ = run(capsys, "--help")
+    assert status == 0
+    for command in ("check", "catalog", "demo"):
+        assert command in out
+    assert run(capsys, "--version")[1].startswith("gruebler ")

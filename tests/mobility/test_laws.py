@@ -1,0 +1,147 @@
+"""Laws of mobility, and the roads to it set against each other."""
+
+import networkx as nx
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gruebler import Chain, ChainError
+from gruebler.isomorphism import find_isomorphism
+from gruebler.mobility import (
+    counted,
+    generic,
+    generic_mobility,
+    mobility_report,
+    overconstrained,
+    pebble_mobility,
+    theorem,
+)
+from tests.strategies import LICENSED, PLANAR, REVOLUTE, SPATIAL, SPHERICAL, chains, renumbered
+
+ANY = st.one_of(
+    chains(pairs=PLANAR),
+    chains(pairs=SPHERICAL, space="spherical"),
+    chains(pairs=SPATIAL, space="spatial", most_links=6),
+)
+
+
+@given(ANY)
+def test_generic_is_at_least_counted_and_the_difference_is_the_redundancy(chain):
+    rank = generic(chain)
+    assert rank.mobility == counted(chain) + rank.redundancy
+    assert rank.redundancy >= 0
+    assert rank.mobility >= max(counted(chain), 0)
+
+
+@given(ANY, st.data())
+def test_mobility_is_blind_to_numbering(chain, data):
+    other = data.draw(renumbered(chain))
+    one, two = mobility_report(chain), mobility_report(other)
+    assert (one.counted, one.generic, one.verdict) == (two.counted, two.generic, two.verdict)
+    names = find_isomorphism(chain, other)
+    assert names is not None
+    assert sorted((len(p.links), len(p.joints), p.redundancy) for p in one.overconstrained) == sorted(
+        (len(p.links), len(p.joints), p.redundancy) for p in two.overconstrained
+    )
+    assert sorted(map(len, one.rigid_clusters)) == sorted(map(len, two.rigid_clusters))
+    assert len(one.immobile_joints) == len(two.immobile_joints)
+
+
+@given(chains(pairs=LICENSED))
+def test_pebble_game_on_points_agrees_with_the_rank_in_the_plane(chain):
+    assert theorem(chain).points
+    assert pebble_mobility(chain, points=True) == generic_mobility(chain)
+
+
+@given(chains(pairs=LICENSED, multiple=False))
+def test_pebble_game_on_bodies_agrees_with_the_rank_in_the_plane(chain):
+    assert pebble_mobility(chain, points=False) == pebble_mobility(chain, points=True) == generic_mobility(chain)
+
+
+@given(chains(pairs=SPHERICAL, space="spherical"))
+def test_pebble_game_agrees_with_the_rank_on_the_sphere(chain):
+    assert pebble_mobility(chain) == generic_mobility(chain)
+
+
+@given(chains(pairs=("revolute", "revolute", "ball_plane"), space="spatial", multiple=False))
+def test_pebble_game_agrees_with_the_rank_in_space(chain):
+    assert pebble_mobility(chain) == generic_mobility(chain)
+
+
+@given(chains(pairs=("revolute", "prismatic", "double_slide")))
+def test_the_pebble_game_never_guesses(chain):
+    assume(any(j.pair.name != "revolute" for j in chain.joints))
+    assert not theorem(chain)
+    with pytest.raises(ChainError, match=r"no theorem covers"):
+        pebble_mobility(chain)
+
+
+def test_multiple_joints_in_space_are_refused_by_the_pebble_game():
+    chain = Chain.parse("spatial: R(a-b-c) R(a-d) R(b-d)")
+    with pytest.raises(ChainError, match=r"multiple joints in space"):
+        pebble_mobility(chain)
+
+
+@given(ANY, st.data())
+def test_removing_a_joint_never_lowers_generic_mobility(chain, data):
+    number = data.draw(st.integers(0, len(chain.joints) - 1))
+    try:
+        less = chain.without_joint(number)
+    except ChainError:
+        assume(False)
+    assert generic_mobility(less) >= generic_mobility(chain)
+
+
+@given(chains(pairs=REVOLUTE), st.data())
+def test_a_further_joint_never_raises_it(chain, data):
+    links = data.draw(st.lists(st.sampled_from(chain.links), min_size=2, max_size=2, unique=True))
+    assert generic_mobility(chain.with_joint("revolute", links)) <= generic_mobility(chain)
+
+
+@given(chains(pairs=PLANAR))
+@settings(max_examples=60)
+def test_what_is_said_to_mend_mends(chain):
+    """Take the joint out of the subchain alone: nothing is redundant in it any more."""
+    for part in mobility_report(chain).overconstrained:
+        inner = induced(chain, part.links)
+        if inner is None:
+            continue
+        before = generic(inner).redundancy
+        assert before == part.redundancy
+        for number in part.joints:
+            joint = chain.joints[number]
+            kept = [link for link in joint.links if link in part.links]
+            position = next(k for k, j in enumerate(inner.joints) if j.pair == joint.pair and set(j.links) == set(kept))
+            try:
+                after = generic(inner.without_joint(position)).redundancy
+            except ChainError:
+                continue
+            assert (after == 0) == (number in part.mended_by_removing)
+
+
+def induced(chain, links):
+    """The subchain on these links, or None where they alone are not a chain (two links, several parts)."""
+    joints = [(j.pair, [link for link in j.links if link in links]) for j in chain.joints]
+    try:
+        return Chain([j for j in joints if len(j[1]) > 1], links=links, space=chain.space)
+    except ChainError:
+        return None
+
+
+def test_uncertain_answers_say_so_and_certain_ones_are_proved():
+    sliders = mobility_report(Chain.parse("P(0-1) P(1-2) P(2-3) P(3-0)"))
+    assert (sliders.counted, sliders.generic, sliders.exact) == (1, 2, False)
+    assert 0 < sliders.error_bound < 1e-12
+    assert mobility_report(Chain.parse("R(0-1) R(1-2) R(2-3) P(3-0)")).exact
+    assert mobility_report(Chain.parse("g6:C~")).exact
+
+
+@pytest.mark.parametrize("size", [200, 400])
+def test_large_chains_are_answered_and_their_circuit_is_found(size):
+    ring = nx.cycle_graph(size)
+    ring.add_edges_from([(0, 2), (1, 3)])  # the links 0, 1, 2, 3 are braced once too often
+    report = mobility_report(Chain.from_edges(ring.edges))
+    assert report.generic == counted(report.chain) + 1
+    assert [set(part.links) for part in report.overconstrained] == [{"0", "1", "2", "3"}]
+    assert [set(cluster) for cluster in report.rigid_clusters] == [{"0", "1", "2", "3"}]
+    assert overconstrained(generic(report.chain)) == report.overconstrained

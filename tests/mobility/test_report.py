@@ -1,0 +1,111 @@
+"""What the report says of known chains, and that it says it in both languages."""
+
+import json
+import string
+
+import pytest
+
+from gruebler import Chain, ChainError, GrueblerError
+from gruebler.mobility import mobility_report
+from gruebler.mobility.idle import When
+from gruebler.mobility.prose import SENTENCES
+from gruebler.mobility.report import Verdict
+
+VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"
+
+# text, counted, generic, verdict
+KNOWN = [
+    (VEE, 1, 1, "constrained"),
+    ("R(0-1) R(0-2) R(0-3) R(3-4) G(1-4) G(2-4)", 2, 2, "movable"),
+    ("spherical: R(0-1) R(0-2) R(0-3) R(3-4) G(1-4) G(2-4)", 2, 2, "movable"),
+    ("R(0-1) R(1-2) R(2-0)", 0, 0, "rigid"),
+    ("P(0-1) P(1-2) P(2-0)", 0, 1, "overconstrained"),
+    ("R(0-1) R(1-2) R(2-3) P(3-0)", 1, 1, "constrained"),
+    ("R(0-1) P(1-2) P(2-3) R(3-0)", 1, 1, "constrained"),
+    ("R(0-1) P(1-2) P(2-3) P(3-0)", 1, 1, "partly_rigid"),
+    # a braced four-bar with a pentagon hung on it: the sum is 1, and a constraint is redundant
+    ("R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(3-4) R(4-5) R(5-6) R(6-7) R(7-3)", 1, 2, "overconstrained"),
+    # a triangle in a five-bar: the sum is 1, nothing is redundant, three links are one body
+    ("R(0-1) R(1-2) R(2-0) R(0-3) R(3-4) R(4-1)", 0, 0, "rigid"),
+    ("R(0-1) R(1-2) R(2-0) R(0-3) R(3-4) R(4-5) R(5-1)", 1, 1, "partly_rigid"),
+    ("spatial: R(0-1) R(1-2) R(2-3) R(3-4) R(4-5) R(5-6) R(6-0)", 1, 1, "constrained"),
+    ("spatial: R(0-1) R(1-2) R(2-3) R(3-0)", -2, 0, "overconstrained"),
+    # three rods end to end between balls: every freedom is a spin
+    ("spatial: spherical(a-b) spherical(b-c) spherical(c-a)", 3, 3, "movable"),
+]
+
+
+@pytest.mark.parametrize(("text", "counted", "generic", "verdict"), KNOWN)
+def test_known_chains(text, counted, generic, verdict):
+    report = mobility_report(Chain.parse(text))
+    assert (report.counted, report.generic, str(report.verdict)) == (counted, generic, verdict)
+    json.dumps(report.to_json())
+
+
+def test_a_sum_that_is_right_by_accident_is_not_passed():
+    braced = mobility_report(Chain.parse(KNOWN[8][0]))
+    assert braced.counted == 1
+    (part,) = braced.overconstrained
+    assert part.links == ("0", "1", "2", "3")
+    assert part.redundancy == 1
+    assert part.mended_by_freeing == part.mended_by_removing == part.joints == (0, 1, 2, 3, 4)
+    assert braced.rigid_clusters == (("0", "1", "2", "3"),)
+    assert braced.immobile_joints == (0, 1, 2, 3, 4)
+    hidden = mobility_report(Chain.parse(KNOWN[10][0]))
+    assert hidden.counted == hidden.generic == 1
+    assert hidden.rigid_clusters == (("0", "1", "2"),)
+    assert "The sum is right, but the chain is not sound" in hidden.explain()
+
+
+def test_idle_freedoms():
+    rod = mobility_report(Chain.parse("spatial: R(body-arm) S(arm-knuckle) R(knuckle-body) S(body-rod) S(rod-knuckle)"))
+    assert [(i.link, i.freedoms, i.when) for i in rod.idle_freedoms] == [("rod", 1, When.ALWAYS)]
+    cam = Chain.parse("R(frame-cam) P(frame-tappet) R(tappet-roller) G(cam-roller)")
+    assert [(i.link, i.when) for i in mobility_report(cam).idle_freedoms] == [("roller", When.ROUND)]
+    assert [(i.link, i.when) for i in mobility_report(cam, frame="tappet").idle_freedoms] == [("cam", When.ROUND)]
+    gears = Chain.parse("R(frame-gear1) R(frame-gear2) G(gear1-gear2)")
+    assert mobility_report(gears).idle_freedoms == ()
+    with pytest.raises(ChainError, match=r"no link 'rame'; did you mean 'frame'"):
+        mobility_report(gears, frame="rame")
+
+
+def gaps(sentence):
+    return {name for _, name, _, _ in string.Formatter().parse(sentence) if name}
+
+
+@pytest.mark.parametrize("key", SENTENCES)
+def test_both_languages_have_the_same_gaps(key):
+    english, german = SENTENCES[key]
+    assert gaps(english) == gaps(german)
+
+
+def test_every_verdict_has_its_sentence():
+    assert {v.value for v in Verdict} <= set(SENTENCES)
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("text", [row[0] for row in KNOWN])
+def test_explanations_are_complete(text, lang):
+    said = mobility_report(Chain.parse(text)).explain(lang)
+    assert "{" not in said
+    assert len(said.splitlines()) >= 6
+
+
+def test_explanations_of_the_seeds_two_chains():
+    vee = mobility_report(Chain.parse(VEE)).explain("de")
+    assert "F = 3(n - 1) - 2 g1 = 3(6 - 1) - 2·7 = 1" in vee
+    assert "zählt 2-fach" in vee
+    assert "zwangläufig" in vee
+    differential = mobility_report(Chain.parse(KNOWN[1][0])).explain()
+    assert "F = 3(n - 1) - 2 g1 - g2 = 3(5 - 1) - 2·4 - 2 = 2" in differential
+    with pytest.raises(GrueblerError, match=r"expected en or de"):
+        mobility_report(Chain.parse(VEE)).explain("fr")
+
+
+def test_a_tangle_too_large_to_take_apart_is_handed_back_whole():
+    import networkx as nx
+
+    report = mobility_report(Chain.from_edges(nx.complete_graph(20).edges))
+    assert report.redundancy == 2 * 190 - 57
+    assert [part.minimal for part in report.overconstrained] == [False]
+    assert "not taken apart" in report.explain()
