@@ -1,0 +1,70 @@
+"""The mobility report of chains with 10, 100 and 1,000 links, and how its time grows."""
+
+import math
+import random
+import statistics
+import time
+from collections.abc import Callable
+
+import networkx as nx
+
+from gruebler import Chain, mobility_report
+from gruebler.mobility import pebble_mobility
+
+SIZES = (10, 100, 1000)
+
+
+def by_dyads(n: int) -> list[tuple[int, int]]:
+    """A four-bar grown by dyads between random links."""
+    choose = random.Random(n)
+    edges = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    for k in range(4, n, 2):
+        a, b = choose.sample(range(k), 2)
+        edges += [(a, k), (k, k + 1), (k + 1, b)]
+    return edges
+
+
+def tangled(n: int) -> list[tuple[int, int]]:
+    """A random cubic graph with four joints split by binary links: one freedom, no dyad anywhere."""
+    graph = nx.random_regular_graph(3, n - 4, seed=n)
+    edges = list(graph.edges)
+    split = set(random.Random(n).sample(range(len(edges)), 4))
+    new = iter(range(n - 4, n))
+    out = []
+    for k, (a, b) in enumerate(edges):
+        if k in split:
+            v = next(new)
+            out += [(a, v), (v, b)]
+        else:
+            out.append((a, b))
+    return out
+
+
+def overbraced(n: int) -> list[tuple[int, int]]:
+    """`by_dyads` with three joints too many."""
+    return by_dyads(n) + [tuple(random.Random(n + k).sample(range(n), 2)) for k in range(3)]  # type: ignore[misc]
+
+
+def seconds(call: Callable[[], object], runs: int = 5) -> float:
+    times = []
+    for _ in range(runs):
+        start = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - start)
+    return statistics.median(times)
+
+
+def main() -> None:
+    print(f"{'chain':12} " + " ".join(f"{n:>9} links" for n in SIZES) + "   exponent 100 to 1,000")
+    for make in (by_dyads, tangled, overbraced):
+        chains = [Chain.from_edges(make(n)) for n in SIZES]
+        times = [seconds(lambda chain=chain: mobility_report(chain)) for chain in chains]
+        growth = math.log10(times[2] / times[1])
+        print(f"{make.__name__:12} " + " ".join(f"{t:13.4f} s" for t in times) + f"   {growth:.2f}")
+    chain = Chain.from_edges(by_dyads(1000))
+    ratio = seconds(lambda: mobility_report(chain)) / seconds(lambda: pebble_mobility(chain))
+    print(f"report with all evidence / pebble game alone, 1,000 links: {ratio:.0f}")
+
+
+if __name__ == "__main__":
+    main()
