@@ -12,19 +12,22 @@ The rotation is used without its denominator, which multiplies a functional by a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from random import Random
+from typing import NamedTuple
 
 from gruebler._numeric.prime_field import P, Row
 from gruebler.chain import Chain, Joint
 from gruebler.pairs import Space
 
-__all__ = ["Placement", "place"]
+__all__ = ["Lock", "Placement", "place"]
 
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)
 
 Vector = tuple[int, int, int]
+Frame = tuple[tuple[Vector, Vector, Vector], Vector]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,54 +47,82 @@ class Placement:
         return _ENTRY_DEGREE * (rank + 1) / P
 
 
-def place(chain: Chain, seed: int) -> Placement:
+class Lock(NamedTuple):
+    """A freedom taken away: one motion direction of a joint, between two of its links."""
+
+    joint: int
+    direction: str
+    between: tuple[str, str]
+
+
+def place(chain: Chain, seed: int, locks: Sequence[Lock] = ()) -> Placement:
     """Place the chain at random; the same seed gives the same placement.
 
-    A joint of k links binds its first link to each of the k - 1 others. Cost O(constraints).
+    A joint of k links binds its first link to each of the k - 1 others. The rows of locked freedoms come last.
+    Cost O(constraints).
     """
     random = Random(seed)
     b = chain.space.b
     rows: list[Row] = []
     owners = []
     functionals = []
+    frames: list[Frame] = []
     for number, joint in enumerate(chain.joints):
-        mine = _functionals(joint, chain.space, random)
+        frame = _frame(chain.space, random)
+        frames.append(frame)
+        mine = _constraints(joint, chain.space, frame, random)
         functionals.append(mine)
         first, *others = (chain.index(link) for link in joint.links)
         for other in others:
             for k, functional in enumerate(mine):
-                row = {}
-                for link, sign in ((first, -1), (other, 1)):
-                    if link:
-                        base = b * (link - 1)
-                        row.update({base + i: sign * v % P for i, v in enumerate(functional) if v})
-                rows.append(row)
+                rows.append(_row(functional, first, other, b))
                 owners.append((number, first, other, k))
+    for lock in locks:
+        first, other = (chain.index(link) for link in lock.between)
+        functional = _placed(_unit(lock.direction.replace("H", "R")), chain.space, frames[lock.joint])
+        rows.append(_row(functional, first, other, b))
+        owners.append((lock.joint, first, other, len(functionals[lock.joint])))
     return Placement(rows, b * (chain.n - 1), owners, functionals)
 
 
-def _functionals(joint: Joint, space: Space, random: Random) -> list[tuple[int, ...]]:
-    rotation, origin = _frame(space, random)
+def _row(functional: tuple[int, ...], first: int, other: int, b: int) -> Row:
+    """The functional of the relative twist, other against first; the link 0 stands still."""
+    row = {}
+    for link, sign in ((first, -1), (other, 1)):
+        if link:
+            row.update({b * (link - 1) + i: sign * v % P for i, v in enumerate(functional) if v})
+    return row
+
+
+def _constraints(joint: Joint, space: Space, frame: Frame, random: Random) -> list[tuple[int, ...]]:
+    """The functionals that vanish on the joint's freedoms."""
     freedoms = joint.pair.freedoms[space]
-    local: list[tuple[Vector, Vector]] = []
+    out = []
     for direction in space.directions:
         if direction in freedoms or (direction == "Rz" and "Hz" in freedoms):
             continue
-        pitch = -random.randrange(1, P) if direction == "Tz" and "Hz" in freedoms else 0
-        unit = [int(direction == d) for d in _SPATIAL]
-        unit[2] += pitch
-        local.append(((unit[0], unit[1], unit[2]), (unit[3], unit[4], unit[5])))
-    out = []
-    for moment, force in local:
-        turned_force = _turn(rotation, force)
-        arm = _cross(origin, turned_force)
-        turned = [m + a for m, a in zip(_turn(rotation, moment), arm, strict=True)]
-        whole = dict(zip(_SPATIAL, (*turned, *turned_force), strict=True))
-        out.append(tuple(whole[d] % P for d in space.directions))
+        moment, force = _unit(direction)
+        if direction == "Tz" and "Hz" in freedoms:
+            moment = (0, 0, -random.randrange(1, P))
+        out.append(_placed((moment, force), space, frame))
     return out
 
 
-def _frame(space: Space, random: Random) -> tuple[tuple[Vector, Vector, Vector], Vector]:
+def _unit(direction: str) -> tuple[Vector, Vector]:
+    a, b, c, x, y, z = (int(direction == d) for d in _SPATIAL)
+    return (a, b, c), (x, y, z)
+
+
+def _placed(functional: tuple[Vector, Vector], space: Space, frame: Frame) -> tuple[int, ...]:
+    """A functional of the joint's own axes read in the base frame."""
+    rotation, origin = frame
+    force = _turn(rotation, functional[1])
+    moment = [m + a for m, a in zip(_turn(rotation, functional[0]), _cross(origin, force), strict=True)]
+    whole = dict(zip(_SPATIAL, (*moment, *force), strict=True))
+    return tuple(whole[d] % P for d in space.directions)
+
+
+def _frame(space: Space, random: Random) -> Frame:
     """The rows of a rotation matrix, times a non-zero number, and an origin: random as far as the space allows."""
 
     def number() -> int:

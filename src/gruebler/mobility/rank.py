@@ -8,6 +8,7 @@ independent placements are compared and the bound on the probability of error is
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,7 +17,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.prime_field import Echelon, echelon, null_space, transposed
 from gruebler.chain import Chain
-from gruebler.mobility.placement import Placement, place
+from gruebler.mobility.placement import Lock, Placement, place
 from gruebler.mobility.sparsity import pebble_mobility, theorem
 
 __all__ = ["Generic", "generic", "generic_mobility"]
@@ -63,17 +64,17 @@ class Generic:
         return null_space(echelon(turned, len(self.placement.rows)))
 
 
-def generic(chain: Chain) -> Generic:
-    """The generic rank of a chain, with its certificate.
+def generic(chain: Chain, locks: Sequence[Lock] = ()) -> Generic:
+    """The generic rank of a chain, with its certificate, some freedoms locked if wanted.
 
     Cost: about linear for chains that grow dyad by dyad, cubic in the dense core of others; see
     benchmarks/README.md.
     """
-    licensed = theorem(chain)
+    licensed = bool(theorem(chain)) and not locks
     known = None
     best: tuple[Placement, Echelon] | None = None
     for attempt in range(_TRIES):
-        placement = place(chain, _FIRST_SEED + attempt)
+        placement = place(chain, _FIRST_SEED + attempt, locks)
         form = echelon(placement.rows, placement.columns)
         if form.rank == min(len(placement.rows), placement.columns):
             return Generic(chain, placement, form, True, 0.0)
