@@ -186,3 +186,16 @@ def test_other_chains():
         chain.with_joint("prismatic", ["3", "4"]).without_joint(4)
     assert chain.with_joint("revolute", ["0", "1"]).joint_names()[-1] == "R(0-1)#2"
     assert chain.joints_of("2") == chain.joints[1:3]
+
+
+def test_joints_are_found_as_they_are_written():
+    chain = Chain.parse('R(0-1-2) P(0-3) R(3-1) R(1-3) R("a b"-3)')
+    assert chain.find_joint("R(2-0-1)") == 0
+    assert chain.find_joint(" S( 0 - 3 ) ") == 1
+    assert chain.find_joint("prismatic(3-0)") == 1
+    assert chain.find_joint("R(1-3)") == chain.find_joint("D(3-1)#1") == 2
+    assert chain.find_joint("R(1-3)#2") == 3
+    assert chain.find_joint('R(3-"a b")') == 4
+    for wrong in ("P(0-1-2)", "nonsense", "R(1-3)#3", "R(1-3)#0", "R(1-3)#x", "R()", ""):
+        assert chain.find_joint(wrong) is None
+    assert [chain.find_joint(name) for name in chain.joint_names()] == [0, 1, 2, 3, 4]

@@ -18,6 +18,7 @@ FLOORS = [
     {"notation"},
     {"chain"},
     {"mobility", "isomorphism"},
+    {"mechanism"},
     {"catalog"},
     {"cli"},
 ]

@@ -9,6 +9,7 @@ Whether two chains have the same *structure*, names aside, is asked of `gruebler
 from __future__ import annotations
 
 import json
+import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -292,6 +293,27 @@ class Chain:
             again = f"#{seen[j._key]}" if seen[j._key] > 1 else ""
             names.append(notation.joint_text(symbols[j.pair], j.links) + again)
         return tuple(names)
+
+    def find_joint(self, text: str) -> int | None:
+        """The number of the joint that a text names, or None.
+
+        Its links may stand in any order and its symbol in any alphabet; a joint that repeats needs its ``#2``.
+
+        >>> Chain.parse("R(0-1) R(1-2) P(2-0)").find_joint("S(0-2)")
+        2
+        """
+        wanted, _, again = text.partition("#")
+        match = re.fullmatch(r"\s*([^\s()]+)\s*\((.*)\)\s*", wanted)
+        if match is None or not (again or "1").strip().isdecimal():
+            return None
+        links = sorted(name.strip() for name in notation.split_links(match[2]))
+        found = [
+            number
+            for number, j in enumerate(self.joints)
+            if sorted(j.links) == links and match[1] in {j.pair.name, j.pair.german, *j.pair.symbols.values()}
+        ]
+        place = int(again or 1) - 1
+        return found[place] if 0 <= place < len(found) else None
 
     # --- other chains ------------------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ from collections.abc import Iterable, Sequence
 from gruebler.errors import NotationError, PairError
 from gruebler.pairs import PAIRS, Alphabet, Pair, Space, read_symbols
 
-__all__ = ["joint_text", "link_text", "read", "space_of", "symbols_for", "write"]
+__all__ = ["joint_text", "link_name", "link_text", "read", "space_of", "split_links", "symbols_for", "write"]
 
 _BARE = r"""[^\s()\-",:;]+"""
 _NAME = rf'(?:"(?:[^"\\]|\\.)*"|{_BARE})'
@@ -89,6 +89,28 @@ def _read_joint(text: str, position: int) -> tuple[str, tuple[str, ...], int]:
         if separator != "-":
             raise _unreadable(text, position, "'-' and another link, or ')'")
         position = len(text) - len(text[position + 1 :].lstrip())
+
+
+def link_name(text: str) -> str:
+    """The link that a bare or quoted name stands for.
+
+    >>> link_name('"lower wishbone"')
+    'lower wishbone'
+    """
+    if not re.fullmatch(_NAME, text):
+        raise NotationError(f"expected the name of a link, bare or in double quotes, but found {_shortened(text)!r}")
+    return _unquoted(text)
+
+
+def split_links(text: str) -> list[str]:
+    """The links of ``a-b-"c d"``; an empty list if the text is not of that form.
+
+    >>> split_links('a-b-"c-d"')
+    ['a', 'b', 'c-d']
+    """
+    if not re.fullmatch(rf"\s*{_NAME}\s*(?:-\s*{_NAME}\s*)*", text):
+        return []
+    return [_unquoted(name) for name in re.findall(_NAME, text)]
 
 
 def _unquoted(name: str) -> str:

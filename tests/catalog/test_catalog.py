@@ -19,7 +19,6 @@ from gruebler.catalog import (
     read_entry,
     search,
 )
-from gruebler.catalog.records import same_joint
 from gruebler.isomorphism import is_isomorphic
 from gruebler.mobility import pebble_mobility, theorem
 
@@ -176,15 +175,6 @@ def test_files_that_cannot_be_read(tmp_path):
 def test_an_unknown_id_gets_the_nearest_ones():
     with pytest.raises(CatalogError, match=r"no entry 'vcom'; did you mean vcomp"):
         entry("vcom")
-
-
-def test_joints_are_found_as_they_are_written():
-    chain = Chain.parse("R(0-1-2) P(0-3) R(3-1)")
-    assert same_joint("R(2-0-1)", chain) == 0
-    assert same_joint("S(0-3)", chain) == 1
-    assert same_joint("prismatic(3-0)", chain) == 1
-    assert same_joint("P(0-1-2)", chain) is None
-    assert same_joint("nonsense", chain) is None
 
 
 def test_files_are_named_as_their_entries():

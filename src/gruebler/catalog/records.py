@@ -19,7 +19,7 @@ import msgspec
 from gruebler.chain import Chain
 from gruebler.errors import CatalogError, ChainError, NotationError, PairError
 
-__all__ = ["Case", "Claims", "Entry", "Exercise", "Group", "Text", "read_entry", "read_exercise", "same_joint"]
+__all__ = ["Case", "Claims", "Entry", "Exercise", "Group", "Text", "read_entry", "read_exercise"]
 
 
 class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -118,25 +118,6 @@ def read_exercise(path: Path) -> Exercise:
     return _read(path, Exercise)
 
 
-def same_joint(text: str, chain: Chain) -> int | None:
-    """The number of the joint of the chain that a text such as ``R(frame-crank)`` names, if there is one."""
-    wanted = re.sub(r"\s", "", text)
-    for alphabet in ("international", "german"):
-        names = chain.joint_names(alphabet)
-        if wanted in names:
-            return names.index(wanted)
-    match = re.fullmatch(r"([^()]+)\(([^()]+)\)", wanted)
-    if match is None:
-        return None
-    links = frozenset(match[2].split("-"))
-    found = [
-        k
-        for k, joint in enumerate(chain.joints)
-        if frozenset(joint.links) == links and match[1] in {joint.pair.name, *joint.pair.symbols.values()}
-    ]
-    return found[0] if len(found) == 1 else None
-
-
 def _read(path: Path, kind: type[Record]) -> Record:
     try:
         if path.stat().st_size > _LARGEST:
@@ -201,7 +182,7 @@ def _check(entry: Entry, path: Path) -> None:
             except ChainError as error:
                 raise CatalogError(f"{path}: {key}: {error}") from None
     for drive in entry.drives:
-        if same_joint(drive, chain) is None:
+        if chain.find_joint(drive) is None:
             raise CatalogError(
                 f"{path}: drives: {drive!r} is not one of the joints; they are {', '.join(chain.joint_names())}"
             )

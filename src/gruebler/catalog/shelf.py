@@ -7,7 +7,7 @@ from functools import cache
 from pathlib import Path
 
 from gruebler.catalog.claims import Checked, check
-from gruebler.catalog.records import Entry, Exercise, Record, read_entry, read_exercise, same_joint
+from gruebler.catalog.records import Entry, Exercise, Record, read_entry, read_exercise
 from gruebler.errors import CatalogError
 from gruebler.mobility import counted
 from gruebler.pairs import PAIRS, Pair, pair
@@ -116,7 +116,7 @@ class Query:
     def finds(self, candidate: Entry) -> bool:
         """Whether the entry answers the query."""
         chain = candidate.chain()
-        driven = {chain.joints[k].pair for drive in candidate.drives if (k := same_joint(drive, chain)) is not None}
+        driven = {chain.joints[k].pair for drive in candidate.drives if (k := chain.find_joint(drive)) is not None}
         present = {joint.pair for joint in chain.joints}
         return (
             (self.links is None or chain.n == self.links)

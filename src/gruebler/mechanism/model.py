@@ -1,0 +1,218 @@
+"""The mechanism itself: chain, frame and drives, read and written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gruebler import notation
+from gruebler.chain import Chain
+from gruebler.errors import ChainError, NotationError
+from gruebler.isomorphism import code, decode
+from gruebler.pairs import Alphabet
+
+__all__ = ["Drive", "Mechanism"]
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """One driven freedom: the number of the joint, the motion direction, and the two links it acts between."""
+
+    joint: int
+    direction: str
+    between: tuple[str, str]
+
+
+class Mechanism:
+    """A chain, its frame and its drives. A value: sound or not constructed, never changed.
+
+    Args:
+        chain: any chain.
+        frame: the link that stands still.
+        drives: each a joint number, a joint written as in the chain's text (``R(frame-crank)``), or a `Drive`. A joint
+            with several freedoms needs the direction, a multiple joint the two links: ``C(a-b):Tz``,
+            ``R(a-b-c):a-b``.
+
+    Raises:
+        ChainError: a frame or joint that the chain does not have, a direction that is no freedom of the joint, or
+            the same freedom driven twice. Whether the number of drives is right is asked of `check_drives`.
+
+    >>> print(Mechanism(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"), "frame", [0]))
+    R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston); frame=frame; drive=R(frame-crank)
+    """
+
+    __slots__ = ("chain", "drives", "frame")
+
+    chain: Chain
+    frame: str
+    drives: tuple[Drive, ...]
+
+    def __init__(self, chain: Chain, frame: str, drives: Iterable[int | str | Drive] = ()) -> None:
+        chain.index(frame)
+        made = tuple(sorted((_drive(chain, d) for d in drives), key=lambda d: (d.joint, d.direction, d.between)))
+        keys = [(d.joint, d.direction, frozenset(d.between)) for d in made]
+        for k, key in enumerate(keys):
+            if key in keys[:k]:
+                raise ChainError(f"the drive {_drive_text(chain, made[k])} is named twice")
+        object.__setattr__(self, "chain", chain)
+        object.__setattr__(self, "frame", frame)
+        object.__setattr__(self, "drives", made)
+
+    @classmethod
+    def parse(cls, text: str) -> Mechanism:
+        """The mechanism of a text or of a code with a marked frame.
+
+        Without ``frame=`` the first link named is the frame.
+
+        >>> Mechanism.parse("D(0-1) D(1-2) D(2-3) D(3-0); drive=D(0-1)").frame
+        '0'
+        """
+        if text.lstrip().startswith("gr"):
+            marked = decode(text.strip())
+            if marked.frame is None:
+                raise NotationError("the code marks no frame; a mechanism needs one: ...;frame=0")
+            return cls(marked.chain, marked.frame, marked.drives)
+        body, *marks = _split_marks(text)
+        chain = Chain.parse(body)
+        frame, drives = chain.links[0], []
+        for mark in marks:
+            key, _, value = mark.partition("=")
+            match key.strip():
+                case "frame":
+                    frame = notation.link_name(value.strip())
+                case "drive":
+                    drives.append(value.strip())
+                case _:
+                    raise NotationError(
+                        f"{mark.strip()!r} is no mark of a mechanism: expected frame=LINK or drive=JOINT"
+                    )
+        return cls(chain, frame, drives)
+
+    @classmethod
+    def from_json(cls, document: Mapping[str, Any]) -> Mechanism:
+        """The mechanism of an object made by `to_json`."""
+        rest = dict(document)
+        frame, drives = rest.pop("frame", None), rest.pop("drives", [])
+        if not isinstance(frame, str) or not isinstance(drives, list) or not all(isinstance(d, str) for d in drives):
+            raise NotationError('a mechanism needs a text "frame" and a list of texts "drives"')
+        return cls(Chain.from_json(rest), frame, drives)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for `json.dumps`: the chain's object with frame and drives."""
+        return self.chain.to_json() | {
+            "frame": self.frame,
+            "drives": [_drive_text(self.chain, drive) for drive in self.drives],
+        }
+
+    def text(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
+        """The text form; `parse` takes it back."""
+        marks = [f"frame={notation.link_text(self.frame)}"]
+        marks += [f"drive={_drive_text(self.chain, drive, alphabet)}" for drive in self.drives]
+        return "; ".join([self.chain.text(alphabet), *marks])
+
+    __str__ = text
+
+    def __repr__(self) -> str:
+        return f"Mechanism.parse({self.text()!r})"
+
+    def code(self) -> str:
+        """The canonical code: equal exactly for mechanisms of one structure.
+
+        A code marks joints, so it is only for drives of joints with one freedom and two links; `ChainError` for others.
+        """
+        for drive in self.drives:
+            joint = self.chain.joints[drive.joint]
+            if joint.count > 1 or joint.pair.f(self.chain.space) > 1:
+                raise ChainError(
+                    f"the drive {_drive_text(self.chain, drive)} has no place in a code: codes mark whole joints"
+                )
+        return code(self.chain, frame=self.frame, drives=[drive.joint for drive in self.drives])
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a mechanism does not change; build another one instead of setting {name!r}")
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mechanism):
+            return NotImplemented
+        return self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> tuple[object, ...]:
+        driven = frozenset(
+            (
+                self.chain.joints[d.joint].pair,
+                frozenset(self.chain.joints[d.joint].links),
+                d.direction,
+                frozenset(d.between),
+            )
+            for d in self.drives
+        )
+        return self.chain, self.frame, driven
+
+    def __reduce__(self) -> tuple[object, ...]:
+        return Mechanism, (self.chain, self.frame, self.drives)
+
+
+def _split_marks(text: str) -> list[str]:
+    """Split at semicolons outside quotes."""
+    return re.findall(r'(?:"(?:[^"\\]|\\.)*"|[^;"])+', text) or [text]
+
+
+def _drive(chain: Chain, raw: int | str | Drive) -> Drive:
+    if isinstance(raw, Drive):
+        number, direction, between = raw.joint, raw.direction, raw.between
+        links: tuple[str, ...] = between
+    elif isinstance(raw, int):
+        number, direction = raw, ""
+        links = ()
+    else:
+        number, direction, links = _read_drive(chain, raw)
+    if not 0 <= number < len(chain.joints):
+        raise ChainError(f"there is no joint number {number}; the chain has joints 0 to {len(chain.joints) - 1}")
+    joint = chain.joints[number]
+    freedoms = joint.pair.freedoms[chain.space]
+    if not direction:
+        if len(freedoms) > 1:
+            raise ChainError(
+                f"{joint} has the freedoms {', '.join(freedoms)}; say which is driven: {joint}:{freedoms[0]}"
+            )
+        direction = freedoms[0]
+    if direction not in freedoms:
+        raise ChainError(f"{direction!r} is no freedom of {joint}; it has {', '.join(freedoms)}")
+    if not links:
+        if len(joint.links) > 2:
+            a, b = joint.links[:2]
+            raise ChainError(f"{joint} joins {len(joint.links)} links; say which two the drive moves: {joint}:{a}-{b}")
+        links = joint.links
+    if len(links) != 2 or links[0] == links[1] or not set(links) <= set(joint.links):
+        raise ChainError(f"a drive of {joint} acts between two of its links, not between {' and '.join(links)}")
+    first, other = sorted(links, key=joint.links.index)
+    return Drive(number, direction, (first, other))
+
+
+def _read_drive(chain: Chain, text: str) -> tuple[int, str, tuple[str, ...]]:
+    joint_text, *options = re.split(r":(?![^(]*\))", text)
+    number = chain.find_joint(joint_text)
+    if number is None:
+        raise ChainError(f"{joint_text!r} is not one of the joints; they are {', '.join(chain.joint_names())}")
+    direction, links = "", ()
+    for option in options:
+        if re.fullmatch(r"[RTH][xyz]", option):
+            direction = option
+        else:
+            links = tuple(notation.split_links(option))
+    return number, direction, links
+
+
+def _drive_text(chain: Chain, drive: Drive, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
+    joint = chain.joints[drive.joint]
+    out = chain.joint_names(alphabet)[drive.joint]
+    if joint.pair.f(chain.space) > 1:
+        out += f":{drive.direction}"
+    if joint.count > 1:
+        out += ":" + "-".join(map(notation.link_text, drive.between))
+    return out
