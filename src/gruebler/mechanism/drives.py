@@ -69,8 +69,7 @@ def check_drives(mechanism: Mechanism) -> DriveReport:
     locks = [Lock(d.joint, d.direction, d.between) for d in mechanism.drives]
     free, locked = generic(chain), generic(chain, locks)
     first = len(locked.placement.rows) - len(locks)
-    moving = tuple(
-        link for i, link in enumerate(chain.links) if _moves(locked.motions, i, chain.index(mechanism.frame))
-    )
+    still = locked.motions[:, chain.index(mechanism.frame)]
+    moving = tuple(link for i, link in enumerate(chain.links) if (locked.motions[:, i] != still).any())
     redundant = tuple(k for k in range(len(locks)) if locked.stresses[:, first + k].any())
     return DriveReport(free.mobility, len(locks), locked.mobility, moving, redundant)

@@ -163,12 +163,11 @@ def _split_marks(text: str) -> list[str]:
 
 
 def _drive(chain: Chain, raw: int | str | Drive) -> Drive:
+    links: tuple[str, ...] = ()
     if isinstance(raw, Drive):
-        number, direction, between = raw.joint, raw.direction, raw.between
-        links: tuple[str, ...] = between
+        number, direction, links = raw.joint, raw.direction, raw.between
     elif isinstance(raw, int):
         number, direction = raw, ""
-        links = ()
     else:
         number, direction, links = _read_drive(chain, raw)
     if not 0 <= number < len(chain.joints):
