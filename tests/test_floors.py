@@ -19,6 +19,7 @@ FLOORS = [
     {"chain"},
     {"mobility", "isomorphism"},
     {"mechanism"},
+    {"inversion"},
     {"catalog"},
     {"cli"},
 ]

@@ -1,6 +1,6 @@
 """Sameness of chains: canonical codes, correspondences and symmetry. Exact for every chain."""
 
-from gruebler.isomorphism.automorphisms import Permutation, Symmetry, symmetry
+from gruebler.isomorphism.automorphisms import Permutation, Symmetry, orbits, symmetry
 from gruebler.isomorphism.codes import CODE_PREFIX, Marked, canonical_order, code, decode
 from gruebler.isomorphism.matching import Isomorphism, find_isomorphism, is_isomorphic
 
@@ -15,5 +15,6 @@ __all__ = [
     "decode",
     "find_isomorphism",
     "is_isomorphic",
+    "orbits",
     "symmetry",
 ]

@@ -9,7 +9,7 @@ from typing import TypeVar
 from gruebler.chain import Chain
 from gruebler.isomorphism.colouring import Coloured, coloured
 
-__all__ = ["Permutation", "Symmetry", "symmetry"]
+__all__ = ["Permutation", "Symmetry", "orbits", "symmetry"]
 
 T = TypeVar("T", bound=Hashable)
 
@@ -57,10 +57,10 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int] 
         found.order,
         tuple(
             tuple(chain.links[i] for i in orbit)
-            for orbit in _orbits(links, [dict(enumerate(g.links)) for g in generators])
+            for orbit in orbits(links, [dict(enumerate(g.links)) for g in generators])
         ),
-        tuple(_orbits(joints, [dict(enumerate(g.joints)) for g in generators])),
-        tuple(tuple((chain.links[i], k) for i, k in orbit) for orbit in _orbits(flags, on_flags)),
+        tuple(orbits(joints, [dict(enumerate(g.joints)) for g in generators])),
+        tuple(tuple((chain.links[i], k) for i, k in orbit) for orbit in orbits(flags, on_flags)),
     )
 
 
@@ -80,8 +80,12 @@ def _permutation(chain: Chain, graph: Coloured, image: list[int]) -> Permutation
     return Permutation(tuple(image[: chain.n]), tuple(joints))
 
 
-def _orbits(items: Iterable[T], maps: list[dict[T, T]]) -> list[tuple[T, ...]]:
-    """The classes of items that the maps connect, each in the order of the items."""
+def orbits(items: Iterable[T], maps: list[dict[T, T]]) -> list[tuple[T, ...]]:
+    """The classes of items that the maps connect, each in the order of the items.
+
+    >>> orbits([1, 2, 3], [{1: 2, 2: 1, 3: 3}])
+    [(1, 2), (3,)]
+    """
     root = {item: item for item in items}
 
     def find(item: T) -> T:

@@ -198,7 +198,8 @@ def _read_drive(chain: Chain, text: str) -> tuple[int, str, tuple[str, ...]]:
     number = chain.find_joint(joint_text)
     if number is None:
         raise ChainError(f"{joint_text!r} is not one of the joints; they are {', '.join(chain.joint_names())}")
-    direction, links = "", ()
+    direction = ""
+    links: tuple[str, ...] = ()
     for option in options:
         if re.fullmatch(r"[RTH][xyz]", option):
             direction = option
