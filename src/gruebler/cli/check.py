@@ -30,10 +30,11 @@ from gruebler.mobility.prose import verdict_word
 __all__ = ["explanation", "print_checked", "run"]
 
 _HEADERS = {
-    "en": ("chain", "n", "joints", "F counted", "generic", "verdict", "claims"),
-    "de": ("Kette", "n", "Gelenke", "F gezählt", "generisch", "Urteil", "Angaben"),
+    "en": ("chain", "n", "joints", "F counted", "generic", "verdict", "special dimensions", "claims"),
+    "de": ("Kette", "n", "Gelenke", "F gezählt", "generisch", "Urteil", "besondere Abmessungen", "Angaben"),
 }
 _CLAIMS = {"en": {True: "hold", False: "WRONG", None: "-"}, "de": {True: "stimmen", False: "FALSCH", None: "-"}}
+_MOVES = {"en": "moves with {}", "de": "bewegt sich mit {}"}
 _SUMMARY = {
     "en": ("{n} chains, every claim holds.", "{n} chains, {wrong} with wrong claims."),
     "de": ("{n} Ketten, alle Angaben stimmen.", "{n} Ketten, {wrong} mit falschen Angaben."),
@@ -88,6 +89,7 @@ def print_checked(found: Iterable[Checked], lang: str) -> None:
                 str(one.report.counted),
                 str(one.report.generic),
                 verdict_word(one.report.verdict, lang),
+                _MOVES[lang].format(one.claims.mobility) if _moves_otherwise(one) else "",
                 _CLAIMS[lang][holds],
             )
         )
@@ -103,7 +105,7 @@ def explanation(one: Checked, lang: str) -> str:
     title = f"{known.name.said(lang)} ({one.id})" if known else one.id
     lines = [title, "-" * len(title), one.report.explain(lang)]
     claims = one.claims
-    if claims.mobility is not None and claims.reason is not None and claims.mobility != one.report.generic:
+    if claims.reason is not None and _moves_otherwise(one):
         clusters = one.report.rigid_clusters or (one.report.chain.links,)
         lines.append(
             _TRUTH[lang].format(
@@ -118,6 +120,11 @@ def explanation(one: Checked, lang: str) -> str:
             _GROUP[lang].format(b=claims.group.b, counted=claims.group.counted, reason=claims.group.reason.said(lang))
         )
     return "\n".join(lines)
+
+
+def _moves_otherwise(one: Checked) -> bool:
+    """Whether the entry claims a mobility that only its special dimensions give."""
+    return one.claims.mobility is not None and one.claims.mobility != one.report.generic
 
 
 def _complain(found: Iterable[Checked]) -> None:
