@@ -20,6 +20,7 @@ from gruebler._numeric.strings import (
     make_frame,
     make_values,
     make_walk,
+    set_budgets,
     survey_strings,
     walk,
 )
@@ -125,13 +126,14 @@ def take_census(
             joint_orbits = found * joints - sums[4]
             flags = 2 * joint_orbits
             first = 1
+        words = set_budgets(bundles, sets, target, frame, memory)
         for g in range(first, group):
             fixed = _automorphism(n, g, labels, image)
             sums[0] = 0
             sums[1] = 0
             sums[2] = 0
             found = walk(
-                bundles, sets, image, target, mobility, frame, values, memory, sums[:3], nothing
+                bundles, words, image, target, mobility, frame, values, memory, sums[:3], nothing
             )
             chains += found
             link_orbits += found * fixed + sums[0]

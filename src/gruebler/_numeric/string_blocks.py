@@ -256,7 +256,8 @@ def count_strings(
     doubled = 0
     for lane in range(several):
         doubled |= 2 << (2 * lane)
-    tests, due, left, start = memory.tests, memory.due, memory.left, memory.start
+    tests, due, left, start, weight = memory.tests, memory.due, memory.left, memory.start, memory.weight
+    begin, size = memory.begin, memory.width
     block_sum, current, chosen, total = memory.state[0], memory.state[1], memory.state[2], memory.state[3]
     last = levels - 1
     level = 0
@@ -267,7 +268,7 @@ def count_strings(
     found = 0
     while level >= 0:
         word = chosen[level]
-        width = memory.width[level]
+        width = size[level]
         if level < last:
             j = current[level]
             if j < WORDS:
@@ -277,38 +278,37 @@ def count_strings(
                     continue
                 left[level, j] = bits & (bits - 1)
                 s = block_sum[level]
-                chosen[level + 1] = word | (pattern[s, (j << 6) | lowest(bits)] << (2 * memory.begin[level]))
+                chosen[level + 1] = word | (pattern[s, (j << 6) | lowest(bits)] << (2 * begin[level]))
                 total[level + 1] = total[level] + s
                 level += 1
                 block_sum[level] = -1
                 current[level] = WORDS
                 continue
-            s = max(block_sum[level] + 1, target - total[level] - 2 * (bundles - memory.begin[level + 1]))
+            s = max(block_sum[level] + 1, target - total[level] - 2 * (bundles - begin[level + 1]))
             block_sum[level] = s
         else:
             s = target - total[level]
         if s < 0 or s > 2 * width or s > target - total[level]:
             level -= 1
             continue
-        here = start[level, s]
-        m0, m1, m2, m3, m4, m5, m6 = here[0], here[1], here[2], here[3], here[4], here[5], here[6]
+        m0, m1, m2 = start[level, s, 0], start[level, s, 1], start[level, s, 2]
+        m3, m4, m5, m6 = start[level, s, 3], start[level, s, 4], start[level, s, 5], start[level, s, 6]
         base = s * (SUBSETS * SUMS)
         possible = True
         for i in range(due[level, 0]):
-            test = tests[level, 0, i]
-            t = test[2] - popcount(word & test[0])
+            t = tests[level, 0, i, 2] - popcount(word & tests[level, 0, i, 0])
             if t < 0:
                 possible = False
                 break
-            if t < s and t < test[3]:
-                row = allowed[base + test[1] + t]
-                m0 &= row[0]
-                m1 &= row[1]
-                m2 &= row[2]
-                m3 &= row[3]
-                m4 &= row[4]
-                m5 &= row[5]
-                m6 &= row[6]
+            if t < s and t < tests[level, 0, i, 3]:
+                row = base + tests[level, 0, i, 1] + t
+                m0 &= allowed[row, 0]
+                m1 &= allowed[row, 1]
+                m2 &= allowed[row, 2]
+                m3 &= allowed[row, 3]
+                m4 &= allowed[row, 4]
+                m5 &= allowed[row, 5]
+                m6 &= allowed[row, 6]
         if level == last:
             if possible:
                 count = popcount(m0) + popcount(m1) + popcount(m2) + popcount(m3)
@@ -319,32 +319,30 @@ def count_strings(
                     links, joints = 0, 0
                     for lane in range(several):
                         c = popcount((word >> (2 * lane)) & 3)
-                        pair = memory.weight[frame.number[memory.order[lane]], c]
-                        links += pair[1]
-                        joints += pair[2]
+                        k = frame.number[memory.order[lane]]
+                        links += weight[k, c, 1]
+                        joints += weight[k, c, 2]
                     lost[0] += count * links // 2
                     lost[1] += count * joints // 2
             level -= 1
             continue
         if possible:
             for i in range(due[level, 1]):
-                test = tests[level, 1, i]
-                t = s + test[2] - popcount(~word & test[0])
+                t = s + tests[level, 1, i, 2] - popcount(~word & tests[level, 1, i, 0])
                 if t < 0:
                     possible = False
                     break
-                if t < s and t < test[3]:
-                    row = allowed[base + test[1] + t]
-                    m0 &= row[0]
-                    m1 &= row[1]
-                    m2 &= row[2]
-                    m3 &= row[3]
-                    m4 &= row[4]
-                    m5 &= row[5]
-                    m6 &= row[6]
+                if t < s and t < tests[level, 1, i, 3]:
+                    row = base + tests[level, 1, i, 1] + t
+                    m0 &= allowed[row, 0]
+                    m1 &= allowed[row, 1]
+                    m2 &= allowed[row, 2]
+                    m3 &= allowed[row, 3]
+                    m4 &= allowed[row, 4]
+                    m5 &= allowed[row, 5]
+                    m6 &= allowed[row, 6]
         if possible:
-            rest = left[level]
-            rest[0], rest[1], rest[2], rest[3] = m0, m1, m2, m3
-            rest[4], rest[5], rest[6] = m4, m5, m6
+            left[level, 0], left[level, 1], left[level, 2], left[level, 3] = m0, m1, m2, m3
+            left[level, 4], left[level, 5], left[level, 6] = m4, m5, m6
             current[level] = 0
     return found

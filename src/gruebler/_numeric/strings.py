@@ -58,20 +58,28 @@ class Frame(NamedTuple):
 
 
 class Walk(NamedTuple):
-    """Memory of `walk`: variables are the orbits of bundles under one automorphism."""
+    """Memory of `walk`: variables are the orbits of bundles under one automorphism.
+
+    Every critical set has two budgets, of c within it and of 2 - c outside it; a budget is one byte of a word.
+    """
 
     variable: Int64  # bundle -> variable
     lead: Int64  # variable -> its first bundle
     length: Int64
     manner: Int64  # MOVED, FIXED or TURNED
-    lanes: Int64  # the low bits of its bundles
-    masks: Int64  # (variable, test)
-    limits: Int64
-    tests: Int64  # variable -> number of tests due when it gets its value
-    state: Int64  # rows by depth: word, sum, excess, links, joints, flags, value
+    inner: Int64  # (bundle, word): 1 in the byte of every budget that its c draws on
+    outer: Int64  # (bundle, word): 1 in the byte of every budget that its 2 - c draws on
+    inner_sum: Int64  # the same for (variable, word)
+    outer_sum: Int64
+    budget: Int64  # (depth, word): what is left
+    state: Int64  # rows by depth: sum, excess, links, joints, flags, value
 
 
-MOST_SETS: Final = 4096  # critical sets there is room for; the largest number met is 330 (nine loops)
+MOST_SETS: Final = 2048  # critical sets there is room for; the largest number met is 330 (nine loops)
+
+
+BUDGETS: Final = 2 * MOST_SETS // 8  # words that hold two bytes for every critical set
+OVERDRAWN: Final = -0x7F7F7F7F7F7F7F80  # the sign bits of the eight bytes of a word
 
 
 def make_frame() -> Frame:
@@ -94,11 +102,12 @@ def make_walk() -> Walk:
         lead=np.zeros(LANES, np.int64),
         length=np.zeros(LANES, np.int64),
         manner=np.zeros(LANES, np.int64),
-        lanes=np.zeros(LANES, np.int64),
-        masks=np.zeros((LANES, MOST_SETS), np.int64),
-        limits=np.zeros((LANES, MOST_SETS), np.int64),
-        tests=np.zeros(LANES, np.int64),
-        state=np.zeros((7, LANES + 1), np.int64),
+        inner=np.zeros((LANES, BUDGETS), np.int64),
+        outer=np.zeros((LANES, BUDGETS), np.int64),
+        inner_sum=np.zeros((LANES, BUDGETS), np.int64),
+        outer_sum=np.zeros((LANES, BUDGETS), np.int64),
+        budget=np.zeros((LANES + 1, BUDGETS), np.int64),
+        state=np.zeros((6, LANES + 1), np.int64),
     )
 
 
@@ -190,7 +199,44 @@ def survey_strings(rows: Int64, frame: Frame) -> tuple[int, int, int]:
 
 
 @njit(cache=True)
-def _variables(bundles: int, image: Int64, frame: Frame, memory: Walk) -> int:
+def set_budgets(bundles: int, sets: int, target: int, frame: Frame, memory: Walk) -> int:
+    """Write down the budgets of the critical sets; returns the number of words they fill, -1 if none can hold.
+
+    Since all c add up to the target at least, c(S) <= b leaves 2 - c outside S a budget of its own. It says
+    nothing new once every bundle has its value, but it ends vain attempts early.
+    """
+    used = 0
+    for i in range(sets):
+        s, bound = frame.sets[0, i], frame.sets[1, i]
+        outside = 0
+        for b in range(bundles):
+            if not (s >> frame.ends[0, b]) & (s >> frame.ends[1, b]) & 1:
+                outside += 1
+        for kind in range(2):
+            limit = bound if kind == 0 else 2 * outside - (target - bound)
+            if kind == 1 and limit >= 2 * outside:
+                continue
+            if limit < 0:
+                return -1
+            word, shift = used >> 3, (used & 7) << 3
+            if shift == 0:
+                memory.budget[0, word] = 0
+                for b in range(bundles):
+                    memory.inner[b, word] = 0
+                    memory.outer[b, word] = 0
+            memory.budget[0, word] |= limit << shift
+            for b in range(bundles):
+                within = (s >> frame.ends[0, b]) & (s >> frame.ends[1, b]) & 1
+                if kind == 0 and within:
+                    memory.inner[b, word] |= 1 << shift
+                if kind == 1 and not within:
+                    memory.outer[b, word] |= 1 << shift
+            used += 1
+    return (used + 7) >> 3
+
+
+@njit(cache=True)
+def _variables(bundles: int, words: int, image: Int64, frame: Frame, memory: Walk) -> int:
     """Gather the bundles into the orbits of one automorphism; returns the number of orbits."""
     variable, lead = memory.variable, memory.lead
     for b in range(bundles):
@@ -200,15 +246,18 @@ def _variables(bundles: int, image: Int64, frame: Frame, memory: Walk) -> int:
         if variable[b] >= 0:
             continue
         lead[found] = b
-        lanes = 0
+        for j in range(words):
+            memory.inner_sum[found, j] = 0
+            memory.outer_sum[found, j] = 0
         length = 0
         c = b
         while variable[c] < 0:
             variable[c] = found
-            lanes |= 1 << (2 * c)
+            for j in range(words):
+                memory.inner_sum[found, j] += memory.inner[c, j]
+                memory.outer_sum[found, j] += memory.outer[c, j]
             length += 1
             c = frame.at[image[frame.ends[0, c]], image[frame.ends[1, c]]]
-        memory.lanes[found] = lanes
         memory.length[found] = length
         if length > 1:
             memory.manner[found] = MOVED
@@ -219,28 +268,9 @@ def _variables(bundles: int, image: Int64, frame: Frame, memory: Walk) -> int:
 
 
 @njit(cache=True)
-def _tests(bundles: int, sets: int, variables: int, frame: Frame, memory: Walk) -> None:
-    """Give each critical set to the variable whose value completes it."""
-    tests = memory.tests
-    for v in range(variables):
-        tests[v] = 0
-    for i in range(sets):
-        s = frame.sets[0, i]
-        mask = 0
-        due = 0
-        for b in range(bundles):
-            if (s >> frame.ends[0, b]) & (s >> frame.ends[1, b]) & 1:
-                mask |= 3 << (2 * b)
-                due = max(due, memory.variable[b])
-        memory.masks[due, tests[due]] = mask
-        memory.limits[due, tests[due]] = frame.sets[1, i]
-        tests[due] += 1
-
-
-@njit(cache=True)
 def walk(
     bundles: int,
-    sets: int,
+    words: int,
     image: Int64,
     target: int,
     mobility: int,
@@ -254,7 +284,7 @@ def walk(
 
     Args:
         bundles: number of bundles in the frame.
-        sets: number of critical sets in the frame.
+        words: what `set_budgets` returned.
         image: node -> its image under the automorphism.
         target: 3V - 3 - F, which the sum of c - excess must reach.
         mobility: F.
@@ -269,19 +299,22 @@ def walk(
     Returns:
         The number of these assignments; `out` must have room for them.
 
-    A set is tested as soon as its last bundle has a value. Cost: about 10 ns for each assignment tried.
+    Cost: about 10 ns for each value tried.
     """
-    variables = _variables(bundles, image, frame, memory)
-    _tests(bundles, sets, variables, frame, memory)
+    if words < 0:
+        return 0
+    variables = _variables(bundles, words, image, frame, memory)
     state = memory.state
-    word, total, excess, links = state[0], state[1], state[2], state[3]
-    joints, flags, value = state[4], state[5], state[6]
+    total, excess, links, joints, flags, value = state[0], state[1], state[2], state[3], state[4], state[5]
+    table, size, number = values.table, values.size, frame.number
+    inner, outer, budget, variable = memory.inner_sum, memory.outer_sum, memory.budget, memory.variable
+    lead, length, manner = memory.lead, memory.length, memory.manner
     spare = max(mobility - 1, 0)
     after = bundles  # bundles whose value is still open
     found = 0
     d = 0
     value[0] = -1
-    for i in range(6):
+    for i in range(5):
         state[i, 0] = 0
     while d >= 0:
         if d == variables:
@@ -291,53 +324,47 @@ def walk(
                 totals[2] += flags[d]
                 if out.shape[0]:
                     for b in range(bundles):
-                        out[found, b] = value[memory.variable[b]]
+                        out[found, b] = value[variable[b]]
                 found += 1
             d -= 1
-            after += memory.length[d]
+            after += length[d]
             continue
-        strings_ = frame.number[memory.lead[d]]
+        strings_ = number[lead[d]]
         value[d] += 1
-        if value[d] == values.size[strings_]:
+        if value[d] == size[strings_]:
             d -= 1
             if d >= 0:
-                after += memory.length[d]
+                after += length[d]
             continue
-        row = values.table[strings_, value[d]]
-        length = memory.length[d]
-        sum_now = total[d] + length * (row[COST] - row[EXCESS])
-        excess_now = excess[d] + length * row[EXCESS]
+        i = value[d]
+        cost, more = table[strings_, i, COST], table[strings_, i, EXCESS]
+        times = length[d]
+        sum_now = total[d] + times * (cost - more)
+        excess_now = excess[d] + times * more
         if excess_now > spare or sum_now - (spare - excess_now) > target:
             continue
-        if sum_now + 2 * (after - length) < target:
+        if sum_now + 2 * (after - times) < target:
             continue
-        lanes = memory.lanes[d]
-        now = word[d]
-        if row[COST] > 0:
-            now |= lanes
-        if row[COST] > 1:
-            now |= lanes << 1
-        sound = True
-        for i in range(memory.tests[d]):
-            if popcount(now & memory.masks[d, i]) > memory.limits[d, i]:
-                sound = False
-                break
-        if not sound:
+        overdrawn = 0
+        for j in range(words):
+            left = budget[d, j] - cost * inner[d, j] - (2 - cost) * outer[d, j]
+            budget[d + 1, j] = left
+            overdrawn |= left
+        if overdrawn & OVERDRAWN:
             continue
-        word[d + 1] = now
         total[d + 1] = sum_now
         excess[d + 1] = excess_now
         links[d + 1] = links[d]
         joints[d + 1] = joints[d]
         flags[d + 1] = flags[d]
-        if memory.manner[d] == FIXED:
-            links[d + 1] += row[LINKS]
-            joints[d + 1] += row[JOINTS]
-            flags[d + 1] += 2 * row[JOINTS]
-        elif memory.manner[d] == TURNED:
-            links[d + 1] += row[TURNED_LINKS]
-            joints[d + 1] += row[TURNED_JOINTS]
-        after -= length
+        if manner[d] == FIXED:
+            links[d + 1] += table[strings_, i, LINKS]
+            joints[d + 1] += table[strings_, i, JOINTS]
+            flags[d + 1] += 2 * table[strings_, i, JOINTS]
+        elif manner[d] == TURNED:
+            links[d + 1] += table[strings_, i, TURNED_LINKS]
+            joints[d + 1] += table[strings_, i, TURNED_JOINTS]
+        after -= times
         d += 1
         if d < variables:
             value[d] = -1

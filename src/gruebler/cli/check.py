@@ -54,10 +54,7 @@ _WIDEST_NAME = 44
 
 def run(arguments: argparse.Namespace) -> int:
     """Check what the arguments name; 1 if a claim fails."""
-    if arguments.chains:
-        found = [one for word in arguments.chains for one in _checked(word, arguments)]
-    else:
-        found = check_all()
+    found = [one for word in arguments.chains for one in _checked(word, arguments)] if arguments.chains else check_all()
     if arguments.json:
         print(json.dumps([to_json(one) for one in found], ensure_ascii=False, indent=2))
     elif arguments.explain:
