@@ -1,0 +1,58 @@
+"""Roll-slide joints: a contact stands for a binary link between two turning pairs.
+
+A roll-slide joint takes away one motion, along the common normal at the point of contact. So does a binary link with
+two revolutes, along its own line: the two centres of curvature lie at its ends. Counted and generic mobility are the
+same (docs/theory/mobility.md, where a contact is a bar), so the chains with k contacts and mobility F are exactly the
+chains of revolutes with k more links, k binary ones of which, no two of them neighbours, are taken as contacts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from gruebler.chain import Chain
+from gruebler.errors import ChainError
+from gruebler.isomorphism import orbits, symmetry
+
+__all__ = ["with_contacts"]
+
+
+def with_contacts(chain: Chain, number: int) -> Iterator[Chain]:
+    """The chain with this many of its binary links, joined by revolutes, turned into roll-slide joints.
+
+    One for each orbit of choices; links that carry no binary link away keep their names. Cost O(choices · generators).
+
+    >>> [str(gears) for gears in with_contacts(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), 1)]
+    ['R(1-2) R(2-3) G(1-3)']
+    """
+    if number < 0:
+        raise ChainError(f"a chain has no {number} contacts")
+    ends = {link: _neighbours(chain, link) for link in chain.links}
+    bars = [link for link in chain.links if len(set(ends[link])) == 2 == chain.degrees[link]]
+    choices = [
+        frozenset(chosen)
+        for chosen in combinations(bars, number)
+        if not any(other in ends[link] for link in chosen for other in chosen) and chain.n - number >= 3
+    ]
+    images = [
+        {choice: frozenset(chain.links[g.links[chain.index(link)]] for link in choice) for choice in choices}
+        for g in symmetry(chain).generators
+    ]
+    for orbit in orbits(choices, images):
+        chosen = orbit[0]
+        kept = [joint for joint in chain.joints if not chosen & set(joint.links)]
+        contacts = [("roll_slide", ends[link]) for link in chain.links if link in chosen]
+        links = [link for link in chain.links if link not in chosen]
+        yield Chain([*kept, *contacts], links=links, space=chain.space)
+
+
+def _neighbours(chain: Chain, link: str) -> list[str]:
+    """The links at the other ends of a link's simple revolutes; other joints end nowhere."""
+    return [
+        other
+        for joint in chain.joints_of(link)
+        if joint.pair.name == "revolute" and joint.count == 1
+        for other in joint.links
+        if other != link
+    ]
