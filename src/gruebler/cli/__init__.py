@@ -36,6 +36,8 @@ def build_parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=_Parser)
     _add_check(commands)
     _add_catalog(commands)
+    _add_inversions(commands)
+    _add_variants(commands)
     _add_demo(commands)
     return parser
 
@@ -85,6 +87,53 @@ def _add_catalog(commands: argparse._SubParsersAction[_Parser]) -> None:
     for action in (listing, show, search):
         action.add_argument("--json", action="store_true", help="as JSON")
         _add_language(action)
+
+
+def _add_inversions(commands: argparse._SubParsersAction[_Parser]) -> None:
+    inversions = commands.add_parser(
+        "inversions",
+        help="the mechanisms that a chain gives with another frame or drive",
+        description="One mechanism for each orbit of frames, or of frames and drives, under the chain's symmetry.",
+    )
+    inversions.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    inversions.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
+    inversions.add_argument("--drives", action="store_true", help="driven mechanisms: frame and drive")
+    inversions.add_argument("--anywhere", action="store_true", help="drives between moving links too")
+    inversions.add_argument("--number", type=int, default=1, metavar="D", help="so many drives (default: 1)")
+    inversions.add_argument("--output", action="store_true", help="choose an output link too")
+    inversions.add_argument("--count", action="store_true", help="only how many")
+    inversions.add_argument("--json", action="store_true", help="an object with count and items")
+    _add_language(inversions)
+    inversions.set_defaults(run="gruebler.cli.inversions")
+
+
+def _add_variants(commands: argparse._SubParsersAction[_Parser]) -> None:
+    variants = commands.add_parser(
+        "variants",
+        help="every typed chain or mechanism that answers requirements",
+        description="Every typed chain that answers the requirements, each once; mechanisms where something is asked "
+        "of frame, drive or output. PAIR@PLACE is a symbol or name of a pair (or nothing for any), and frame, moving "
+        "or any.",
+        epilog="Example: gruebler variants --links 6 --prismatic 1 --drive R@frame --at-frame P --count",
+    )
+    variants.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
+    variants.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
+    variants.add_argument("--prismatic", type=int, default=0, metavar="K", help="exactly so many sliding joints")
+    variants.add_argument("--rolling", type=int, default=0, metavar="K", help="exactly so many rolling joints")
+    variants.add_argument("--roll-slide", type=int, default=0, metavar="K", help="exactly so many gear or cam contacts")
+    variants.add_argument("--multiple-joints", type=int, default=0, metavar="K", help="exactly so many multiple joints")
+    variants.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    variants.add_argument("--frame-joints", type=int, metavar="K", help="joints on the frame: 3 for a ternary one")
+    variants.add_argument("--at-frame", action="append", default=[], metavar="PAIR[:K]", help="at least K at the frame")
+    variants.add_argument("--drive", action="append", default=[], metavar="PAIR@PLACE", help="one for each drive")
+    variants.add_argument("--output", metavar="PAIR@PLACE", help="the output link's joint; @moving: not at the frame")
+    variants.add_argument(
+        "--output-at-drive", choices=("yes", "no"), help="whether the output is a driven link's neighbour"
+    )
+    variants.add_argument("--count", action="store_true", help="only how many")
+    variants.add_argument("--json", action="store_true", help="an object with count and items")
+    _add_language(variants)
+    variants.set_defaults(run="gruebler.cli.variants")
 
 
 def _add_demo(commands: argparse._SubParsersAction[_Parser]) -> None:

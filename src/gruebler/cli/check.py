@@ -22,6 +22,7 @@ from gruebler.catalog import (
     read_entry,
 )
 from gruebler.chain import Chain
+from gruebler.cli.inputs import chain_of, is_text
 from gruebler.cli.tables import print_table
 from gruebler.errors import CatalogError, GrueblerError, NotationError
 from gruebler.mobility import mobility_report
@@ -134,8 +135,8 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
     """What one argument names: a chain, a catalog entry, an exercise or a file."""
     if word == "-":
         yield from _lines(sys.stdin.read(), "standard input", arguments)
-    elif "(" in word or word.lower().startswith("g6:"):
-        yield _plain(Chain.parse(word, arguments.space), word, arguments)
+    elif is_text(word):
+        yield _plain(chain_of(word, arguments.space), word, arguments)
     elif (path := Path(word)).is_file() or path.suffix in {".toml", ".json", ".txt"}:
         yield from _file(path, arguments)
     elif word in exercises():

@@ -1,0 +1,43 @@
+"""What a word on the command line stands for: a text, a code, a graph6 code, or an entry of the catalog."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from gruebler.catalog import entry
+from gruebler.chain import Chain
+from gruebler.isomorphism import decode
+from gruebler.mechanism import Mechanism
+
+__all__ = ["chain_of", "is_text", "mechanism_of"]
+
+
+def is_text(word: str) -> bool:
+    """Whether the word describes a chain itself, rather than naming an entry or a file."""
+    return "(" in word or word.lstrip().lower().startswith("g6:") or _is_code(word)
+
+
+def _is_code(word: str) -> bool:
+    return re.match(r"\s*gr\d+:", word) is not None
+
+
+def chain_of(word: str, space: str | None = None) -> Chain:
+    """The chain of a text, a code (its marks left out), a graph6 code, or a catalog entry."""
+    if _is_code(word):
+        return decode(word.strip()).chain
+    return Chain.parse(word, space) if is_text(word) else entry(word).chain()
+
+
+def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechanism:
+    """The mechanism of a text or code with its marks, or of a catalog entry; frame and drives given here win."""
+    if not is_text(word):
+        record = entry(word)
+        chain = record.chain()
+        found = Mechanism(chain, record.frame or chain.links[0], record.drives)
+    elif "(" in word and not (_is_code(word) and ";frame=" not in word):
+        found = Mechanism.parse(word)
+    else:
+        chain = chain_of(word)
+        found = Mechanism(chain, chain.links[0])
+    return Mechanism(found.chain, found.frame if frame is None else frame, drives or found.drives)

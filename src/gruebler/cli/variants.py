@@ -1,0 +1,76 @@
+"""`gruebler variants`: every typed chain or mechanism that answers a set of requirements."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from gruebler.chain import Chain
+from gruebler.cli.inversions import item
+from gruebler.errors import GrueblerError
+from gruebler.inversion import Driven
+from gruebler.isomorphism import code
+from gruebler.specialisation import Requirements, Wanted, variants
+
+__all__ = ["run"]
+
+_FOUND = {"en": "{n} found.", "de": "{n} gefunden."}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List or count the variants."""
+    wanted = Requirements(
+        links=arguments.links,
+        mobility=arguments.mobility,
+        prismatic=arguments.prismatic,
+        rolling=arguments.rolling,
+        roll_slide=arguments.roll_slide,
+        assortment=_numbers(arguments.assortment),
+        multiple_joints=arguments.multiple_joints,
+        drives=tuple(Wanted.parse(text) for text in arguments.drive),
+        at_frame=tuple(_at_frame(text) for text in arguments.at_frame),
+        frame_joints=arguments.frame_joints,
+        output=None if arguments.output is None else Wanted.parse(arguments.output),
+        output_at_drive={"yes": True, "no": False, None: None}[arguments.output_at_drive],
+    )
+    if arguments.count:
+        number = sum(1 for _ in variants(wanted))
+        print(json.dumps({"count": number}) if arguments.json else number)
+        return 0
+    found = list(variants(wanted))
+    if arguments.json:
+        items = [_item(one) for one in found]
+        print(json.dumps({"count": len(items), "items": items}, ensure_ascii=False, indent=2))
+        return 0
+    for one in found:
+        print(_text(one))
+    print("\n" + _FOUND[arguments.lang].format(n=len(found)))
+    return 0
+
+
+def _item(one: Chain | Driven) -> dict[str, object]:
+    return item(one) if isinstance(one, Driven) else {"code": code(one), "text": str(one)}
+
+
+def _text(one: Chain | Driven) -> str:
+    if isinstance(one, Chain):
+        return str(one)
+    return str(one.mechanism) + ("" if one.output is None else f"; output {one.output}")
+
+
+def _numbers(text: str | None) -> tuple[int, ...] | None:
+    if text is None:
+        return None
+    try:
+        return tuple(int(part) for part in text.split(","))
+    except ValueError:
+        raise GrueblerError(
+            f"--assortment {text!r}: expected numbers of binary, ternary, ... links such as 4,2"
+        ) from None
+
+
+def _at_frame(text: str) -> tuple[Wanted, int]:
+    symbol, _, number = text.partition(":")
+    if number and not number.isdecimal():
+        raise GrueblerError(f"--at-frame {text!r}: expected a pair, or a pair and a number such as P:2")
+    return Wanted.parse(f"{symbol}@frame"), int(number or 1)
