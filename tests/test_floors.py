@@ -18,8 +18,9 @@ FLOORS = [
     {"notation"},
     {"chain"},
     {"mobility", "isomorphism"},
-    {"mechanism"},
-    {"inversion"},
+    {"enumeration", "mechanism"},
+    {"assur", "inversion", "transformation"},
+    {"specialisation"},
     {"catalog"},
     {"cli"},
 ]
