@@ -19,8 +19,8 @@ FLOORS = [
     {"chain"},
     {"mobility", "isomorphism"},
     {"enumeration", "mechanism"},
-    {"assur", "inversion", "transformation"},
-    {"specialisation"},
+    {"assur", "inversion"},
+    {"transformation", "specialisation"},
     {"catalog"},
     {"cli"},
 ]

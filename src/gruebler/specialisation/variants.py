@@ -23,7 +23,7 @@ def typed_chains(wanted: Requirements) -> Iterator[Chain]:
     links, and the other pairs on the revolutes that are left; each chain once. Different chains of revolutes give
     different chains with contacts (a contact is undone in one way), so no isomorphism test is needed.
     """
-    from gruebler.enumeration import chains
+    from gruebler.enumeration.request import chains
 
     if wanted.links < 3:
         raise GrueblerError(f"a chain has at least three links, not {wanted.links}")
