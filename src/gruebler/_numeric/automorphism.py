@@ -11,7 +11,10 @@ from gruebler._numeric.label_workspace import (
     BEST_LAB,
     BEST_POS,
     BORN,
+    COLOURED_GRAPH,
+    COUNT,
     FAR,
+    FLAG,
     FORM,
     FORM_READY,
     FORM_START,
@@ -23,15 +26,19 @@ from gruebler._numeric.label_workspace import (
     LAB,
     MOVED,
     NEAR,
+    NOTHING,
     ORBIT,
     OVERFLOW,
     PARENT,
     POS,
+    ROW,
     SIZE,
     SPARE,
     START,
     SUPPORT,
+    TABLE,
     TRAIL,
+    WORKSPACE,
     Int32,
     Int64,
     Workspace,
@@ -39,7 +46,7 @@ from gruebler._numeric.label_workspace import (
 from gruebler._numeric.partition import sort_words
 
 
-@njit(cache=True)
+@njit(COUNT(TABLE, COUNT, COUNT), cache=True)
 def root(rows: Int32, row: int, v: int) -> int:
     """Return the least vertex of the orbit of v in a forest kept in one row, and shorten the way to it."""
     while rows[row, v] != v:
@@ -48,7 +55,7 @@ def root(rows: Int32, row: int, v: int) -> int:
     return v
 
 
-@njit(cache=True)
+@njit(FLAG(TABLE, COUNT, COUNT, COUNT), cache=True)
 def join(rows: Int32, row: int, v: int, w: int) -> bool:
     """Unite the orbits of v and w under the smaller root; return whether they were two."""
     v = root(rows, row, v)
@@ -60,7 +67,7 @@ def join(rows: Int32, row: int, v: int, w: int) -> bool:
     return v != w
 
 
-@njit(cache=True)
+@njit(COUNT(COUNT, COUNT, COUNT, COUNT, ROW, ROW, ROW, WORKSPACE), cache=True)
 def _write_row(
     v: int,
     names: int,
@@ -83,7 +90,7 @@ def _write_row(
     return count
 
 
-@njit(cache=True)
+@njit(FLAG(COUNT, *COLOURED_GRAPH, WORKSPACE), cache=True)
 def _respects(
     moved: int, vertex_colour: Int64, indptr: Int32, neighbour: Int32, edge_colour: Int32, ws: Workspace
 ) -> bool:
@@ -104,7 +111,7 @@ def _respects(
     return True
 
 
-@njit(cache=True)
+@njit(NOTHING(COUNT, WORKSPACE), cache=True)
 def _keep(moved: int, ws: Workspace) -> None:
     """Unite the orbits of the automorphism under trial and, if that made fewer of them, store it."""
     state, rows, pool = ws.state, ws.rows, ws.pool

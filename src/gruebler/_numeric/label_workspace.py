@@ -6,6 +6,7 @@ A workspace is made once, by `make_workspace`, and then labels any number of gra
 from typing import Final, NamedTuple
 
 import numpy as np
+from numba import typeof, types
 from numpy.typing import NDArray
 
 Int32 = NDArray[np.int32]
@@ -133,3 +134,19 @@ def make_workspace(n: int, m: int, support: int | None = None) -> Workspace:
         ends=np.empty((END_ROWS, 2 * m + 1), np.uint64),
         pool=np.empty((3, max(support, m + 1)), np.int32),
     )
+
+
+# Types for signatures. A kernel that is called from several places states its signature: left alone, numba
+# compiles it anew for every constant and every width of integer that some call hands it, which made the first
+# labelling of all take twice as long to compile.
+NOTHING: Final = types.void
+COUNT: Final = types.int64
+FLAG: Final = types.boolean
+WORD: Final = types.uint64
+ROW: Final = types.int32[::1]
+LONG_ROW: Final = types.int64[::1]
+TABLE: Final = types.int32[:, ::1]
+WORD_TABLE: Final = types.uint64[:, ::1]
+WORKSPACE: Final = typeof(make_workspace(1, 1))  # type: ignore[no-untyped-call, unused-ignore]
+ROWS_OF_GRAPH: Final = (ROW, ROW)  # indptr, neighbour
+COLOURED_GRAPH: Final = (LONG_ROW, ROW, ROW, ROW)  # vertex colours, indptr, neighbour, edge colours

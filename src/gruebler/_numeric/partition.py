@@ -18,22 +18,30 @@ from gruebler._numeric.label_workspace import (
     BORN,
     CELL,
     CELLS,
+    COUNT,
     EARLY_TRACE,
     FIRST_EARLY,
+    FLAG,
     HITS,
     KEY,
     LAB,
     LISTED,
+    NOTHING,
     PARENT,
     POS,
     QUEUE,
     QUEUED,
+    ROWS_OF_GRAPH,
     SIZE,
     SUM,
+    TABLE,
     TOUCHED,
     TRAIL,
     WAITING,
     WEIGHT,
+    WORD,
+    WORD_TABLE,
+    WORKSPACE,
     Int32,
     Int64,
     UInt64,
@@ -52,7 +60,7 @@ ROUNDS: Final = 2
 # Up to this length insertion is quicker than heap sort.
 SHORT: Final = 24
 # After so many splitting cells a refinement asks, once, whether it can still matter.
-EARLY: Final = 32
+EARLY: Final = 8
 
 
 @njit(cache=True)
@@ -64,7 +72,7 @@ def mix(x: np.uint64) -> np.uint64:
     return x ^ (x >> SHIFT)
 
 
-@njit(cache=True)
+@njit(NOTHING(WORD_TABLE, COUNT, TABLE, COUNT, COUNT, COUNT, COUNT), cache=True)
 def _sift(keys: UInt64, row: int, items: Int32, item_row: int, low: int, root: int, count: int) -> None:
     k = keys[row, low + root]
     t = items[item_row, low + root]
@@ -83,7 +91,7 @@ def _sift(keys: UInt64, row: int, items: Int32, item_row: int, low: int, root: i
     items[item_row, low + root] = t
 
 
-@njit(cache=True)
+@njit(NOTHING(WORD_TABLE, COUNT, TABLE, COUNT, COUNT, COUNT), cache=True)
 def sort_words(keys: UInt64, row: int, items: Int32, item_row: int, low: int, high: int) -> None:
     """Sort `keys[row, low:high]` in place, ascending, and carry `items[item_row, low:high]` along.
 
@@ -236,7 +244,7 @@ def single_out(v: int, ws: Workspace) -> None:
     state[WAITING] += 1
 
 
-@njit(cache=True)
+@njit(NOTHING(COUNT, WORKSPACE), cache=True)
 def undo(mark: int, ws: Workspace) -> None:
     """Take back all splits after the first `mark` of the trail."""
     state, rows = ws.state, ws.rows
@@ -250,7 +258,7 @@ def undo(mark: int, ws: Workspace) -> None:
     state[TRAIL] = mark
 
 
-@njit(cache=True)
+@njit(WORD(COUNT, *ROWS_OF_GRAPH, COUNT, FLAG, FLAG, WORKSPACE), cache=True)
 def refine(
     n: int, indptr: Int32, neighbour: Int32, level: int, like_first: bool, bounded: bool, ws: Workspace
 ) -> np.uint64:

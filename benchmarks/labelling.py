@@ -1,0 +1,118 @@
+"""Canonical labelling: our kernel and igraph (the program bliss), side by side in one run on the same graphs."""
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import igraph
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.canonical import adjacency, canonical_bulk, label_graph
+from gruebler._numeric.label_workspace import make_workspace
+
+GRAPHS = 20_000
+JUDGED = 2_000  # of them igraph labels so many
+
+
+class Row(NamedTuple):
+    """One line of the table: times in microseconds for one graph."""
+
+    name: str
+    ours: float
+    igraph: float
+
+    @property
+    def ratio(self) -> float:
+        return self.igraph / self.ours
+
+
+def random_chain(n: int, rng: np.random.Generator) -> NDArray[np.int32]:
+    """A four-bar with (n - 4) / 2 strings of two links between random links, shuffled: int32[m, 2]."""
+    edges = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    for link in range(4, n, 2):
+        u, v = rng.choice(link, 2, replace=False)
+        edges += [(int(u), link), (link, link + 1), (link + 1, int(v))]
+    return rng.permutation(rng.permutation(n)[np.array(edges)]).astype(np.int32)
+
+
+def theta(strings: int) -> nx.Graph:
+    """Two links joined by strings of two links."""
+    graph = nx.Graph()
+    for i in range(strings):
+        nx.add_path(graph, ["a", (i, 0), (i, 1), "b"])
+    return graph
+
+
+FAMILIES: dict[str, Callable[[], nx.Graph]] = {
+    "theta graph, 7 strings": lambda: theta(7),
+    "theta graph, 12 strings": lambda: theta(12),
+    "K(2,50)": lambda: nx.complete_bipartite_graph(2, 50),
+    "K(50,50)": lambda: nx.complete_bipartite_graph(50, 50),
+    "cycle, 300": lambda: nx.cycle_graph(300),
+    "prism, 2 x 50": lambda: nx.circular_ladder_graph(50),
+    "Petersen": nx.petersen_graph,
+    "30 Petersen graphs": lambda: nx.disjoint_union_all([nx.petersen_graph()] * 30),
+    "cube, 5 dimensions": lambda: nx.hypercube_graph(5),
+    "Hoffman-Singleton": nx.hoffman_singleton_graph,
+    "rook, 10 x 10": lambda: nx.line_graph(nx.complete_bipartite_graph(10, 10)),
+    "Paley, 101": lambda: nx.paley_graph(101).to_undirected(),
+    "binary tree, 1023": lambda: nx.balanced_tree(2, 9),
+    "random cubic, 100": lambda: nx.random_regular_graph(3, 100, seed=1),
+    "random cubic, 1000": lambda: nx.random_regular_graph(3, 1000, seed=1),
+}
+
+
+def microseconds(call: Callable[[], object], graphs: int = 1, runs: int = 5) -> float:
+    """The least of some runs, for one graph."""
+    times = []
+    for _ in range(runs):
+        start = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - start)
+    return min(times) / graphs * 1e6
+
+
+def chains(n: int) -> Row:
+    rng = np.random.default_rng(n)
+    packed = np.array([random_chain(n, rng) for _ in range(GRAPHS)])
+    judged = [igraph.Graph(n=n, edges=edges.tolist()) for edges in packed[:JUDGED]]
+    canonical_bulk(n, packed[:2])
+    return Row(
+        f"random chains, {n} links",
+        microseconds(lambda: canonical_bulk(n, packed), GRAPHS),
+        microseconds(lambda: [graph.canonical_permutation() for graph in judged], JUDGED),
+    )
+
+
+def family(name: str) -> Row:
+    graph = nx.convert_node_labels_to_integers(FAMILIES[name]())
+    n, m = len(graph), graph.number_of_edges()
+    edges = np.array(graph.edges(), np.int32)
+    edges = np.random.default_rng(0).permutation(n).astype(np.int32)[edges]
+    rows = np.empty(n + 1, np.int32), np.empty(2 * m, np.int32), np.empty(2 * m, np.int32)
+    adjacency(n, edges, np.zeros(m, np.int32), *rows)
+    colour = np.zeros(n, np.int64)
+    workspace = make_workspace(n, m)
+    judged = igraph.Graph(n=n, edges=edges.tolist())
+    return Row(
+        name,
+        microseconds(lambda: label_graph(n, colour, *rows, workspace)),
+        microseconds(judged.canonical_permutation),
+    )
+
+
+def run() -> list[Row]:
+    """Measure everything: some seconds, and as many again if the kernels must be compiled first."""
+    return [chains(n) for n in (10, 12, 14, 16)] + [family(name) for name in FAMILIES]
+
+
+def main() -> None:
+    print(f"{'microseconds for one graph':28} {'ours':>10} {'igraph':>10} {'igraph / ours':>14}")
+    for row in run():
+        print(f"{row.name:28} {row.ours:10.2f} {row.igraph:10.2f} {row.ratio:14.1f}")
+
+
+if __name__ == "__main__":
+    main()
