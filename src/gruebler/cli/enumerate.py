@@ -1,0 +1,258 @@
+"""`gruebler enumerate`: every chain of so many links, listed or counted."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import closing, contextmanager
+from typing import BinaryIO
+
+from gruebler.cli.tables import print_table
+from gruebler.enumeration.estimates import Estimate, estimate
+from gruebler.enumeration.request import Request, RequestCount
+from gruebler.enumeration.run_request import run_count, run_list
+from gruebler.enumeration.runs import Processes, Progress, RunError, whole_file
+from gruebler.enumeration.work import Listing
+from gruebler.errors import GrueblerError
+
+__all__ = ["run"]
+
+_LONG = 900.0  # seconds; what takes longer, or fills more than the following, is told and asked for again
+_LARGE = 8 * 10**9
+
+_WORDS = {
+    "en": {
+        "none": "not fractionated",
+        "link": "fractionated at a link",
+        "joint": "fractionated at a joint",
+        "assortment": "binary, ternary, ...",
+        "chains": "chains",
+        "inversions": "inversions (frame)",
+        "drives": "driven mechanisms (frame, drive at the frame)",
+        "joint_orbits": "joint orbits",
+        "found": "{n} chains written to {path}.",
+        "progress": "{pieces} pieces  {chains:,} chains  {rate:,.0f}/s  {left}",
+        "left": "about {time} left",
+        "size": "{about}{chains:,} chains",
+        "bytes": ", {size} of output",
+        "time": ", about {time}",
+        "refused": "{what}; say --yes to begin it nevertheless",
+    },
+    "de": {
+        "none": "nicht zerlegbar",
+        "link": "an einem Glied zerlegbar",
+        "joint": "an einem Gelenk zerlegbar",
+        "assortment": "binär, ternär, ...",
+        "chains": "Ketten",
+        "inversions": "Gestellwechsel (Gestell)",
+        "drives": "angetriebene Getriebe (Gestell, Antrieb am Gestell)",
+        "joint_orbits": "Gelenkbahnen",
+        "found": "{n} Ketten nach {path} geschrieben.",
+        "progress": "{pieces} Teile  {chains:,} Ketten  {rate:,.0f}/s  {left}",
+        "left": "noch etwa {time}",
+        "size": "{about}{chains:,} Ketten",
+        "bytes": ", {size} Ausgabe",
+        "time": ", etwa {time}",
+        "refused": "{what}; mit --yes wird trotzdem begonnen",
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List or count what the arguments ask for."""
+    request = Request(
+        arguments.links,
+        arguments.mobility,
+        arguments.fractionated,
+        _numbers(arguments.assortment),
+        arguments.multiple_joints,
+    )
+    form = None if arguments.count else _format(arguments, request)
+    if arguments.orbits and form is not None:
+        raise GrueblerError("--orbits goes with --count: it adds the numbers of mechanisms to the number of chains")
+    if arguments.output is not None and not arguments.output.parent.is_dir():
+        raise RunError(f"{arguments.output} cannot be written: there is no directory {arguments.output.parent}")
+    executor = None if arguments.jobs == 1 else Processes(arguments.jobs)
+    size = estimate(request, form)
+    _check_size(size, arguments)
+    if form is None:
+        return _count(request, arguments, executor, size)
+    return _list(request, form, arguments, executor, size)
+
+
+def _numbers(text: str | None) -> tuple[int, ...] | None:
+    if text is None:
+        return None
+    try:
+        return tuple(int(part) for part in text.split(","))
+    except ValueError:
+        raise GrueblerError(
+            f"--assortment {text!r}: expected numbers of binary, ternary, ... links such as 4,4"
+        ) from None
+
+
+def _format(arguments: argparse.Namespace, request: Request) -> str:
+    form = arguments.format or ("json" if arguments.json else "text")
+    if arguments.json and form != "json":
+        raise GrueblerError(f"--json is the same as --format json and does not go with --format {form}")
+    if form == "graph6" and not request.only_simple:
+        raise GrueblerError("graph6 describes chains with simple joints only: take --format text or json here")
+    return str(form)
+
+
+def _check_size(size: Estimate, arguments: argparse.Namespace) -> None:
+    """Refuse what would not fit, and say how much it is; say it too where it is begun with --yes."""
+    seconds = size.seconds / arguments.jobs
+    if seconds <= _LONG and size.bytes <= _LARGE:
+        return
+    words = _WORDS[arguments.lang]
+    what = words["size"].format(about="" if size.exact else "~ ", chains=size.chains)
+    if size.bytes:
+        what += words["bytes"].format(size=_bytes(size.bytes))
+    what += words["time"].format(time=_time(seconds))
+    if not arguments.yes:
+        raise GrueblerError(words["refused"].format(what=what))
+    print(f"gruebler enumerate: {what}", file=sys.stderr)
+
+
+def _bytes(number: float) -> str:
+    for unit in ("B", "kB", "MB", "GB", "TB"):
+        if number < 1000:
+            return f"{number:.0f} {unit}"
+        number /= 1000
+    return f"{number:.0f} PB"
+
+
+def _time(seconds: float) -> str:
+    for size, unit in ((86400, "d"), (3600, "h"), (60, "min")):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.0f} {unit}"
+    return f"{seconds:.0f} s"
+
+
+def _count(
+    request: Request,
+    arguments: argparse.Namespace,
+    executor: Callable[[], Executor] | None,
+    size: Estimate,
+) -> int:
+    with _drawn(arguments.lang) as draw:
+        found = run_count(
+            request,
+            orbits=arguments.orbits,
+            executor=executor,
+            checkpoint=arguments.checkpoint,
+            progress=draw,
+            expected=size.chains,
+        )
+    document = found.to_json()
+    if request.fractionated == "all":
+        document["by_fractionation"] = found.by_fractionation
+    if arguments.output is not None:
+        with whole_file(arguments.output) as file:
+            file.write((json.dumps(document, indent=2) + "\n").encode())
+    elif arguments.json:
+        print(json.dumps(document, indent=2))
+    else:
+        _print_count(found, request, arguments.lang)
+    return 0
+
+
+def _print_count(found: RequestCount, request: Request, lang: str) -> None:
+    words = _WORDS[lang]
+    if found.by_assortment:
+        rows = [(",".join(map(str, numbers)), str(n)) for numbers, n in found.by_assortment.items()]
+        print_table([words["assortment"], words["chains"]], rows, numbers=(1,))
+        print()
+    if request.fractionated == "all":
+        for kind, number in found.by_fractionation.items():
+            print(f"{words[kind]}: {number}")
+    for name in ("chains", "inversions", "drives", "joint_orbits"):
+        number = getattr(found, name)
+        if number is not None:
+            print(f"{words[name]}: {number}")
+
+
+def _list(
+    request: Request,
+    form: str,
+    arguments: argparse.Namespace,
+    executor: Callable[[], Executor] | None,
+    size: Estimate,
+) -> int:
+    with (
+        _drawn(arguments.lang) as draw,
+        closing(
+            run_list(
+                request,
+                form,
+                executor=executor,
+                checkpoint=arguments.checkpoint,
+                progress=draw,
+                expected=size.chains,
+            )
+        ) as listings,
+    ):
+        if arguments.output is None:
+            sys.stdout.flush()  # what follows goes past its buffer
+            _write(listings, form, request, sys.stdout.buffer)
+            return 0
+        with whole_file(arguments.output) as file:
+            number = _write(listings, form, request, file)
+    if sys.stdout.isatty():
+        print(_WORDS[arguments.lang]["found"].format(n=number, path=arguments.output))
+    return 0
+
+
+def _write(listings: Iterator[Listing], form: str, request: Request, file: BinaryIO) -> int:
+    """Write the chains; returns their number. Text says in a comment where chains of another class begin."""
+    number = 0
+    last = ""
+    for listing in listings:
+        if not listing.chains:
+            continue
+        text = listing.text
+        if form == "json":
+            file.write(b",\n" if number else b"[\n")
+            text = text.rstrip(b"\n").replace(b"\n", b",\n")
+        elif form == "text" and request.fractionated == "all" and listing.kind != last:
+            file.write(f"# {listing.kind}\n".encode())
+            last = listing.kind
+        file.write(text)
+        number += listing.chains
+    if form == "json":
+        file.write(b"\n]\n" if number else b"[]\n")
+    return number
+
+
+@contextmanager
+def _drawn(lang: str) -> Iterator[Callable[[Progress], None] | None]:
+    """Something that draws the progress on a terminal; None elsewhere."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.live import Live
+    from rich.text import Text
+
+    words = _WORDS[lang]
+    # Without a thread of its own, so that worker processes can be forked.
+    with Live(console=Console(stderr=True), auto_refresh=False, transient=True) as live:
+        shown = 0.0
+
+        def draw(progress: Progress) -> None:
+            nonlocal shown
+            if progress.seconds - shown < 0.2:
+                return
+            shown = progress.seconds
+            seconds = progress.seconds_left
+            left = "" if seconds is None else words["left"].format(time=_time(seconds))
+            line = words["progress"].format(
+                pieces=progress.pieces, chains=progress.chains, rate=progress.rate, left=left
+            )
+            live.update(Text(line), refresh=True)
+
+        yield draw

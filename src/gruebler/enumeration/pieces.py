@@ -1,0 +1,222 @@
+"""The work of an enumeration, cut into pieces that know nothing of each other.
+
+A piece is plain data: some contracted graphs and what is asked of them. `count_piece` and `list_piece` are pure
+functions of a piece, so a piece can be sent to any worker, done twice or done again; the pieces of a task and
+their order are always the same.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import Executor, Future
+from functools import cache
+from itertools import islice
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.enumeration.assortment import Assortment, joint_number, loop_number
+from gruebler.enumeration.contracted import MOST_LOOPS, packed_graphs
+from gruebler.errors import GrueblerError
+
+__all__ = ["Piece", "PieceCount", "count_piece", "list_piece", "pieces", "run"]
+
+MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
+
+Packed = NDArray[np.int64]
+P = TypeVar("P")
+R = TypeVar("R")
+
+
+class Piece(NamedTuple):
+    """A part of an enumeration: contracted graphs of one number of loops."""
+
+    links: int
+    mobility: int
+    graphs: Packed
+    """int64[k, nodes], packed and canonical."""
+    work: int
+    """About how many string assignments there are to go through; counting takes a nanosecond for each."""
+
+
+class PieceCount(NamedTuple):
+    """The chains of one assortment in a piece, and the orbits on them (0 if not asked for)."""
+
+    assortment: Assortment
+    chains: int
+    inversions: int
+    joint_orbits: int
+    drives: int
+
+
+def pieces(
+    links: int, mobility: int, *, assortment: Sequence[int] | None = None, size: int = 50_000_000
+) -> Iterator[Piece]:
+    """The non-fractionated chains of n links and mobility F, at least two loops, in pieces of similar work.
+
+    Args:
+        links: number of links, n.
+        mobility: F.
+        assortment: (n_2, n_3, ...), if only chains of this assortment are wanted.
+        size: the work of a piece, as `Piece.work`; a contracted graph is not divided.
+
+    Chains of one loop have no contracted graph and no piece; impossible numbers give no piece either.
+
+    Raises:
+        GrueblerError: numbers that make no sense, or more loops or freedoms than the kernels can hold.
+    """
+    loops = loop_number(links, mobility)
+    if loops is None or loops < 2:
+        return iter(())
+    if loops > MOST_LOOPS or mobility > MOST_FREEDOMS:
+        raise GrueblerError(
+            f"{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
+            f"{MOST_LOOPS} loops and mobility {MOST_FREEDOMS}"
+        )
+    return _cut(links, mobility, None if assortment is None else tuple(assortment), size)
+
+
+def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) -> Iterator[Piece]:
+    loops = loop_number(links, mobility)
+    assert loops is not None
+    waiting: list[Packed] = []
+    load = 0
+    for block in packed_graphs(loops):
+        rows = block[:, : 2 * loops - 2]
+        if assortment is not None:
+            rows = rows[_has_degrees(rows, assortment)]
+        begin = 0
+        total = load + np.cumsum(_work(rows))
+        while begin < len(rows):
+            end = min(int(np.searchsorted(total, size)) + 1, len(rows))
+            waiting.append(rows[begin:end])
+            load, begin = int(total[end - 1]), end
+            if load >= size:
+                yield Piece(links, mobility, np.concatenate(waiting), load)
+                total -= load
+                waiting, load = [], 0
+    if waiting:
+        yield Piece(links, mobility, np.concatenate(waiting), load)
+
+
+def _strings(rows: Packed) -> NDArray[np.int64]:
+    """int64[k, nodes, nodes]: the numbers of strings between nodes."""
+    nodes = np.arange(rows.shape[1])
+    found: NDArray[np.int64] = rows[:, :, None] >> (4 * nodes) & 15
+    return found
+
+
+def _work(rows: Packed) -> NDArray[np.int64]:
+    """For each graph the ways to give c = 0, 1, 2 to its bundles with the sum 3V - 4, and a fixed cost.
+
+    That is what the assignments would be if no set of nodes could be rigid, one to five times too many. For the
+    graphs that take most of the time counting costs 0.7 to 1.7 ns for each (seven and eight loops, F = 1).
+    """
+    bundles = np.count_nonzero(_strings(rows), axis=(1, 2)) // 2
+    found: NDArray[np.int64] = _trinomials()[bundles, 3 * np.count_nonzero(rows, axis=1) - 4] + 5000
+    return found
+
+
+@cache
+def _trinomials() -> NDArray[np.int64]:
+    """The coefficient of x^s in (1 + x + x^2)^b, for b and s up to 48."""
+    table = np.zeros((49, 49), np.int64)
+    table[0, 0] = 1
+    for b in range(1, 28):
+        table[b] = table[b - 1]
+        table[b, 1:] += table[b - 1, :-1]
+        table[b, 2:] += table[b - 1, :-2]
+    return table
+
+
+def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
+    """Which of the graphs have so many nodes of three, four, ... strings; their degrees fall."""
+    wanted = [i for i, k in enumerate(assortment, 2) if i > 2 for _ in range(k)][::-1]
+    if len(wanted) > rows.shape[1]:
+        return np.zeros(len(rows), np.bool_)
+    row = np.array(wanted + [0] * (rows.shape[1] - len(wanted)), np.int64)
+    found: NDArray[np.bool_] = (_strings(rows).sum(axis=2) == row).all(axis=1)
+    return found
+
+
+def count_piece(piece: Piece, orbits: bool = False) -> tuple[PieceCount, ...]:
+    """The numbers of chains of a piece by assortment, with orbits if asked for.
+
+    Raises:
+        OverflowError: a number beyond 64 bits.
+    """
+    from gruebler._numeric.census import COLUMNS, DEGREES, DIGITS, make_bench, take_census
+
+    loops = loop_number(piece.links, piece.mobility)
+    assert loops is not None
+    table = np.zeros((len(piece.graphs), COLUMNS), np.int64)
+    take_census(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_bench(loops, piece.mobility), table)
+    found = []
+    for code in np.unique(table[:, DEGREES]):
+        higher = []
+        rest = int(code)
+        while rest:
+            higher.append(rest & ((1 << DIGITS) - 1))
+            rest >>= DIGITS
+        sums = [sum(column) for column in table[table[:, DEGREES] == code, DEGREES + 1 :].T.tolist()]
+        found.append(PieceCount((piece.links - sum(higher), *higher), *sums))
+    return tuple(found)
+
+
+def list_piece(piece: Piece, form: str = "edges") -> NDArray[np.uint8]:
+    """The chains of a piece in canonical order.
+
+    Args:
+        piece: the piece.
+        form: ``edges`` for uint8[k, joints, 2], ``graph6`` for uint8[k, bytes of a line].
+    """
+    blocks = list(_blocks(piece, form))
+    return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
+
+
+def _blocks(piece: Piece, form: str) -> Iterator[NDArray[np.uint8]]:
+    from gruebler._numeric.chain_lists import line_length, list_chains, make_desk, write_graph6
+
+    loops, joints = loop_number(piece.links, piece.mobility), joint_number(piece.links, piece.mobility)
+    assert loops is not None
+    assert joints is not None
+    desk = make_desk(loops, piece.mobility)
+    graphs = np.ascontiguousarray(piece.graphs)
+    room = max(256, min(65536, piece.work // 4))
+    while True:
+        edges = np.empty((room, joints, 2), np.uint8)
+        found = list_chains(graphs, piece.mobility, desk, edges)
+        edges = edges[:found]
+        if form == "graph6":
+            lines = np.empty((found, line_length(piece.links)), np.uint8)
+            write_graph6(edges, piece.links, lines)
+            yield lines
+        else:
+            yield edges
+        if found < room:
+            return
+
+
+def run(
+    function: Callable[[P], R], work: Iterable[P], executor: Executor | None = None, ahead: int = 64
+) -> Iterator[R]:
+    """The results of a function for every piece, in order; at most `ahead` pieces are out at a time.
+
+    Without an executor the work is done here. What a piece raises is raised; pieces not yet begun are then,
+    or when the iterator is closed, taken back.
+    """
+    if executor is None:
+        yield from map(function, work)
+        return
+    source = iter(work)
+    out: deque[Future[R]] = deque(executor.submit(function, piece) for piece in islice(source, ahead))
+    try:
+        while out:
+            result = out.popleft().result()
+            out.extend(executor.submit(function, piece) for piece in islice(source, 1))
+            yield result
+    finally:
+        for future in out:
+            future.cancel()

@@ -1,0 +1,146 @@
+"""A request answered piece by piece: with workers, progress and a directory for what is finished."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from gruebler.enumeration.assortment import loop_number
+from gruebler.enumeration.request import Request, RequestCount
+from gruebler.enumeration.runs import Checkpoint, PieceFiles, Progress, Watch, perform
+from gruebler.enumeration.work import Counter, Lister, Listing, Tally, Work, add_tallies, work_of
+
+__all__ = ["FORMATS", "run_count", "run_list"]
+
+FORMATS = ("text", "graph6", "json")
+
+# Work of a piece, see `pieces.Piece`: a fraction of a second to count, some megabytes to list.
+_COUNTED, _COUNTED_LONG = 5_000_000, 100_000_000
+_LISTED = {"graph6": 1_000_000, "text": 200_000, "json": 100_000}
+
+
+def run_count(
+    request: Request,
+    *,
+    orbits: bool = False,
+    executor: Executor | Callable[[], Executor] | None = None,
+    checkpoint: Path | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    expected: int | None = None,
+) -> RequestCount:
+    """Count what is asked for.
+
+    Args:
+        request: what is asked for.
+        orbits: whether to count inversions, driven mechanisms and joint orbits too.
+        executor: see `runs.perform`.
+        checkpoint: a directory for finished pieces; a run with the same request goes on there.
+        progress: told after every piece.
+        expected: the number of chains, if it is known or estimated, for the progress.
+
+    Raises `RunError` where workers or the directory fail, and `GrueblerError` for more loops than can be worked on.
+    """
+    watch = Watch(progress, expected)
+    store = _store(checkpoint, request, {"count": True, "orbits": orbits})
+
+    def known(number: int) -> list[Tally] | None:
+        kept = store.head(number) if store is not None else None
+        if kept is None:
+            return None
+        found = [Tally(kind, tuple(assortment), *numbers) for kind, assortment, *numbers in kept["tallies"]]
+        watch.add(sum(tally.chains for tally in found), fresh=False)
+        return found
+
+    def finished(number: int, found: list[Tally]) -> None:
+        if store is not None:
+            store.save(number, {"tallies": found})
+        watch.add(sum(tally.chains for tally in found), fresh=True)
+
+    size = _COUNTED_LONG if (loop_number(request.links, request.mobility) or 0) > 7 else _COUNTED
+    results = perform(Counter(request, orbits), work_of(request, size=size), executor, known=known, finished=finished)
+    return add_tallies(request, orbits, results)
+
+
+def run_list(
+    request: Request,
+    form: str,
+    *,
+    executor: Executor | Callable[[], Executor] | None = None,
+    checkpoint: Path | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    expected: int | None = None,
+) -> Generator[Listing, None, None]:
+    """The chains asked for, written out in a format piece by piece; arguments as for `run_count`.
+
+    Raises as `run_count`, while it is gone through.
+    """
+    watch = Watch(progress, expected)
+    store = _store(checkpoint, request, {"format": form})
+    lister = Lister(request, form)
+    work = work_of(request, size=_LISTED[form])
+    if store is not None:
+        yield from _filed(lister, work, executor, store, watch)
+    elif executor is not None:
+        with TemporaryDirectory(prefix="gruebler-") as directory:
+            yield from _filed(lister, work, executor, PieceFiles(Path(directory), durable=False), watch)
+    else:
+        for piece in work:
+            found = lister(piece)
+            watch.add(sum(listing.chains for listing in found), fresh=True)
+            yield from found
+
+
+_Head = list[tuple[str, int, int]]
+"""Class, number of chains and number of bytes of each listing of a piece."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Filing:
+    """What a worker does to list a piece: the text goes into a file, only its head is handed back."""
+
+    lister: Lister
+    files: PieceFiles
+
+    def __call__(self, numbered: tuple[int, Work]) -> _Head:
+        number, work = numbered
+        found = self.lister(work)
+        head = [(listing.kind, listing.chains, len(listing.text)) for listing in found]
+        self.files.save(number, {"listings": head}, b"".join(listing.text for listing in found))
+        return head
+
+
+def _filed(
+    lister: Lister,
+    work: Iterable[Work],
+    executor: Executor | Callable[[], Executor] | None,
+    files: PieceFiles,
+    watch: Watch,
+) -> Iterator[Listing]:
+    def known(number: int) -> _Head | None:
+        kept = files.head(number)
+        if kept is None:
+            return None
+        head = [(kind, chains, length) for kind, chains, length in kept["listings"]]
+        watch.add(sum(chains for _, chains, _ in head), fresh=False)
+        return head
+
+    def finished(_: int, head: _Head) -> None:
+        watch.add(sum(chains for _, chains, _ in head), fresh=True)
+
+    heads = perform(_Filing(lister, files), enumerate(work), executor, known=known, finished=finished)
+    for number, head in enumerate(heads):
+        body = files.body(number)
+        for kind, chains, length in head:
+            yield Listing(kind, chains, body[:length])
+            body = body[length:]
+        if not files.durable:
+            files.remove(number)
+
+
+def _store(checkpoint: Path | None, request: Request, how: dict[str, object]) -> Checkpoint | None:
+    from gruebler import __version__
+
+    return None if checkpoint is None else Checkpoint(checkpoint, request.to_json() | how, __version__)

@@ -1,0 +1,413 @@
+"""Long runs: pieces of work done by workers that may die, kept on disk as they are finished, and gone on with later.
+
+A piece is done by a pure function, so it may be done twice. Nothing is printed here; `Progress` says how far a run is.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ProcessPoolExecutor, wait
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.connection import Connection
+from pathlib import Path
+from time import monotonic
+from typing import Any, BinaryIO, Generic, TypeVar
+
+from gruebler.errors import GrueblerError
+
+__all__ = ["Checkpoint", "PieceFiles", "Processes", "Progress", "RunError", "Watch", "perform", "whole_file"]
+
+P = TypeVar("P")
+R = TypeVar("R")
+
+_MANIFEST = "manifest.json"
+_ASIDE = ".aside"  # ends the names of files that are not whole yet
+_LAYOUT = 1  # of the checkpoint directory
+
+
+class RunError(GrueblerError):
+    """A run that cannot begin or go on: workers that keep dying, a directory of another task, an unwritable file."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a run is."""
+
+    pieces: int
+    """Finished pieces, those of an earlier run included."""
+    chains: int
+    """Chains in them."""
+    fresh: int
+    """Chains of this run alone."""
+    seconds: float
+    """Since this run began."""
+    expected: int | None = None
+    """Chains in all, if known or estimated."""
+
+    @property
+    def rate(self) -> float:
+        """Chains a second in this run."""
+        return self.fresh / self.seconds if self.seconds > 0 else 0.0
+
+    @property
+    def seconds_left(self) -> float | None:
+        """Estimated from the rate; None where nothing can be said yet.
+
+        >>> Progress(3, 500, 500, 2.0, 1500).seconds_left
+        4.0
+        """
+        if self.expected is None or not self.rate:
+            return None
+        return max(self.expected - self.chains, 0) / self.rate
+
+
+class Processes:
+    """Makes process pools, one after another, whose workers end when this process does.
+
+    Workers ignore the interrupt key; each watches a pipe that only this process holds open, so that neither a kill
+    nor an interrupt leaves workers behind. `stop` ends them at once, whatever they are doing.
+    """
+
+    def __init__(self, jobs: int) -> None:
+        if jobs < 1:
+            raise RunError(f"the work is done by at least one process, not by {jobs}")
+        self.jobs = jobs
+        self._line: Connection | None = None
+
+    def __call__(self) -> ProcessPoolExecutor:
+        """A fresh pool; the workers of the one before are ended."""
+        self.stop()
+        # Forking is quick and inherits loaded kernels, but is safe only where no other thread runs.
+        alone = sys.platform == "linux" and threading.active_count() == 1
+        context = get_context("fork" if alone else "spawn")
+        watched, self._line = context.Pipe(duplex=False)
+        return ProcessPoolExecutor(
+            self.jobs, mp_context=context, initializer=_begin_work, initargs=(watched, self._line)
+        )
+
+    def stop(self) -> None:
+        """End the workers of the last pool."""
+        if self._line is not None:
+            self._line.close()
+            self._line = None
+
+
+def _begin_work(watched: Connection, line: Connection) -> None:
+    line.close()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with, args=(watched,), daemon=True).start()
+
+
+def _end_with(watched: Connection) -> None:
+    """Wait until nobody holds the other end of the pipe, then end this process."""
+    try:
+        watched.recv_bytes()
+    except (EOFError, OSError):
+        os._exit(1)
+
+
+def perform(
+    function: Callable[[P], R],
+    work: Iterable[P],
+    executor: Executor | Callable[[], Executor] | None = None,
+    *,
+    known: Callable[[int], R | None] | None = None,
+    finished: Callable[[int, R], None] | None = None,
+    ahead: int = 32,
+    retries: int = 3,
+) -> Iterator[R]:
+    """The results of a function for every piece of work, in the order of the pieces.
+
+    Args:
+        function: a pure function of a piece; for processes, function, pieces and results can be pickled.
+        work: the pieces, taken lazily.
+        executor: where to do them: an executor, a function that makes one (it is then shut down here), or here if None.
+        known: gives the result of the piece of a number if it need not be done any more.
+        finished: called with number and result as soon as a piece is done here, in any order.
+        ahead: how many pieces may be out or waiting for an earlier one.
+        retries: how often in a row workers may be lost before anything is finished again.
+
+    Results that travel between processes should be small (some kilobytes): a worker killed while it sends a large one
+    leaves half of it in the pipe, and the pool waits for the rest without end. Large results go through `PieceFiles`.
+
+    A piece lost with its worker is done again on a fresh pool. A broken `ProcessPoolExecutor` that was given is
+    replaced by one of its kind for the rest.
+
+    Raises:
+        RunError: workers are lost again and again, or an executor broke that cannot be made anew.
+        Whatever the function raises.
+    """
+    kept = known if known is not None else _nothing
+    told = finished if finished is not None else _nothing
+    if executor is None:
+        return _done_here(function, work, kept, told)
+    return _done_by(lambda: _Crew(function, executor, retries), work, kept, told, ahead)
+
+
+def _nothing(*_: object) -> None:
+    return None
+
+
+def _done_here(
+    function: Callable[[P], R],
+    work: Iterable[P],
+    known: Callable[[int], R | None],
+    finished: Callable[[int, R], None],
+) -> Iterator[R]:
+    for number, piece in enumerate(work):
+        result = known(number)
+        if result is None:
+            result = function(piece)
+            finished(number, result)
+        yield result
+
+
+def _done_by(
+    gather: Callable[[], _Crew[P, R]],
+    work: Iterable[P],
+    known: Callable[[int], R | None],
+    finished: Callable[[int, R], None],
+    ahead: int,
+) -> Iterator[R]:
+    crew = gather()
+    ready: dict[int, R] = {}
+    source = enumerate(work)
+    place = 0
+    exhausted = False
+    try:
+        while not exhausted or crew or ready:
+            while not exhausted and len(crew) + len(ready) < ahead:
+                number, piece = next(source, (-1, None))
+                if piece is None:
+                    exhausted = True
+                elif (result := known(number)) is not None:
+                    ready[number] = result
+                else:
+                    crew.send(number, piece)
+            while place in ready:
+                yield ready.pop(place)
+                place += 1
+            for number, result in crew.collect():
+                finished(number, result)
+                ready[number] = result
+    finally:
+        crew.dismiss()
+
+
+class _Crew(Generic[P, R]):
+    """An executor with the pieces that are out, and their rescue when workers are lost."""
+
+    def __init__(self, function: Callable[[P], R], executor: Executor | Callable[[], Executor], retries: int) -> None:
+        self.function = function
+        self.given = executor
+        self.own = not isinstance(executor, Executor)
+        self.executor = executor if isinstance(executor, Executor) else executor()
+        self.retries = retries
+        self.losses = 0
+        self.out: dict[Future[R], tuple[int, P]] = {}
+        self.again: list[tuple[int, P]] = []
+
+    def __len__(self) -> int:
+        return len(self.out) + len(self.again)
+
+    def send(self, number: int, piece: P) -> None:
+        try:
+            self.out[self.executor.submit(self.function, piece)] = number, piece
+        except BrokenExecutor:
+            self.again.append((number, piece))
+
+    def collect(self) -> list[tuple[int, R]]:
+        """Wait for something to be finished; everything finished now."""
+        found = []
+        done = wait(self.out, return_when=FIRST_COMPLETED).done if self.out else set()
+        for future in done:
+            number, piece = self.out.pop(future)
+            try:
+                found.append((number, future.result()))
+            except BrokenExecutor:
+                self.again.append((number, piece))
+        if found:
+            self.losses = 0
+        if self.again:
+            self._renew()
+        return sorted(found, key=lambda item: item[0])
+
+    def _renew(self) -> None:
+        """Put a fresh executor in the place of a broken one, and send out again what was lost."""
+        self.losses += 1
+        self.again += self.out.values()
+        self.out.clear()
+        if self.losses > self.retries:
+            raise RunError(
+                f"workers were lost {self.losses} times in a row without finishing a piece of work; is there enough "
+                "memory for so many of them?"
+            )
+        if self.own:
+            self.executor.shutdown(wait=True, cancel_futures=True)
+        if callable(self.given):
+            self.executor = self.given()
+        elif isinstance(self.given, ProcessPoolExecutor):
+            self.given = Processes(getattr(self.given, "_max_workers", None) or os.cpu_count() or 1)
+            self.executor, self.own = self.given(), True
+        else:
+            raise RunError(f"the {type(self.given).__name__} broke and cannot be made anew; give a function that can")
+        lost, self.again = sorted(self.again, key=lambda item: item[0]), []
+        for number, piece in lost:
+            self.send(number, piece)
+
+    def dismiss(self) -> None:
+        if isinstance(self.given, Processes) and self.out:
+            self.given.stop()
+        elif not self.own:
+            for future in self.out:
+                future.cancel()
+        if self.own:
+            self.executor.shutdown(wait=True, cancel_futures=True)
+        if isinstance(self.given, Processes):
+            self.given.stop()
+
+
+class PieceFiles:
+    """A directory with a file for each finished piece: a line of plain data, then bytes.
+
+    Args:
+        directory: where they are.
+        durable: whether each file is flushed to the disk before it counts.
+    """
+
+    def __init__(self, directory: Path, *, durable: bool) -> None:
+        self.directory = directory
+        self.durable = durable
+
+    def save(self, number: int, head: Mapping[str, Any], body: bytes = b"") -> None:
+        """Keep a piece: some plain data and bytes."""
+        with whole_file(self._path(number), durable=self.durable) as file:
+            file.write(json.dumps({**head, "bytes": len(body)}).encode() + b"\n" + body)
+
+    def head(self, number: int) -> dict[str, Any] | None:
+        """The plain data of a piece kept before, or None; a damaged file counts as none."""
+        try:
+            with self._path(number).open("rb") as file:
+                line = file.readline()
+                found: dict[str, Any] = json.loads(line)
+                whole = found.pop("bytes", None) == os.fstat(file.fileno()).st_size - len(line)
+        except (FileNotFoundError, UnicodeDecodeError, json.JSONDecodeError):
+            return None
+        return found if whole else None
+
+    def body(self, number: int) -> bytes:
+        """The bytes of a piece kept before."""
+        return self._path(number).read_bytes().partition(b"\n")[2]
+
+    def remove(self, number: int) -> None:
+        """Forget a piece."""
+        self._path(number).unlink()
+
+    def _path(self, number: int) -> Path:
+        return self.directory / f"{number:07d}.piece"
+
+
+class Checkpoint(PieceFiles):
+    """A directory that keeps finished pieces, so that a run killed at any moment can be gone on with.
+
+    Each piece is a file of its own, written aside, flushed to the disk and renamed; a manifest says what was asked
+    and which version answered.
+
+    Args:
+        directory: made if it is not there.
+        task: what is asked, as plain data.
+        version: the version that does the work.
+
+    Raises:
+        RunError: the directory belongs to another task or version, is something else, or cannot be used.
+    """
+
+    def __init__(self, directory: Path, task: Mapping[str, Any], version: str) -> None:
+        super().__init__(directory, durable=True)
+        manifest = {"layout": _LAYOUT, "version": version, "task": dict(task)}
+        try:
+            directory.mkdir(parents=True, exist_ok=True)
+            path = directory / _MANIFEST
+            if path.exists():
+                _compare(directory, json.loads(path.read_text(encoding="utf-8")), manifest)
+            elif any(not entry.name.endswith(_ASIDE) for entry in directory.iterdir()):
+                raise RunError(f"{directory} holds other files: give --checkpoint a directory of its own")
+            else:
+                with whole_file(path) as file:
+                    file.write(json.dumps(manifest, indent=2).encode())
+        except OSError as error:
+            raise RunError(f"{directory} cannot keep pieces of work: {error.strerror or error}") from None
+        except (UnicodeDecodeError, json.JSONDecodeError):
+            raise RunError(f"{directory / _MANIFEST} cannot be read; remove the directory to begin again") from None
+
+
+def _compare(directory: Path, found: Mapping[str, Any], wanted: Mapping[str, Any]) -> None:
+    if found == wanted:
+        return
+    if found.get("task") == wanted["task"]:
+        other = f"version {found.get('version')} of gruebler, this is version {wanted['version']}"
+    else:
+        other = f"another task, {json.dumps(found.get('task'))}"
+    raise RunError(f"{directory} keeps pieces of {other}; give another directory or remove this one")
+
+
+@contextmanager
+def whole_file(path: Path, *, durable: bool = True) -> Iterator[BinaryIO]:
+    """A file to write that appears whole or not at all: written aside, flushed to the disk, then renamed.
+
+    Args:
+        path: where it appears.
+        durable: whether it is flushed to the disk, so that it is whole after a loss of power too.
+
+    Raises:
+        RunError: it cannot be written.
+    """
+    aside = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}{_ASIDE}")
+    try:
+        with aside.open("wb") as file:
+            yield file
+            if durable:
+                file.flush()
+                os.fsync(file.fileno())
+        aside.replace(path)
+        if durable:
+            _flush_directory(path.parent)
+    except OSError as error:
+        raise RunError(f"{path} cannot be written: {error.strerror or error}") from None
+    finally:
+        aside.unlink(missing_ok=True)
+
+
+def _flush_directory(directory: Path) -> None:
+    if os.name == "posix":  # elsewhere a directory cannot be opened, and renaming is flushed with the file
+        handle = os.open(directory, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)
+
+
+class Watch:
+    """Counts what is finished and tells how far the run is."""
+
+    def __init__(self, tell: Callable[[Progress], None] | None, expected: int | None = None) -> None:
+        self._tell = tell
+        self._expected = expected
+        self._begun = monotonic()
+        self._pieces = self._chains = self._fresh = 0
+
+    def add(self, chains: int, *, fresh: bool) -> None:
+        """One more piece with so many chains, done in this run or kept from an earlier one."""
+        self._pieces += 1
+        self._chains += chains
+        self._fresh += chains * fresh
+        if self._tell is not None:
+            seconds = monotonic() - self._begun
+            self._tell(Progress(self._pieces, self._chains, self._fresh, seconds, self._expected))

@@ -1,0 +1,173 @@
+"""`gruebler enumerate` and `gruebler assortments` as a user meets them."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from gruebler import Chain
+from gruebler.cli import main
+from gruebler.enumeration.request import chains
+
+
+def run(capfd, *arguments):
+    """Bytes go past Python's streams, hence the descriptors."""
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capfd.readouterr()
+    return status, out, err
+
+
+def test_a_list_is_taken_back_by_the_parser(capfd):
+    status, out, err = run(capfd, "enumerate", "--links", "8")
+    assert (status, err) == (0, "")
+    assert [Chain.parse(line) for line in out.splitlines()] == list(chains(8))
+
+
+def test_json_is_a_list_of_chains_that_check_reads(capfd, tmp_path):
+    path = tmp_path / "chains.json"
+    status, out, err = run(
+        capfd, "enumerate", "--links", "8", "--multiple-joints", "2", "--format", "json", "-o", str(path)
+    )
+    assert (status, out, err) == (0, "", "")
+    found = [Chain.from_json(one) for one in json.loads(path.read_text(encoding="utf-8"))]
+    assert found == list(chains(8, multiple_joints=2))
+    assert len(found) == 18
+    status, out, _ = run(capfd, "check", str(path), "--json")
+    assert status == 0
+    assert {one["verdict"] for one in json.loads(out)} == {"constrained"}
+    assert json.loads(run(capfd, "enumerate", "--links", "7", "--json")[1]) == []
+
+
+def test_graph6(capfd):
+    _, out, _ = run(capfd, "enumerate", "--links", "6", "--format", "graph6")
+    assert [Chain.from_graph6(line) for line in out.split()] == list(chains(6))
+
+
+def test_classes_are_labelled(capfd):
+    _, out, _ = run(capfd, "enumerate", "--links", "8", "--mobility", "3", "--fractionated", "all")
+    lines = out.splitlines()
+    assert [line for line in lines if line.startswith("#")] == ["# none", "# link", "# joint"]
+    assert len(lines) == 3 + 7
+    _, out, _ = run(capfd, "enumerate", "--links", "8", "--mobility", "3", "--fractionated", "all", "--json")
+    assert [one["fractionation"] for one in json.loads(out)] == ["none"] * 5 + ["link", "joint"]
+
+
+def test_counts_as_json(capfd):
+    _, out, _ = run(capfd, "enumerate", "--links", "8", "--count", "--json")
+    assert json.loads(out) == {
+        "links": 8,
+        "mobility": 1,
+        "chains": 16,
+        "by_assortment": {"4,4": 9, "5,2,1": 5, "6,0,2": 2},
+    }
+    _, out, _ = run(capfd, "enumerate", "--links", "10", "--count", "--orbits", "--json")
+    found = json.loads(out)
+    assert (found["chains"], found["inversions"], found["drives"], found["joint_orbits"]) == (230, 1834, 4506, 2307)
+    _, out, _ = run(
+        capfd, "enumerate", "--links", "10", "--mobility", "3", "--fractionated", "all", "--count", "--json"
+    )
+    assert json.loads(out)["by_fractionation"] == {"none": 74, "link": 19, "joint": 5}
+    assert json.loads(out)["chains"] == 98
+    _, out, _ = run(capfd, "enumerate", "--links", "8", "--assortment", "6,0,2", "--count", "--json")
+    assert json.loads(out)["chains"] == 2
+
+
+def test_counts_in_words_in_both_languages(capfd):
+    arguments = ["enumerate", "--links", "9", "--mobility", "2", "--fractionated", "all", "--count", "--orbits"]
+    _, english, _ = run(capfd, *arguments)
+    assert "fractionated at a link: 5\n" in english
+    assert english.endswith("chains: 40\ninversions (frame): 254\n" + english.split("254\n")[1])
+    _, german, _ = run(capfd, *arguments, "--lang", "de")
+    assert "an einem Glied zerlegbar: 5\n" in german
+    assert "Ketten: 40\n" in german
+
+
+def test_jobs_and_checkpoint_change_nothing(capfd, tmp_path):
+    alone = run(capfd, "enumerate", "--links", "12", "--format", "graph6")
+    kept = ["enumerate", "--links", "12", "--format", "graph6", "--jobs", "2", "--checkpoint", str(tmp_path / "kept")]
+    assert run(capfd, *kept) == alone
+    assert run(capfd, *kept) == alone
+    status, out, err = run(capfd, "enumerate", "--links", "10", "--count", "--checkpoint", str(tmp_path / "kept"))
+    assert (status, out) == (2, "")
+    assert "another task" in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_file_appears_whole_or_not_at_all(capfd, tmp_path):
+    path = tmp_path / "count.json"
+    assert run(capfd, "enumerate", "--links", "8", "--count", "-o", str(path)) == (0, "", "")
+    assert json.loads(path.read_text(encoding="utf-8"))["chains"] == 16
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--links", "20"], "32 TB of output"),
+        (["--links", "18", "--format", "graph6"], "1,535,380,884 chains, 43 GB of output"),
+        (["--links", "20", "--count"], "say --yes"),
+        (["--links", "20", "--lang", "de"], "mit --yes wird trotzdem begonnen"),
+        (["--links", "2"], "at least three links"),
+        (["--links", "8", "--assortment", "4;4"], "such as 4,4"),
+        (["--links", "8", "--assortment", "4,3"], "7 links in all, not 8"),
+        (["--links", "8", "--multiple-joints", "few"], "a number, a range"),
+        (["--links", "8", "--multiple-joints", "1", "--format", "graph6"], "simple joints only"),
+        (["--links", "8", "--orbits"], "--orbits goes with --count"),
+        (["--links", "8", "--json", "--format", "text"], "does not go with --format text"),
+        (["--links", "8", "--jobs", "0"], "at least one process"),
+        (["--links", "8", "-o", "no/such/directory/x"], "there is no directory"),
+        (["--links", "8", "--fractionated", "some"], "invalid choice"),
+        (["--mobility", "1"], "required"),
+    ],
+)
+def test_wrong_usage_is_one_sentence_and_status_2(capfd, arguments, words):
+    status, out, err = run(capfd, "enumerate", *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert len(err.strip().splitlines()) == 1
+
+
+def test_a_long_request_is_begun_with_yes(capfd):
+    """A list of 18 links is long, but its one chain of a rare assortment comes at once."""
+    arguments = ["enumerate", "--links", "18", "--assortment", "15,0,0,0,0,0,3", "--count", "--fractionated", "none"]
+    assert run(capfd, *arguments)[0] == 0
+    status, out, err = run(capfd, *arguments[:5], "--format", "graph6", "--yes")
+    assert status == 0
+    assert out == ""
+    assert "of output" in err
+
+
+def test_a_closed_pipe_is_no_fault():
+    done = subprocess.run(
+        f"{sys.executable} -m gruebler enumerate --links 12 --jobs 2 | head -n 1",
+        shell=True,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.stderr == ""
+    assert Chain.parse(done.stdout).n == 12
+
+
+def test_assortments(capfd):
+    _, out, _ = run(capfd, "assortments", "8")
+    assert out.split() == ["binary", "ternary", "quaternary", "4", "4", "0", "5", "2", "1", "6", "0", "2"]
+    _, out, _ = run(capfd, "assortments", "8", "--json")
+    assert json.loads(out) == {"links": 8, "mobility": 1, "assortments": [[4, 4], [5, 2, 1], [6, 0, 2]]}
+    _, out, _ = run(capfd, "assortments", "6", "--multiple-joints", "--json")
+    assert json.loads(out)["assortments"] == [
+        {"links": [4, 2], "joints": [7]},
+        {"links": [5, 1], "joints": [5, 1]},
+        {"links": [6], "joints": [3, 2]},
+    ]
+    _, out, _ = run(capfd, "assortments", "6", "--multiple-joints", "--lang", "de")
+    assert out.splitlines()[0].split("  ") == ["binär", "ternär", "Gelenke zu 2", "Gelenke zu 3"]
+    _, out, _ = run(capfd, "assortments", "7")
+    assert out == "No closed chain of 7 links has mobility 1.\n"
+    status, _, err = run(capfd, "assortments", "0")
+    assert status == 2
+    assert "at least one link" in err
