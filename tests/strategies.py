@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from hypothesis import strategies as st
 
 from gruebler import PAIRS, Chain, Space
+from gruebler.mechanism import Mechanism
 
 REVOLUTE = ("revolute",)
 PLANAR = ("revolute", "revolute", "prismatic", "rolling", "roll_slide", "double_slide")
@@ -43,3 +46,53 @@ def renumbered(draw: st.DrawFn, chain: Chain) -> Chain:
     new = dict(zip(chain.links, names, strict=True))
     joints = [(j.pair, draw(st.permutations([new[link] for link in j.links]))) for j in chain.joints]
     return Chain(draw(st.permutations(joints)), links=draw(st.permutations(names)), space=chain.space)
+
+
+# Assur groups as joints between their links 1, 2, ... and places outside a, b, ...
+GROUPS = (
+    "R(a-1) R(1-2) R(2-b)",
+    "R(a-1) R(1-2) P(2-b)",
+    "R(a-1) P(1-2) R(2-b)",
+    "P(a-1) R(1-2) P(2-b)",
+    "R(a-1) P(1-2) P(2-b)",
+    "R(a-1) G(1-b)",
+    "G(a-1) G(b-1) G(c-1)",
+    "R(a-1) R(1-2) R(2-3) R(3-b) R(2-4) R(4-c)",
+    "R(a-1) P(1-2) R(2-3) R(3-b) R(2-4) P(4-c)",
+    "R(a-1) R(1-2) R(2-3) R(3-4) R(4-1) R(3-b)",
+    "R(a-1-3) R(b-2) R(c-4) R(1-5) R(2-5) R(3-6) R(4-6) R(5-6)",
+)
+
+
+@dataclass(frozen=True)
+class Built:
+    """A mechanism and the sets of links that were put together to make it."""
+
+    mechanism: Mechanism
+    driven: frozenset[str]
+    groups: tuple[frozenset[str], ...]
+
+
+@st.composite
+def built_mechanisms(draw: st.DrawFn, *, most_groups: int = 4, groups: tuple[str, ...] = GROUPS) -> Built:
+    """Cranks on the frame, then Assur groups, each attached to links or turning joints that are there already."""
+    cranks = [f"crank{k}" for k in range(draw(st.integers(1, 2)))]
+    joints: list[tuple[str, list[str]]] = [("revolute", ["frame", crank]) for crank in cranks]
+    links = ["frame", *cranks]
+    parts = []
+    for number in range(draw(st.integers(1, most_groups))):
+        group = Chain.parse(draw(st.sampled_from(groups)))
+        names = {link: f"{number}.{link}" for link in group.links if link.isdigit()}
+        pins = [k for k, (pair, _) in enumerate(joints) if pair == "revolute" and k >= len(cranks)]
+        for joint in group.joints:
+            mine = [names[link] for link in joint.links if link in names]
+            if len(mine) == len(joint.links):
+                joints.append((joint.pair.name, mine))
+            elif joint.pair.name == "revolute" and pins and draw(st.booleans()):
+                joints[pins.pop(draw(st.integers(0, len(pins) - 1)))][1].extend(mine)
+            else:
+                joints.append((joint.pair.name, [draw(st.sampled_from(links)), *mine]))
+        links += names.values()
+        parts.append(frozenset(names.values()))
+    chain = Chain(joints)
+    return Built(Mechanism(chain, "frame", range(len(cranks))), frozenset(cranks), tuple(parts))

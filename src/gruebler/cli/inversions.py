@@ -59,5 +59,5 @@ def _code(mechanism: Mechanism) -> str | None:
 
 def _row(driven: Driven, lang: str) -> tuple[str, str, str, str]:
     mechanism = driven.mechanism
-    drives = ", ".join(mechanism.to_json()["drives"])
+    drives = ", ".join(mechanism.drive_names())
     return mechanism.frame, drives, driven.output or "", family(mechanism, lang) or ""

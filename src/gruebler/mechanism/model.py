@@ -103,19 +103,27 @@ class Mechanism:
         """Plain data for `json.dumps`: the chain's object with frame and drives."""
         return self.chain.to_json() | {
             "frame": self.frame,
-            "drives": [_drive_text(self.chain, drive) for drive in self.drives],
+            "drives": list(self.drive_names()),
         }
 
     def text(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
         """The text form; `parse` takes it back."""
         marks = [f"frame={notation.link_text(self.frame)}"]
-        marks += [f"drive={_drive_text(self.chain, drive, alphabet)}" for drive in self.drives]
+        marks += [f"drive={name}" for name in self.drive_names(alphabet)]
         return "; ".join([self.chain.text(alphabet), *marks])
 
     __str__ = text
 
     def __repr__(self) -> str:
         return f"Mechanism.parse({self.text()!r})"
+
+    def drive_names(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> tuple[str, ...]:
+        """Each drive as a text: its joint, with direction and links where the joint alone does not tell.
+
+        >>> Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)").drive_names("german")
+        ('D(0-1)',)
+        """
+        return tuple(_drive_text(self.chain, drive, alphabet) for drive in self.drives)
 
     def code(self) -> str:
         """The canonical code: equal exactly for mechanisms of one structure.

@@ -1,0 +1,25 @@
+"""Assur groups: a mechanism taken apart into what can be solved one after another, and all groups there are.
+
+`decompose` takes a mechanism apart; `drive_choices` does so for each choice of drives. `AssurGroup` is a group apart
+from any mechanism, `assur_groups` lists those of turning joints. Definitions and proofs: docs/theory/assur.md.
+"""
+
+from gruebler.assur.choices import drive_choices
+from gruebler.assur.decomposition import Decomposition, Group, Share, decompose
+from gruebler.assur.forms import DYADS
+from gruebler.assur.groups import AssurGroup
+from gruebler.assur.listing import assur_groups, group_of_truss
+from gruebler.assur.locking import AssurError
+
+__all__ = [
+    "DYADS",
+    "AssurError",
+    "AssurGroup",
+    "Decomposition",
+    "Group",
+    "Share",
+    "assur_groups",
+    "decompose",
+    "drive_choices",
+    "group_of_truss",
+]

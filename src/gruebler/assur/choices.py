@@ -1,0 +1,46 @@
+"""How the groups of a mechanism change with its drives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+from gruebler.assur.decomposition import Decomposition, decompose
+from gruebler.assur.locking import AssurError
+from gruebler.chain import Chain
+from gruebler.mechanism import Drive, Mechanism
+from gruebler.mobility import generic_mobility
+
+__all__ = ["drive_choices"]
+
+
+def drive_choices(
+    chain: Chain, frame: str, *, drives: int | None = None, anywhere: bool = False
+) -> Iterator[Decomposition]:
+    """The mechanism taken apart for every choice of drives, in the order of the joints; alike ones are not left out.
+
+    Args:
+        chain: a planar chain.
+        frame: the link that stands still.
+        drives: how many freedoms are driven; as many as the chain has (generically) if left out.
+        anywhere: whether joints between moving links may be driven too, and not only those at the frame.
+
+    Choices that do not fix the motion come with `complete` false. Raises `AssurError` for a chain that does not move.
+
+    >>> chain = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)")
+    >>> [found.class_number for found in drive_choices(chain, "4", anywhere=True)]
+    [2, 2, 2, 2, 3, 4, 4]
+    """
+    chain.index(frame)
+    number = generic_mobility(chain) if drives is None else drives
+    if number < 1:
+        raise AssurError("the chain does not move: there is nothing to drive")
+    freedoms = [
+        Drive(k, direction, (a, b))
+        for k, joint in enumerate(chain.joints)
+        for a, b in combinations(joint.links, 2)
+        for direction in joint.pair.freedoms[chain.space]
+        if anywhere or frame in (a, b)
+    ]
+    for chosen in combinations(freedoms, number):
+        yield decompose(Mechanism(chain, frame, chosen))

@@ -1,0 +1,196 @@
+"""A mechanism taken apart: its drives, and the Assur groups in the order in which they can be solved.
+
+Lock the drives. A set of links that contains the frame is *tight* if the constraints within it are as many as its
+freedoms. Tight sets are closed under union and intersection, so what comes between neighbouring ones is always the
+same: the groups. Where some bodies of a group are rigid among themselves (a drive between moving links does that), they
+are found first against one of them, and then count as one body. docs/theory/assur.md has the theorems.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+
+from gruebler.assur.forms import Member, class_number, form_name
+from gruebler.assur.groups import AssurGroup
+from gruebler.assur.locking import Locked, independent, locked, whole_locks
+from gruebler.assur.splitting import Part, split
+from gruebler.chain import Chain
+from gruebler.mechanism import DriveReport, Mechanism, check_drives
+from gruebler.pairs import Alphabet, Pair
+
+__all__ = ["Decomposition", "Group", "Share", "decompose"]
+
+
+@dataclass(frozen=True)
+class Group:
+    """An Assur group in its mechanism."""
+
+    bodies: tuple[tuple[str, ...], ...]
+    """What is found with it: a link, or several that a drive holds against each other."""
+    carried: tuple[tuple[str, ...], ...]
+    """For each body the links that earlier groups have fixed against it, and that are found with it."""
+    base: tuple[str, ...]
+    """The body against which it is found: the frame's, or one that a later group places with all that it carries."""
+    joints: tuple[tuple[int, Member], ...]
+    """Its joints: the number of the chain's joint, the pair that drives leave of it, the bodies that carry it."""
+    after: tuple[int, ...]
+    """The groups (by place in the decomposition) on which it hangs directly."""
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """Its own links."""
+        return tuple(link for body in self.bodies for link in body)
+
+    @property
+    def inner(self) -> tuple[int, ...]:
+        """The joints among its own bodies, by number."""
+        return tuple(number for number, member in self.joints if not member.outer)
+
+    @property
+    def outer(self) -> tuple[int, ...]:
+        """The joints with what is known before it, by number."""
+        return tuple(number for number, member in self.joints if member.outer)
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """The joints as members of a group without names."""
+        return tuple(member for _, member in self.joints)
+
+    @property
+    def order(self) -> int:
+        """The number of outer joints, one that k of its links share counted k times."""
+        return sum(len(j.links) for j in self.members if j.outer)
+
+    @cached_property
+    def class_number(self) -> int:
+        """The class: 2 for dyads, 3 for a link with three inner joints, 4 for a loop of four, and so on."""
+        return class_number(len(self.bodies), self.members)
+
+    @cached_property
+    def shape(self) -> AssurGroup:
+        """The group apart from its mechanism; bodies of several links are named ``a+b``."""
+        names = ["+".join(body) for body in self.bodies]
+        taken = set(names)
+        joints: list[tuple[Pair, list[str]]] = []
+        for member in self.members:
+            links = [names[k] for k in member.links]
+            if member.outer:
+                place = f"place{len(joints) + 1}"
+                while place in taken:
+                    place += "'"
+                links.insert(0, place)
+            joints.append((member.pair, links))
+        return AssurGroup(Chain(joints))
+
+    def form(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
+        """The name of its form, or its code where the form has no name."""
+        return form_name(len(self.bodies), self.members, Alphabet(alphabet)) or self.shape.code
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """How often a joint counts in one part: the shares of a joint of k links add up to k - 1."""
+
+    joint: int
+    part: int | None
+    """The place of the group; None for the drives."""
+    count: int
+
+
+@dataclass(frozen=True)
+class Decomposition:
+    """Drives, groups in solving order, and what the drives leave undetermined."""
+
+    mechanism: Mechanism
+    driven: tuple[str, ...]
+    """The links that the drives move directly against the frame."""
+    groups: tuple[Group, ...]
+    rest: tuple[str, ...]
+    """The links in no group; empty exactly if the decomposition is complete."""
+    report: DriveReport | None
+    """If it is not complete, what `check_drives` says."""
+    overconstrained: bool
+    """Whether constraints or drives work against one another; then nothing is decomposed."""
+
+    @property
+    def complete(self) -> bool:
+        """Whether every link is found: the drives fix the motion, and nothing is redundant."""
+        return self.report is None
+
+    @property
+    def class_number(self) -> int:
+        """The highest class of its groups; 1 if the drives are all there is."""
+        return max((group.class_number for group in self.groups), default=1)
+
+    @cached_property
+    def shares(self) -> tuple[Share, ...]:
+        """Which part each joint belongs to, drives first; none for joints of links that are not determined.
+
+        A joint that a drive holds only in part (a roll-slide joint) belongs to its group.
+        """
+        held = Counter(drive.joint for drive in whole_locks(self.mechanism, {}))
+        out = [Share(number, None, count) for number, count in sorted(held.items())]
+        for part, group in enumerate(self.groups):
+            for number, member in group.joints:
+                out.append(Share(number, part, len(member.links) - (not member.outer)))
+        return tuple(out)
+
+    def formula(self, lang: str = "en") -> str:
+        """The structural formula, such as ``drive R(frame-crank) -> RRR{coupler, rocker}``."""
+        from gruebler.assur.prose import formula
+
+        return formula(self, lang)
+
+    def message(self, lang: str = "en") -> str:
+        """What keeps it from being complete: links left free, drives or constraints against one another; else empty."""
+        from gruebler.assur.prose import message
+
+        return " ".join(message(self, lang))
+
+    def explain(self, lang: str = "en") -> str:
+        """The decomposition as a text of a few lines, in English (``en``) or German (``de``)."""
+        from gruebler.assur.prose import explain
+
+        return explain(self, lang)
+
+
+def decompose(mechanism: Mechanism) -> Decomposition:
+    """The Assur groups of a planar mechanism, in solving order.
+
+    If the drives do not fix the motion, what they fix is decomposed and the rest named; if constraints or drives work
+    against one another there are no groups. `Decomposition.complete` tells. Among groups that may be solved in any
+    order the one with the earliest link of the chain comes first.
+
+    Raises `AssurError` for a chain that is not planar. Cost O(links · joints) for simple turning, rolling and
+    roll-slide joints; others need one exact rank.
+
+    >>> decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")).formula()
+    'drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}'
+    """
+    rest = locked(mechanism)
+    if rest.counted < 0 or not independent(mechanism, rest):
+        links = tuple(link for body in rest.bodies[1:] for link in body)
+        return Decomposition(mechanism, rest.bodies[0][:0], (), links, check_drives(mechanism), True)
+    bodies = range(len(rest.bodies))
+    first = {k: mechanism.chain.index(rest.bodies[k][0]) for k in bodies}
+    parts, loose = split(rest.joints, bodies, 0, first, [k for k in bodies if len(rest.bodies[k]) > 1])
+    return Decomposition(
+        mechanism,
+        tuple(link for link in rest.bodies[0] if link != mechanism.frame),
+        tuple(_group(rest, part) for part in parts),
+        tuple(link for body in loose for link in rest.bodies[body]),
+        check_drives(mechanism) if loose else None,
+        False,
+    )
+
+
+def _group(rest: Locked, part: Part) -> Group:
+    return Group(
+        tuple(rest.bodies[element[0]] for element in part.elements),
+        tuple(tuple(link for body in element[1:] for link in rest.bodies[body]) for element in part.elements),
+        rest.bodies[part.base],
+        part.members,
+        part.after,
+    )

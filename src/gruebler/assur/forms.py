@@ -1,0 +1,195 @@
+"""What a group is called, and its class.
+
+Definitions and sources: docs/theory/assur.md, "Form, class, order".
+"""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+from gruebler.pairs import Alphabet, Pair, Space
+
+__all__ = ["DYADS", "Member", "class_number", "form_name", "roman"]
+
+DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
+"""The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP stays loose."""
+
+
+_Vertex = tuple[str, int]  # a link or a joint, with its number
+
+
+class Member(NamedTuple):
+    """A joint of a group: its pair, the links of the group that carry it, whether links outside carry it too."""
+
+    pair: Pair
+    links: tuple[int, ...]
+    outer: bool
+
+
+# International letter, German letter; in the order in which they are named.
+_LETTERS = {
+    "revolute": ("R", "D"),
+    "prismatic": ("P", "S"),
+    "rolling": ("W", "W"),
+    "roll_slide": ("G", "G"),
+    "double_slide": ("S2", "S2"),
+}
+_RANK = {letter: k for k, letter in enumerate(letters[0] for letters in _LETTERS.values())}
+
+
+def form_name(links: int, joints: Sequence[Member], alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str | None:
+    """The name of the form, or None where a form has none and is known by its code only.
+
+    One link: its joints. Two links: the outer joints of one, the joints between, the outer joints of the other. A link
+    that carries the inner ends of binary legs: the legs, each from outside inward, with the link's own outer joints.
+    """
+    if any(len(j.links) + j.outer != 2 for j in joints):
+        return None
+    outer: list[list[str]] = [[] for _ in range(links)]
+    inner: dict[tuple[int, int], list[str]] = {}
+    for joint in joints:
+        letter = _LETTERS[joint.pair.name][0]
+        if joint.outer:
+            outer[joint.links[0]].append(letter)
+        else:
+            a, b = sorted(joint.links)
+            inner.setdefault((a, b), []).append(letter)
+    if links <= 2:
+        between = _sorted(inner.get((0, 1), []))
+        ends = [_sorted(mine) for mine in outer]
+        words = [ends[0], between, ends[1]] if links == 2 else ends
+        words = min(words, words[::-1], key=lambda some: [[_RANK[x] for x in word] for word in some])
+        return _joined(words, alphabet)
+    return _star(outer, inner, alphabet)
+
+
+def _joined(words: Sequence[Sequence[str]], alphabet: Alphabet) -> str:
+    simple = all(len(word) == 1 for word in words)
+    return ("" if simple else "-").join("".join(_said(x, alphabet) for x in word) for word in words)
+
+
+def _said(letter: str, alphabet: Alphabet) -> str:
+    german = alphabet is Alphabet.GERMAN
+    return next(letters[german] for letters in _LETTERS.values() if letters[0] == letter)
+
+
+def _sorted(letters: Iterable[str]) -> list[str]:
+    return sorted(letters, key=_RANK.__getitem__)
+
+
+def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alphabet: Alphabet) -> str | None:
+    hubs = set.intersection(*map(set, inner)) if inner else set()
+    if len(hubs) != 1:
+        return None
+    hub = hubs.pop()
+    legs: Counter[tuple[str, str]] = Counter()
+    for (a, b), letters in inner.items():
+        mine = outer[a + b - hub]
+        if len(letters) != 1 or len(mine) != 1:
+            return None
+        legs[mine[0], letters[0]] += 1
+    if legs.total() != len(outer) - 1:
+        return None
+    parts = [
+        (f"{number}-" if number > 1 else "") + "".join(_said(x, alphabet) for x in leg)
+        for leg, number in sorted(legs.items(), key=lambda item: [_RANK[x] for x in item[0]])
+    ]
+    return "+".join(parts + [_said(x, alphabet) for x in _sorted(outer[hub])])
+
+
+def class_number(links: int, joints: Sequence[Member]) -> int:
+    """The class: the most joints of a contour, at least 2.
+
+    A contour is a link with its inner joints, or a closed loop of inner joints that is not composed of shorter ones.
+    Roll-slide joints and double slides count as the binary links that replace them.
+    """
+    inner = _inner_joints(links, joints)
+    carried = Counter(link for joint in inner for link in joint)
+    return max(2, *carried.values(), _longest_contour(inner)) if inner else 2
+
+
+def _inner_joints(links: int, joints: Sequence[Member]) -> list[tuple[int, ...]]:
+    """The links of each inner joint, after every joint of two freedoms has become a link with two joints."""
+    out: list[tuple[int, ...]] = []
+    new = links
+    for joint in joints:
+        if joint.pair.u(Space.PLANAR) == 2:
+            if not joint.outer:
+                out.append(joint.links)
+            continue
+        hub, *others = joint.links
+        for other in [*others, None] if joint.outer else others:
+            out.append((hub, new))
+            if other is not None:
+                out.append((new, other))
+            new += 1
+    return out
+
+
+def _longest_contour(inner: Sequence[tuple[int, ...]]) -> int:
+    """The longest loop of a minimum cycle basis, in joints: all such bases have the same lengths.
+
+    Loops live in the graph of links and joints, as sets of (link, joint) incidences, one bit each. Candidates (Horton
+    1987): for each vertex, the loops that edges close with a tree of shortest paths from it. Any loop through the
+    vertex is a sum of such candidates that are no longer than itself, so the shortest independent ones are a basis.
+    """
+    near: dict[_Vertex, list[tuple[_Vertex, int]]] = {}
+    ends: list[tuple[_Vertex, _Vertex, int]] = []
+    for number, links in enumerate(inner):
+        for link in links:
+            bit = 1 << len(ends)
+            one, other = ("link", link), ("joint", number)
+            near.setdefault(one, []).append((other, bit))
+            near.setdefault(other, []).append((one, bit))
+            ends.append((one, other, bit))
+    parts, candidates = 0, set()
+    seen: set[_Vertex] = set()
+    for start in near:
+        path = _paths(near, start)
+        if start not in seen:
+            parts += 1
+            seen |= set(path)
+        for one, other, bit in ends:
+            if one in path:
+                candidates.add(path[one] ^ path[other] ^ bit)
+    wanted = len(ends) - len(near) + parts
+    basis: list[int] = []
+    longest = 0
+    for loop in sorted(candidates, key=lambda loop: (loop.bit_count(), loop)):
+        if len(basis) == wanted:
+            break
+        rest = loop
+        for member in basis:
+            rest = min(rest, rest ^ member)
+        if rest:  # an edge of the tree closes no loop
+            basis = sorted([*(min(member, member ^ rest) for member in basis), rest], reverse=True)
+            longest = loop.bit_count() // 2
+    return longest
+
+
+def _paths(near: dict[_Vertex, list[tuple[_Vertex, int]]], start: _Vertex) -> dict[_Vertex, int]:
+    """A shortest path to every vertex that can be reached, as the set of its incidences."""
+    path = {start: 0}
+    queue = deque([start])
+    while queue:
+        here = queue.popleft()
+        for there, bit in near[here]:
+            if there not in path:
+                path[there] = path[here] | bit
+                queue.append(there)
+    return path
+
+
+def roman(number: int) -> str:
+    """The number in Roman figures, as classes are written.
+
+    >>> [roman(k) for k in (2, 3, 4, 9)]
+    ['II', 'III', 'IV', 'IX']
+    """
+    out = ""
+    for value, figure in ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
+        out += figure * (number // value)
+        number %= value
+    return out

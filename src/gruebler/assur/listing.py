@@ -1,0 +1,48 @@
+"""All Assur groups of turning joints with so many links, from the trusses with one link more.
+
+Put the places outside of a group together to one link, and it becomes a Baranov truss: a chain with F = 0 in which
+nothing less than the whole is rigid. Take any link of a truss away, and the rest is an Assur group whose outer joints
+are that link's. Links that an automorphism exchanges give the same group, others different ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gruebler.assur.groups import AssurGroup
+from gruebler.assur.locking import AssurError
+from gruebler.chain import Chain
+from gruebler.isomorphism import symmetry
+
+__all__ = ["assur_groups", "group_of_truss"]
+
+
+def assur_groups(links: int) -> Iterator[AssurGroup]:
+    """Every Assur group with this many links and simple turning joints, each once, in canonical form.
+
+    Raises `AssurError` unless the number is even and positive: each link brings three constraints, each joint two.
+
+    >>> [group.form for group in assur_groups(2)]
+    ['RRR']
+    """
+    if links < 2 or links % 2:
+        raise AssurError(f"an Assur group of turning joints has 2, 4, 6, ... links, not {links}")
+    from gruebler.enumeration import chains  # it compiles kernels, which other questions of this room do not need
+
+    for truss in chains(links + 1, 0):
+        for orbit in symmetry(truss).link_orbits:
+            yield group_of_truss(truss, orbit[0]).canonical()
+
+
+def group_of_truss(truss: Chain, link: str) -> AssurGroup:
+    """The group that is left of a truss without this link; each of its joints leads to a place of its own.
+
+    >>> print(group_of_truss(Chain.parse("R(0-1) R(1-2) R(2-0)"), "0"))
+    R(place1-1) R(1-2) R(2-place2)
+    """
+    truss.index(link)
+    joints, place = [], 0
+    for joint in truss.joints:
+        place += link in joint.links
+        joints.append((joint.pair, [f"place{place}" if other == link else other for other in joint.links]))
+    return AssurGroup(Chain(joints, space=truss.space))

@@ -1,0 +1,116 @@
+"""What is left of a mechanism when its drives are locked: bodies instead of links, and the joints between them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from gruebler.assur.splitting import Bound
+from gruebler.errors import GrueblerError
+from gruebler.mechanism import Drive, Mechanism
+from gruebler.mobility import generic, pebble_rank
+from gruebler.mobility.placement import Lock
+from gruebler.pairs import Space, pair
+
+__all__ = ["AssurError", "Locked", "independent", "locked", "whole_locks"]
+
+
+class AssurError(GrueblerError):
+    """A question about Assur groups that has no answer: not planar, or not a group."""
+
+
+class Locked(NamedTuple):
+    """The locked mechanism."""
+
+    bodies: tuple[tuple[str, ...], ...]
+    """The links that drives lock together, the frame's body first."""
+    joints: tuple[Bound, ...]
+    clean: bool
+    """Whether no constraint is seen to be redundant already when the bodies are put together."""
+
+    @property
+    def counted(self) -> int:
+        """Freedoms minus constraints; 0 if the drives are as many as needed."""
+        return 3 * (len(self.bodies) - 1) - sum(j.constraints * (len(j.bodies) - 1) for j in self.joints)
+
+
+# A pair of two freedoms, one of which is locked, leaves another pair.
+_LEFT = {
+    ("roll_slide", "Rz"): "prismatic",
+    ("roll_slide", "Tx"): "rolling",
+    ("double_slide", "Tx"): "prismatic",
+    ("double_slide", "Ty"): "prismatic",
+}
+
+
+def locked(mechanism: Mechanism) -> Locked:
+    """The mechanism with its drives locked.
+
+    Raises `AssurError` for a chain that is not planar, and for a driven single freedom of a double slide that more than
+    two links share (write one joint for each two of them).
+    """
+    chain = mechanism.chain
+    if chain.space is not Space.PLANAR:
+        raise AssurError(f"Assur groups are made of planar chains; this one is {chain.space}")
+    root = {link: link for link in chain.links}
+    effective, clean = [0] * len(chain.joints), True
+    partial: dict[int, Drive] = {}
+    for drive in whole_locks(mechanism, partial):
+        a, b = (_find(root, link) for link in drive.between)
+        clean = clean and a != b
+        effective[drive.joint] += a != b
+        root[b] = a
+    bodies: dict[str, list[str]] = {_find(root, mechanism.frame): []}
+    for link in chain.links:
+        bodies.setdefault(_find(root, link), []).append(link)
+    place = {link: k for k, body in enumerate(bodies.values()) for link in body}
+    joints = []
+    for number, joint in enumerate(chain.joints):
+        mine = tuple(dict.fromkeys(place[link] for link in joint.links))
+        clean = clean and joint.count - (len(mine) - 1) == effective[number]
+        if len(mine) > 1:
+            left = joint.pair
+            if number in partial:
+                left = pair(_LEFT[joint.pair.name, partial[number].direction])
+            joints.append(Bound(number, left, mine))
+    return Locked(tuple(tuple(body) for body in bodies.values()), tuple(joints), clean)
+
+
+def independent(mechanism: Mechanism, rest: Locked) -> bool:
+    """Whether the constraints of the locked mechanism are generically independent.
+
+    Simple turning, rolling and roll-slide joints: by the pebble game on bodies. Otherwise by exact rank.
+    """
+    if not rest.clean:
+        return False
+    if all(len(j.bodies) == 2 and j.pair.name in {"revolute", "rolling", "roll_slide"} for j in rest.joints):
+        edges = [(j.bodies[0], j.bodies[1]) for j in rest.joints for _ in range(j.constraints)]
+        return pebble_rank(len(rest.bodies), edges, 3, 3) == len(edges)
+    locks = [Lock(d.joint, d.direction, d.between) for d in mechanism.drives]
+    return generic(mechanism.chain, locks).redundancy == 0
+
+
+def whole_locks(mechanism: Mechanism, partial: dict[int, Drive]) -> list[Drive]:
+    """One drive for each two links that all their drives together hold fast; the others go into `partial`."""
+    chain = mechanism.chain
+    together: dict[tuple[int, frozenset[str]], list[Drive]] = {}
+    for drive in mechanism.drives:
+        together.setdefault((drive.joint, frozenset(drive.between)), []).append(drive)
+    whole = []
+    for drives in together.values():
+        joint = chain.joints[drives[0].joint]
+        if len(drives) == joint.pair.f(chain.space):
+            whole.append(drives[0])
+        elif joint.count == 1:
+            partial[drives[0].joint] = drives[0]
+        else:
+            raise AssurError(
+                f"one freedom of {joint} is driven between two of its {len(joint.links)} links: write a joint of its "
+                "own for each two links"
+            )
+    return whole
+
+
+def _find(root: dict[str, str], link: str) -> str:
+    while root[link] != link:
+        root[link] = link = root[root[link]]
+    return link

@@ -1,0 +1,116 @@
+"""`gruebler assur`: a mechanism taken apart into drives and Assur groups, or all groups with so many links."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from gruebler.assur import AssurGroup, Decomposition, Group, assur_groups, decompose, drive_choices
+from gruebler.assur.forms import roman
+from gruebler.cli.inputs import mechanism_of
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.mechanism import Mechanism
+
+__all__ = ["run"]
+
+_GROUPS = {"en": ("form", "class", "order", "group"), "de": ("Form", "Klasse", "Ordnung", "Gruppe")}
+_CHOICES = {"en": ("drive", "class", "formula"), "de": ("Antrieb", "Klasse", "Formel")}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Take a mechanism apart (1 if its drives leave something undetermined), compare drives, or list groups."""
+    if (arguments.list is None) == (arguments.mechanism is None):
+        raise GrueblerError("name one mechanism, or ask for --list N: all groups with N links")
+    if arguments.list is not None:
+        found = list(assur_groups(arguments.list))
+        _print([_group_item(group) for group in found], arguments, lambda: _list(found, arguments.lang))
+        return 0
+    mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive)
+    if not mechanism.drives:
+        choices = list(drive_choices(mechanism.chain, mechanism.frame, anywhere=arguments.anywhere))
+        items = [{"code": _code(one.mechanism), "text": str(one.mechanism), **_verdict(one)} for one in choices]
+        _print(items, arguments, lambda: _compare(choices, arguments.lang))
+        return 0
+    one = decompose(mechanism)
+    about = {"code": _code(mechanism), "text": str(mechanism), **_verdict(one)}
+    about |= {"drives": list(mechanism.drive_names()), "driven": list(one.driven), "rest": list(one.rest)}
+    if not one.complete:
+        about["message"] = one.message(arguments.lang)
+    names = mechanism.chain.joint_names()
+    items = [_item(group, names) for group in one.groups]
+    _print(items, arguments, lambda: print(one.explain(arguments.lang)), about)
+    return int(not one.complete)
+
+
+def _print(
+    items: list[dict[str, Any]], arguments: argparse.Namespace, say: Any, about: dict[str, Any] | None = None
+) -> None:
+    if arguments.json:
+        document = {**(about or {}), "count": len(items)}
+        if not arguments.count:
+            document["items"] = items
+        print(json.dumps(document, ensure_ascii=False, indent=2))
+    elif arguments.count:
+        print(len(items))
+    else:
+        say()
+
+
+def _verdict(one: Decomposition) -> dict[str, Any]:
+    return {"formula": one.formula(), "class": one.class_number, "complete": one.complete}
+
+
+def _item(group: Group, names: tuple[str, ...]) -> dict[str, Any]:
+    return {
+        **_group_item(group.shape),
+        "links": list(group.links),
+        "inner": [names[k] for k in group.inner],
+        "outer": [names[k] for k in group.outer],
+        "after": list(group.after),
+    }
+
+
+def _group_item(group: AssurGroup) -> dict[str, Any]:
+    return {
+        "code": group.code,
+        "text": str(group),
+        "form": group.form,
+        "class": group.class_number,
+        "order": group.order,
+    }
+
+
+def _code(mechanism: Mechanism) -> str | None:
+    try:
+        return mechanism.code()
+    except GrueblerError:
+        return None  # codes have no place for drives of single freedoms or within multiple joints
+
+
+def _list(found: list[AssurGroup], lang: str) -> None:
+    alphabet = "german" if lang == "de" else "international"
+    rows = []
+    for group in found:
+        form = group.named(alphabet)
+        named = "" if form == group.code else form
+        rows.append((named, roman(group.class_number), str(group.order), group.chain.text(alphabet)))
+    print_table(_GROUPS[lang], rows, numbers=(2,))
+
+
+def _compare(choices: list[Decomposition], lang: str) -> None:
+    alphabet = "german" if lang == "de" else "international"
+    rows = [
+        (
+            ", ".join(one.mechanism.drive_names(alphabet)),
+            roman(one.class_number) if one.complete else "-",
+            _after(one, lang),
+        )
+        for one in choices
+    ]
+    print_table(_CHOICES[lang], rows)
+
+
+def _after(one: Decomposition, lang: str) -> str:
+    return one.formula(lang).partition(" -> ")[2]

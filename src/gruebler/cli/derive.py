@@ -1,0 +1,33 @@
+"""`gruebler derive`: how a chain grows from a closed loop by dyads, or why it does not."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from gruebler.cli.inputs import chain_of
+from gruebler.isomorphism import code
+from gruebler.transformation import derive
+
+__all__ = ["run"]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Tell how the chain grows."""
+    growth = derive(chain_of(arguments.chain))
+    if not arguments.json:
+        print(growth.explain(arguments.lang))
+        return 0
+    core, steps = growth.core, growth.derivation.steps
+    document = {
+        "from_loop": growth.from_loop,
+        "exact": growth.exact,
+        "core": {"code": code(core), "text": str(core), "links": list(core.links)},
+        "count": len(steps),
+        "items": [
+            {"code": code(step.chain), "text": str(step.chain), "step": step.explain(arguments.lang)} for step in steps
+        ],
+        "derivation": growth.derivation.to_json(),
+    }
+    print(json.dumps(document, ensure_ascii=False, indent=2))
+    return 0

@@ -1,0 +1,67 @@
+"""`gruebler extend`: all different chains that one more dyad or coupler gives."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from gruebler.chain import Chain
+from gruebler.cli.inputs import chain_of
+from gruebler.cli.tables import print_table
+from gruebler.mobility import mobility_report
+from gruebler.transformation import Extension, Place, extend
+
+__all__ = ["run"]
+
+_HEADERS = {
+    "en": ("chain", "F counted", "generic", "places", "joints that cannot move"),
+    "de": ("Kette", "F gezählt", "generisch", "Stellen", "unbewegliche Gelenke"),
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List or count the extensions."""
+    chain = chain_of(arguments.chain)
+    found = extend(chain, dyad=arguments.dyad, coupler=arguments.coupler, at_joints=arguments.at_joints)
+    if arguments.json:
+        document: dict[str, Any] = {"count": len(found)}
+        if not arguments.count:
+            document["items"] = [_item(chain, one) for one in found]
+        print(json.dumps(document, ensure_ascii=False, indent=2))
+    elif arguments.count:
+        print(len(found))
+    else:
+        print_table(_HEADERS[arguments.lang], [_row(chain, one, arguments.lang) for one in found], numbers=(1, 2))
+    return 0
+
+
+def _item(chain: Chain, one: Extension) -> dict[str, Any]:
+    report = mobility_report(one.chain)
+    names = one.chain.joint_names()
+    return {
+        "code": one.code,
+        "text": str(one.chain),
+        "counted": report.counted,
+        "generic": report.generic,
+        "immobile_joints": [names[k] for k in report.immobile_joints],
+        "places": [_places(chain, pair) for pair in one.places],
+    }
+
+
+def _row(chain: Chain, one: Extension, lang: str) -> tuple[str, str, str, str, str]:
+    report = mobility_report(one.chain)
+    alphabet = "german" if lang == "de" else "international"
+    names = one.chain.joint_names(alphabet)
+    return (
+        one.chain.text(alphabet),
+        str(report.counted),
+        str(report.generic),
+        ", ".join("/".join(_places(chain, pair, alphabet)) for pair in one.places),
+        ", ".join(names[k] for k in report.immobile_joints),
+    )
+
+
+def _places(chain: Chain, pair: tuple[Place, Place], alphabet: str = "international") -> list[str]:
+    names = chain.joint_names(alphabet)
+    return [place if isinstance(place, str) else names[place] for place in pair]

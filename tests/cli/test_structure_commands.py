@@ -1,0 +1,164 @@
+"""The commands assur, derive and extend through their run functions: text, JSON, counts, statuses, both languages."""
+
+import json
+from argparse import Namespace
+
+import pytest
+
+from gruebler import Chain, GrueblerError, code
+from gruebler.assur import AssurGroup
+from gruebler.cli import assur, derive, extend
+from gruebler.transformation import Derivation
+
+WATT = "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"
+FOUR_BAR = "R(0-1) R(1-2) R(2-3) R(3-0)"
+FIVE_BAR = "R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"
+
+DEFAULTS = {
+    assur: {"mechanism": None, "frame": None, "drive": [], "anywhere": False, "list": None, "count": False},
+    derive: {"chain": None},
+    extend: {"chain": None, "dyad": None, "coupler": None, "at_joints": False, "count": False},
+}
+
+
+def run(capsys, command, **arguments):
+    known = {**DEFAULTS[command], "json": False, "lang": "en"}
+    assert set(arguments) <= set(known)
+    status = command.run(Namespace(**{**known, **arguments}))
+    out, err = capsys.readouterr()
+    assert err == ""
+    return status, out
+
+
+def test_assur_says_the_groups(capsys):
+    status, out = run(capsys, assur, mechanism=f"{WATT}; frame=0; drive=R(0-1)")
+    assert status == 0
+    assert out.splitlines()[0] == "drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}"
+    assert "Class II, order 2" in out
+    status, german = run(capsys, assur, mechanism=f"{WATT}; frame=0; drive=R(0-1)", lang="de")
+    assert german.splitlines()[0] == "Antrieb D(0-1) -> DDD{2, 3} -> DDD{4, 5}"
+    assert "Klasse II, Ordnung 2" in german
+    assert "Class" not in german
+
+
+def test_assur_in_json(capsys):
+    status, out = run(capsys, assur, mechanism=WATT, frame="2", drive=["R(1-2)"], json=True)
+    assert status == 0
+    found = json.loads(out)
+    assert found["count"] == len(found["items"]) == 2
+    assert (found["formula"], found["class"], found["complete"]) == ("drive R(1-2) -> RRR{0, 3} -> RRR{4, 5}", 2, True)
+    assert [item["links"] for item in found["items"]] == [["0", "3"], ["4", "5"]]
+    assert found["items"][1]["after"] == [0]
+    for item in found["items"]:
+        assert AssurGroup.parse(item["text"]).code == item["code"]
+        assert len(item["outer"]) == item["order"] == 2
+
+
+def test_assur_of_catalog_entries_and_codes(capsys):
+    status, out = run(capsys, assur, mechanism="vcomp")
+    assert status == 0
+    assert out.splitlines()[0].startswith("drive R(frame-crank) -> RRP{conrod1, piston1} -> RRP{conrod2, piston2}")
+    status, out = run(capsys, assur, mechanism=code(Chain.parse(FOUR_BAR), frame="0", drives=[0]))
+    assert status == 0
+    assert "-> RRR{" in out
+
+
+def test_assur_compares_drives_where_none_is_named(capsys):
+    status, out = run(
+        capsys, assur, mechanism="R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)", frame="4", anywhere=True
+    )
+    assert status == 0
+    assert [line.split()[1] for line in out.splitlines()] == ["class", "II", "II", "II", "II", "III", "IV", "IV"]
+    _, out = run(capsys, assur, mechanism=WATT, json=True)
+    found = json.loads(out)
+    assert found["count"] == len(found["items"]) == 2
+    assert all(item["text"].startswith(f"{WATT}; frame=0; drive=") for item in found["items"])
+    _, out = run(capsys, assur, mechanism=WATT, count=True)
+    assert out == "2\n"
+
+
+def test_assur_says_what_drives_leave_free(capsys):
+    status, out = run(capsys, assur, mechanism=f"{FIVE_BAR}; drive=R(0-1)")
+    assert status == 1
+    assert "Not determined: 2, 3, 4." in out
+    status, out = run(capsys, assur, mechanism=f"{FIVE_BAR}; drive=R(0-1)", json=True, lang="de")
+    found = json.loads(out)
+    assert (status, found["complete"], found["rest"]) == (1, False, ["2", "3", "4"])
+    assert "bewegen sich noch" in found["message"]
+
+
+@pytest.mark.parametrize(("links", "number"), [(2, 1), (4, 2), (6, 10)])
+def test_assur_lists_groups(capsys, links, number):
+    assert run(capsys, assur, list=links, count=True) == (0, f"{number}\n")
+    _, out = run(capsys, assur, list=links, json=True)
+    found = json.loads(out)
+    assert found["count"] == len(found["items"]) == number
+    assert all(AssurGroup.parse(item["text"]).code == item["code"] for item in found["items"])
+    assert json.loads(run(capsys, assur, list=links, json=True, count=True)[1]) == {"count": number}
+    _, out = run(capsys, assur, list=links, lang="de")
+    assert len(out.splitlines()) == number + 1
+    assert "Ordnung" in out
+
+
+def test_derive(capsys):
+    status, out = run(capsys, derive, chain=WATT)
+    assert status == 0
+    assert out.startswith("The chain grows from the closed loop of 4 links")
+    _, german = run(capsys, derive, chain=WATT, lang="de")
+    assert "durch einen Zweischlag" in german
+    _, out = run(capsys, derive, chain=WATT, json=True)
+    found = json.loads(out)
+    assert found["from_loop"]
+    assert found["count"] == len(found["items"]) == 1
+    assert found["items"][-1]["code"] == code(Chain.parse(WATT))
+    assert Derivation.from_json(found["derivation"]).chain == Chain.parse(WATT)
+
+
+def test_derive_says_why_not(capsys):
+    rigid = "R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(1-3)"
+    status, out = run(capsys, derive, chain=rigid)
+    assert status == 0
+    assert "does not grow by dyads" in out
+    found = json.loads(run(capsys, derive, chain=rigid, json=True)[1])
+    assert (found["from_loop"], found["exact"], found["count"]) == (False, True, 0)
+    assert found["core"]["code"] == code(Chain.parse(rigid))
+
+
+def test_extend(capsys):
+    assert run(capsys, extend, chain=FOUR_BAR, dyad="RRR", count=True) == (0, "2\n")
+    _, out = run(capsys, extend, chain=FOUR_BAR, dyad="RRP", json=True)
+    found = json.loads(out)
+    assert found["count"] == len(found["items"]) == 2
+    for item in found["items"]:
+        assert code(Chain.parse(item["text"])) == item["code"]
+        assert (item["counted"], item["generic"], item["immobile_joints"]) == (1, 1, [])
+    _, out = run(capsys, extend, chain=FIVE_BAR, coupler="RR", lang="de")
+    lines = out.splitlines()
+    assert lines[0].startswith("Kette")
+    assert "D(0-1), D(0-5), D(5-1)" in lines[1]
+    assert lines[2].endswith("2/4")
+    assert run(capsys, extend, chain=FOUR_BAR, dyad="RRR", at_joints=True, count=True)[1] == "4\n"
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments", "words"),
+    [
+        (assur, {}, "name one mechanism, or ask for --list N"),
+        (assur, {"mechanism": WATT, "list": 4}, "name one mechanism, or ask for --list N"),
+        (assur, {"list": 3}, "2, 4, 6"),
+        (assur, {"mechanism": "R(0-1) R(1-2"}, "character 13"),
+        (assur, {"mechanism": "nothing"}, "no entry 'nothing'"),
+        (assur, {"mechanism": WATT, "frame": "9"}, "no link '9'"),
+        (assur, {"mechanism": WATT, "drive": ["R(0-9)"]}, "not one of the joints"),
+        (assur, {"mechanism": "R(0-1) R(1-2) R(2-0)"}, "does not move"),
+        (assur, {"mechanism": "spatial: R(0-1) R(1-2) R(2-0); drive=R(0-1)"}, "spatial"),
+        (derive, {"chain": "R(0-1)"}, "at least three links"),
+        (extend, {"chain": FOUR_BAR, "dyad": "PPP"}, "the forms are RRR"),
+        (extend, {"chain": FOUR_BAR, "coupler": "RG"}, "each R, P or W"),
+        (extend, {"chain": "spatial: R(0-1) R(1-2) R(2-0)", "dyad": "RRR"}, "spatial"),
+    ],
+)
+def test_mistakes_are_one_sentence(capsys, command, arguments, words):
+    with pytest.raises(GrueblerError, match=words) as caught:
+        run(capsys, command, **arguments)
+    assert "\n" not in str(caught.value)
