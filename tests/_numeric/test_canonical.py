@@ -291,7 +291,11 @@ def test_known_groups(make: Callable[[], nx.Graph], order: int, orbits: int) -> 
 
 
 def test_the_numbering_is_kept() -> None:
-    """Codes are stored: who changes this digest changes the prefix of the codes (docs/theory/canonical-code.md)."""
+    """Codes are stored: who changes this digest changes the prefix of the codes (docs/theory/canonical-code.md).
+
+    It also fails on stale compiled kernels: numba looks for changes in the file of a kernel and not in the files
+    of the kernels that it calls, so after a change to one of them the .nbi and .nbc files are to be removed.
+    """
     known = [make() for _, make, _, _ in KNOWN]
     ladder = [nx.circular_ladder_graph(k) for k in range(3, 9)]
     uneven = [copies(*ladder), nx.frucht_graph(), nx.tutte_graph(), plane(3)]

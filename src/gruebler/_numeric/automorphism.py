@@ -5,8 +5,8 @@ of `gruebler._numeric.canonical` gets its exactness from (docs/theory/canonical-
 """
 
 import numpy as np
-from numba import njit
 
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.label_workspace import (
     BEST_LAB,
     BEST_POS,

@@ -15,9 +15,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.label_workspace import (
     BEST_LAB,
     CELLS,

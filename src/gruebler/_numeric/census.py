@@ -8,19 +8,12 @@ are counted in the same sum: docs/theory/enumeration.md, "Symmetry".
 from typing import Final, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.packed_graph import NODES, Labels, label, make_labels
-from gruebler._numeric.string_count import (
-    FOUND,
-    LINK_CLASSES,
-    BlockTables,
-    Counter,
-    block_tables,
-    count_strings,
-    make_counter,
-)
+from gruebler._numeric.string_blocks import BlockTables, Counter, block_tables, make_counter
+from gruebler._numeric.string_count import FOUND, LINK_CLASSES, count_strings
 from gruebler._numeric.strings import Frame, Values, make_frame, make_values, survey_strings
 
 Int64 = NDArray[np.int64]

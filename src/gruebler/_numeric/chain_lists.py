@@ -8,9 +8,9 @@ of the contracted graph; assignments come in lexicographic order, so no memory o
 from typing import Final, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.packed_graph import GROUP, NODES, Labels, label, make_labels
 from gruebler._numeric.strings import (
     LANES,

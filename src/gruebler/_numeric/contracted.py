@@ -12,10 +12,10 @@ exhaustive generation, J. Algorithms 26 (1998) 306-324.
 from typing import Final, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from gruebler._numeric.bits import lowest
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.packed_graph import (
     GROUP,
     MIX,

@@ -13,10 +13,10 @@ Definitions: docs/theory/enumeration.md, "Contracted graphs".
 from typing import Final, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from gruebler._numeric.bits import lowest, popcount
+from gruebler._numeric.compiling import njit
 
 Int64 = NDArray[np.int64]
 

@@ -11,8 +11,8 @@ is what makes the labelling of `gruebler._numeric.canonical` canonical (docs/the
 from typing import Final
 
 import numpy as np
-from numba import njit
 
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.label_workspace import (
     BEST_EARLY,
     BORN,

@@ -8,9 +8,9 @@ docs/theory/canonical-code.md.
 from typing import Final
 
 import numpy as np
-from numba import njit
 
 from gruebler._numeric.automorphism import find_automorphism, join, leaf_is_better, root
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.label_workspace import (
     BEST_EARLY,
     BEST_IS_FIRST,

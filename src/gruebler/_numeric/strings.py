@@ -14,10 +14,10 @@ from math import comb
 from typing import Final, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from gruebler._numeric.bits import lowest, popcount
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.packed_graph import NODES, order_of, strings, survey
 
 Int64 = NDArray[np.int64]

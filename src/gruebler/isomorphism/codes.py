@@ -64,7 +64,7 @@ def code(chain: Chain, *, frame: str | None = None, drives: Collection[int] = ()
     >>> code(Chain.parse("R(a-b) R(b-c) R(c-d) R(d-a)")) == code(Chain.parse("R(1-3) R(3-2) R(2-4) R(4-1)"))
     True
     >>> code(Chain.parse("R(a-b) R(b-c) P(c-a)"))
-    'gr1:P(0-1)R(0-2)R(1-2)'
+    'gr1:R(0-1)R(0-2)P(1-2)'
     """
     order = canonical_order(chain, frame, drives)
     rank = {chain.links[link]: str(k) for k, link in enumerate(order.links)}
