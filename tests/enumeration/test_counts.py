@@ -3,6 +3,7 @@
 from collections import Counter
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from itertools import product
+from multiprocessing import get_context
 from random import Random
 
 import networkx as nx
@@ -40,7 +41,7 @@ def test_sixteen_links():
 
 @pytest.mark.slow
 def test_eighteen_links():
-    with ProcessPoolExecutor(2) as executor:
+    with ProcessPoolExecutor(2, get_context("spawn")) as executor:
         assert count_chains(18, executor=executor).chains == 1_535_380_884
 
 
@@ -180,7 +181,7 @@ def test_cutting_and_order_do_not_matter(size):
 
 def test_executors():
     alone = count_chains(14, orbits=True)
-    with ThreadPoolExecutor(3) as threads, ProcessPoolExecutor(2) as processes:
+    with ThreadPoolExecutor(3) as threads, ProcessPoolExecutor(2, get_context("spawn")) as processes:
         assert count_chains(14, orbits=True, executor=threads) == alone
         assert count_chains(12, executor=processes) == count_chains(12)
 

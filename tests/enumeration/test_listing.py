@@ -3,6 +3,7 @@
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from functools import cache
 from itertools import combinations, islice
+from multiprocessing import get_context
 
 import networkx as nx
 import numpy as np
@@ -146,7 +147,7 @@ def test_order_does_not_depend_on_the_work():
         parts = [list_piece(piece, "graph6").tobytes() for piece in pieces(12, 1, size=size)]
         assert len(parts) > 1
         assert b"".join(parts) == whole
-    with ThreadPoolExecutor(3) as threads, ProcessPoolExecutor(2) as processes:
+    with ThreadPoolExecutor(3) as threads, ProcessPoolExecutor(2, get_context("spawn")) as processes:
         for executor in (threads, processes):
             assert b"".join(block.tobytes() for block in graph6_blocks(12, executor=executor)) == whole
 

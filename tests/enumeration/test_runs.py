@@ -13,9 +13,10 @@ from pathlib import Path
 
 import pytest
 
+from gruebler.enumeration.checkpoint import Checkpoint, RunError, whole_file
 from gruebler.enumeration.request import Request
 from gruebler.enumeration.run_request import run_count, run_list
-from gruebler.enumeration.runs import Checkpoint, Processes, Progress, RunError, perform, whole_file
+from gruebler.enumeration.runs import Processes, Progress, perform
 from gruebler.enumeration.work import Counter, add_tallies, work_of
 
 CHAINS_14 = 318162
@@ -253,7 +254,7 @@ ENDLESS = """
 import os, sys, time
 from gruebler.enumeration.runs import Processes, perform
 def work(number):
-    print(os.getpid(), flush=True)
+    os.write(1, b"%d\\n" % os.getpid())  # in one go, so that lines do not mix
     time.sleep(600)
 list(perform(work, range(4), Processes(2)))
 """
@@ -272,15 +273,18 @@ def test_no_worker_outlives_the_run(sent):
     with subprocess.Popen(
         [sys.executable, "-c", ENDLESS], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
     ) as run:
-        workers = [int(run.stdout.readline()) for _ in range(2)]
-        assert all(alive(pid) for pid in workers)
-        run.send_signal(sent)
-        run.wait(timeout=60)
-        for _ in range(600):
-            if not any(alive(pid) for pid in workers):
-                break
-            time.sleep(0.1)
-        assert not any(alive(pid) for pid in workers)
+        try:
+            workers = [int(run.stdout.readline()) for _ in range(2)]
+            assert all(alive(pid) for pid in workers)
+            run.send_signal(sent)
+            run.wait(timeout=60)
+        finally:
+            run.kill()
+    for _ in range(600):
+        if not any(alive(pid) for pid in workers):
+            break
+        time.sleep(0.1)
+    assert not any(alive(pid) for pid in workers)
 
 
 @pytest.mark.slow

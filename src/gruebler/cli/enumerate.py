@@ -11,10 +11,11 @@ from contextlib import closing, contextmanager
 from typing import BinaryIO
 
 from gruebler.cli.tables import print_table
+from gruebler.enumeration.checkpoint import RunError, whole_file
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
-from gruebler.enumeration.runs import Processes, Progress, RunError, whole_file
+from gruebler.enumeration.runs import Processes, Progress
 from gruebler.enumeration.work import Listing
 from gruebler.errors import GrueblerError
 

@@ -27,7 +27,7 @@ _NOT_FRACTIONATED: _Table = {
 }
 _LINK: _Table = {2: (0, 1, 5, 86, 2189, 87123, 4781709), 3: (0, 1, 19, 374, 11458), 4: (0, 2, 39, 1078, 39149)}
 _JOINT: _Table = {3: (0, 1, 5, 86, 2189), 4: (0, 2, 24, 481, 14185)}
-_ANY_JOINTS: _Table = {0: (1, 1, 6, 149), 1: (1, 4, 60, 2645), 2: (1, 9, 219)}
+_ANY_JOINTS: _Table = {0: (1, 1, 6, 149), 1: (1, 4, 60, 2645, 248203), 2: (1, 9, 219, 13450)}
 """All classes and any number of multiple joints."""
 
 # Seconds for a chain on one core, and bytes of an output line besides those of its joints.
@@ -89,7 +89,7 @@ def estimate(request: Request, form: str | None) -> Estimate:
         form: ``text``, ``graph6`` or ``json``; None for a count.
 
     >>> estimate(Request(18), "graph6").bytes // 10**9
-    41
+    42
     """
     chains, exact = expected_chains(request)
     links, joints = request.links, joint_number(request.links, request.mobility) or 0

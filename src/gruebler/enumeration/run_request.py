@@ -9,8 +9,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from gruebler.enumeration.assortment import loop_number
+from gruebler.enumeration.checkpoint import Checkpoint, PieceFiles
 from gruebler.enumeration.request import Request, RequestCount
-from gruebler.enumeration.runs import Checkpoint, PieceFiles, Progress, Watch, perform
+from gruebler.enumeration.runs import Progress, Watch, perform
 from gruebler.enumeration.work import Counter, Lister, Listing, Tally, Work, add_tallies, work_of
 
 __all__ = ["FORMATS", "run_count", "run_list"]
