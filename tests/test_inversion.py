@@ -67,7 +67,13 @@ def test_two_drives_and_those_that_fix_the_motion():
     ("chain", "names"),
     [
         (FOUR, {"four-bar linkage"}),
-        (SLIDER_CRANK, {"slider-crank", "inverted slider-crank (turning or swinging block)"}),
+        (
+            SLIDER_CRANK,
+            {
+                "slider-crank (sliding lever with the block as frame)",
+                "inverted slider-crank (turning or swinging block)",
+            },
+        ),
         (
             DOUBLE_SLIDER,
             {"Scotch yoke", "elliptic trammel (double slider)", "Oldham coupling (double slotted lever)"},

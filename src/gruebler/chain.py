@@ -13,12 +13,11 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gruebler import notation
-from gruebler.errors import ChainError, NotationError, PairError
+from gruebler.errors import ChainError, NotationError, PairError, nearest
 from gruebler.pairs import Alphabet, Pair, Space, pair
 
 if TYPE_CHECKING:
@@ -136,7 +135,9 @@ class Chain:
 
         try:
             graph = nx.from_graph6_bytes(code.encode("ascii"))
-        except (nx.NetworkXError, ValueError, IndexError) as error:
+        except IndexError:
+            raise NotationError(f"{code!r} is not a graph6 code: it ends too early") from None
+        except (nx.NetworkXError, ValueError) as error:
             raise NotationError(f"{code!r} is not a graph6 code: {error}") from None
         order = [str(v) for v in range(graph.number_of_nodes())]
         return cls([("revolute", (str(a), str(b))) for a, b in sorted(graph.edges)], links=order)
@@ -262,6 +263,15 @@ class Chain:
         """
         return dict(sorted(Counter(self.degrees.values()).items()))
 
+    @property
+    def assortment(self) -> tuple[int, ...]:
+        """The numbers (n2, n3, n4, ...) of binary, ternary, quaternary, ... links, up to the largest there is.
+
+        >>> Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)").assortment
+        (4, 2)
+        """
+        return tuple(self.link_kinds.get(k, 0) for k in range(2, max(self.link_kinds) + 1))
+
     @cached_property
     def multiple_joints(self) -> tuple[Joint, ...]:
         """The joints of more than two links."""
@@ -277,7 +287,7 @@ class Chain:
         try:
             return self._places[link]
         except KeyError:
-            raise ChainError(f"the chain has no link {link!r}{_nearest(link, self.links)}") from None
+            raise ChainError(f"the chain has no link {link!r}{nearest(link, self.links)}") from None
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -428,8 +438,7 @@ def _declared(links: Iterable[str | int], named: tuple[str, ...], joints: tuple[
     if stranger is not None:
         where = next(j for j in joints if stranger in j.links)
         raise ChainError(
-            f"the joint {where} names the link {stranger!r}, which is not among the links"
-            + _nearest(stranger, declared)
+            f"the joint {where} names the link {stranger!r}, which is not among the links" + nearest(stranger, declared)
         )
     lonely = next((link for link in declared if link not in set(named)), None)
     if lonely is not None:
@@ -464,8 +473,3 @@ def _links(number: int) -> str:
 
 def _some(names: Sequence[str]) -> str:
     return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
-
-
-def _nearest(word: str, known: Iterable[str]) -> str:
-    close = get_close_matches(word, list(known), n=1, cutoff=0.6)
-    return f"; did you mean {close[0]!r}?" if close else ""

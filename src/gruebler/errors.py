@@ -4,6 +4,9 @@ Every message says what was expected, what was found and, where there is one, th
 raises; an honest failure (a budget spent, a proof not found) is a result and never one of these.
 """
 
+from collections.abc import Iterable
+from difflib import get_close_matches
+
 
 class GrueblerError(ValueError):
     """The common parent: catching it catches every refusal of this library, and nothing else."""
@@ -23,3 +26,13 @@ class ChainError(GrueblerError):
 
 class CatalogError(GrueblerError):
     """A catalog file or key that cannot be used; the message names both."""
+
+
+def nearest(word: str, known: Iterable[str]) -> str:
+    """The end of a message that offers the known word nearest to a wrong one, or nothing.
+
+    >>> nearest("cranck", ["frame", "crank"])
+    "; did you mean 'crank'?"
+    """
+    close = get_close_matches(word, list(known), n=1, cutoff=0.5)
+    return f"; did you mean {close[0]!r}?" if close else ""

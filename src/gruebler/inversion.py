@@ -111,10 +111,15 @@ def _drive(chain: Chain, freedom: Freedom) -> Drive:
 
 # English name, German name, mechanism: what a frame makes of a chain. Sources: the seeds 2.4 and 2.6 for the four-bar
 # and the slider-crank chain; Watt and Stephenson as numbered by McCarthy and Soh, Geometric Design of Linkages, 2nd ed.
-# 2011; the chains with two sliders as named in VDI 2145 and by Luck and Modler, Getriebetechnik, 1990.
+# 2011; the chains with two sliders as named in VDI 2145 and by Luck and Modler, Getriebetechnik, 1990. Guide and block
+# of a slide are alike in structure, and so are a block that turns and one that swings: size tells them apart.
 _FAMILIES = (
     ("four-bar linkage", "Viergelenkgetriebe", "R(0-1) R(1-2) R(2-3) R(3-0); frame=0"),
-    ("slider-crank", "Schubkurbel", "R(0-1) R(1-2) R(2-3) P(3-0); frame=0"),
+    (
+        "slider-crank (sliding lever with the block as frame)",
+        "Schubkurbel (Schubhebel mit dem Stein als Gestell)",
+        "R(0-1) R(1-2) R(2-3) P(3-0); frame=0",
+    ),
     (
         "inverted slider-crank (turning or swinging block)",
         "Kurbelschleife (umlaufend oder schwingend)",

@@ -16,11 +16,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from enum import StrEnum
 from types import MappingProxyType
 
-from gruebler.errors import PairError
+from gruebler.errors import PairError, nearest
 
 __all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "pair", "read_symbols"]
 
@@ -231,7 +230,7 @@ def pair(name: str) -> Pair:
     """
     found = _BY_NAME.get(name) or _BY_FULL_NAME.get(name.replace("-", "_").casefold())
     if found is None:
-        raise PairError(f"unknown pair {name!r}{_nearest(name, _BY_FULL_NAME)}")
+        raise PairError(f"unknown pair {name!r}{nearest(name, _BY_FULL_NAME)}")
     return found
 
 
@@ -292,7 +291,7 @@ def _refuse_unknown(letters: list[str]) -> None:
     for symbol in letters:
         if symbol not in known:
             raise PairError(
-                f"unknown joint symbol {symbol!r}{_nearest(symbol, (*known, *_BY_FULL_NAME))}; the symbols are "
+                f"unknown joint symbol {symbol!r}{nearest(symbol, (*known, *_BY_FULL_NAME))}; the symbols are "
                 + ", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols}))
                 + " (international) and "
                 + ", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS))
@@ -351,8 +350,3 @@ def _two_alphabets(german: dict[str, tuple[Pair, ...]], other: dict[str, tuple[P
         f"{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; "
         f"write the full name ({one} or {two}) or add a joint that only one alphabet has"
     )
-
-
-def _nearest(word: str, known: Iterable[str]) -> str:
-    close = get_close_matches(word, list(known), n=1, cutoff=0.5)
-    return f"; did you mean {close[0]!r}?" if close else ""

@@ -202,7 +202,11 @@ def test_numbers_that_no_chain_has():
     for links, mobility in ((1, 0), (2, 1), (5, 1), (7, 3), (4, 3)):
         found = count_chains(links, mobility, orbits=True)
         assert (found.chains, found.by_assortment, found.drives) == (0, {}, 0)
-        assert list(chains(links, mobility)) == []
+        if links >= 3:
+            assert list(chains(links, mobility)) == []
+        else:
+            with pytest.raises(GrueblerError, match=r"at least three links"):
+                chains(links, mobility)
     assert count_chains(7, 4, assortment=(6, 1)).chains == 0
 
 

@@ -108,13 +108,19 @@ def test_every_chain_is_one_and_no_two_are_alike(links, mobility):
             others.append(graph)
 
 
-@pytest.mark.parametrize(("links", "mobility"), [(8, 1), (9, 2), (9, 0)])
+@pytest.mark.parametrize("mobility", range(5))
+@pytest.mark.parametrize("links", range(3, 11))
 def test_the_structure_core_agrees(links, mobility):
+    """Every chain of up to ten links by the report of the structure core, and no two with one code."""
+    codes = set()
     for chain in chains(links, mobility):
         report = mobility_report(chain)
         assert (report.counted, report.generic) == (mobility, mobility)
         assert not report.overconstrained
+        assert mobility == 0 or not report.immobile_joints
+        codes.add(code(chain))
         assert mobility == 0 or not report.rigid_clusters
+    assert len(codes) == sum(1 for _ in chains(links, mobility))
 
 
 @pytest.mark.parametrize(("links", "mobility"), [(4, 1), (10, 1), (11, 2), (9, 0), (8, 3)])

@@ -145,3 +145,19 @@ def test_large_chains_are_answered_and_their_circuit_is_found(size):
     assert [set(part.links) for part in report.overconstrained] == [{"0", "1", "2", "3"}]
     assert [set(cluster) for cluster in report.rigid_clusters] == [{"0", "1", "2", "3"}]
     assert overconstrained(generic(report.chain)) == report.overconstrained
+
+
+@given(chains(pairs=REVOLUTE, multiple=False))
+@settings(max_examples=60)
+def test_one_more_freedom_mends_where_it_is_said_to(chain):
+    """Turn a revolute of the subchain into a roll-slide joint, which has one freedom more."""
+    for part in mobility_report(chain).overconstrained:
+        inner = induced(chain, part.links)
+        if inner is None:
+            continue
+        for number in part.joints:
+            joint = chain.joints[number]
+            position = next(k for k, j in enumerate(inner.joints) if set(j.links) == set(joint.links))
+            freed = [("roll_slide" if k == position else j.pair, j.links) for k, j in enumerate(inner.joints)]
+            after = generic(Chain(freed, links=inner.links)).redundancy
+            assert (after == 0) == (number in part.mended_by_freeing)

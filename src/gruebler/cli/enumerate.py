@@ -10,6 +10,7 @@ from concurrent.futures import Executor
 from contextlib import closing, contextmanager
 from typing import BinaryIO
 
+from gruebler.cli.inputs import assortment_of
 from gruebler.cli.tables import print_table
 from gruebler.enumeration.checkpoint import RunError, whole_file
 from gruebler.enumeration.estimates import Estimate, estimate
@@ -68,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.links,
         arguments.mobility,
         arguments.fractionated,
-        _numbers(arguments.assortment),
+        assortment_of(arguments.assortment),
         arguments.multiple_joints,
     )
     form = None if arguments.count else _format(arguments, request)
@@ -82,17 +83,6 @@ def run(arguments: argparse.Namespace) -> int:
     if form is None:
         return _count(request, arguments, executor, size)
     return _list(request, form, arguments, executor, size)
-
-
-def _numbers(text: str | None) -> tuple[int, ...] | None:
-    if text is None:
-        return None
-    try:
-        return tuple(int(part) for part in text.split(","))
-    except ValueError:
-        raise GrueblerError(
-            f"--assortment {text!r}: expected numbers of binary, ternary, ... links such as 4,4"
-        ) from None
 
 
 def _format(arguments: argparse.Namespace, request: Request) -> str:

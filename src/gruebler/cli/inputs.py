@@ -7,10 +7,11 @@ from collections.abc import Sequence
 
 from gruebler.catalog import entry
 from gruebler.chain import Chain
+from gruebler.errors import GrueblerError
 from gruebler.isomorphism import decode
 from gruebler.mechanism import Mechanism
 
-__all__ = ["chain_of", "is_text", "mechanism_of"]
+__all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of"]
 
 
 def is_text(word: str) -> bool:
@@ -41,3 +42,18 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
         chain = chain_of(word)
         found = Mechanism(chain, chain.links[0])
     return Mechanism(found.chain, found.frame if frame is None else frame, drives or found.drives)
+
+
+def assortment_of(text: str | None) -> tuple[int, ...] | None:
+    """The numbers of an --assortment option; None if it is not given.
+
+    >>> assortment_of("4,2")
+    (4, 2)
+    """
+    if text is None:
+        return None
+    try:
+        return tuple(int(part) for part in text.split(","))
+    except ValueError:
+        expected = "the numbers of binary, ternary, ... links such as 4,4"
+        raise GrueblerError(f"--assortment {text!r}: expected {expected}") from None

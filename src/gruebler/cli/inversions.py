@@ -19,8 +19,14 @@ _HEADERS = {"en": ("frame", "drive", "output", "family"), "de": ("Gestell", "Ant
 def run(arguments: argparse.Namespace) -> int:
     """List or count the inversions of one chain."""
     chain = chain_of(arguments.chain, arguments.space)
-    if arguments.output and not arguments.drives:
-        raise GrueblerError("--output goes with --drives: an output link is chosen for a driven mechanism")
+    if not arguments.drives:
+        for option, given in (
+            ("--output", arguments.output),
+            ("--anywhere", arguments.anywhere),
+            ("--number", arguments.number != 1),
+        ):
+            if given:
+                raise GrueblerError(f"{option} goes with --drives: it is said of a driven mechanism")
     if arguments.drives:
         found = list(
             driven_mechanisms(chain, drives=arguments.number, at_frame=not arguments.anywhere, output=arguments.output)

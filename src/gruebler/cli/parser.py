@@ -224,7 +224,7 @@ def _add_extend(commands: argparse._SubParsersAction[_Parser]) -> None:
     )
     extend.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
     kind = extend.add_mutually_exclusive_group(required=True)
-    kind.add_argument("--dyad", metavar="FORM", help="RRR, RRP, RPR, PRP or RPP")
+    kind.add_argument("--dyad", nargs="?", const="RRR", metavar="FORM", help="RRR (default), RRP, RPR, PRP or RPP")
     kind.add_argument("--coupler", nargs="?", const="RR", metavar="PAIRS", help="its two joints (default: RR)")
     extend.add_argument("--at-joints", action="store_true", help="new links may join joints that are there")
     extend.add_argument("--count", action="store_true", help="only how many")

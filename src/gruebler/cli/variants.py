@@ -6,6 +6,7 @@ import argparse
 import json
 
 from gruebler.chain import Chain
+from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven
@@ -25,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
         prismatic=arguments.prismatic,
         rolling=arguments.rolling,
         roll_slide=arguments.roll_slide,
-        assortment=_numbers(arguments.assortment),
+        assortment=assortment_of(arguments.assortment),
         multiple_joints=arguments.multiple_joints,
         drives=tuple(Wanted.parse(text) for text in arguments.drive),
         at_frame=tuple(_at_frame(text) for text in arguments.at_frame),
@@ -56,17 +57,6 @@ def _text(one: Chain | Driven) -> str:
     if isinstance(one, Chain):
         return str(one)
     return str(one.mechanism) + ("" if one.output is None else f"; output {one.output}")
-
-
-def _numbers(text: str | None) -> tuple[int, ...] | None:
-    if text is None:
-        return None
-    try:
-        return tuple(int(part) for part in text.split(","))
-    except ValueError:
-        raise GrueblerError(
-            f"--assortment {text!r}: expected numbers of binary, ternary, ... links such as 4,2"
-        ) from None
 
 
 def _at_frame(text: str) -> tuple[Wanted, int]:

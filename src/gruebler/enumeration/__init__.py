@@ -1,20 +1,28 @@
 """Every chain, exactly once: assortments, contracted graphs, and the chains as numbers, values or bytes."""
 
 from gruebler.enumeration.assortment import Assortment, assortments, largest_degree
+from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
 from gruebler.enumeration.counting import ChainCount, count_chains
-from gruebler.enumeration.kinematic import chains, chains_of, edge_blocks, graph6_blocks
+from gruebler.enumeration.kinematic import chains_of, edge_blocks, graph6_blocks
+from gruebler.enumeration.multiple_assortment import joint_assortments
+from gruebler.enumeration.request import Request, RequestCount, chains, count
 
 __all__ = [
     "Assortment",
     "ChainCount",
     "ContractedGraph",
+    "Request",
+    "RequestCount",
     "assortments",
     "chains",
     "chains_of",
     "contracted_graphs",
+    "count",
     "count_chains",
     "edge_blocks",
+    "fractionation",
     "graph6_blocks",
+    "joint_assortments",
     "largest_degree",
 ]

@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from gruebler.enumeration.assortment import joint_number, loop_number
+from gruebler.enumeration.pieces import refuse_too_large
 from gruebler.enumeration.request import Request
 
 __all__ = ["Estimate", "estimate", "expected_chains"]
@@ -91,6 +92,7 @@ def estimate(request: Request, form: str | None) -> Estimate:
     >>> estimate(Request(18), "graph6").bytes // 10**9
     42
     """
+    refuse_too_large(request.links, request.mobility)
     chains, exact = expected_chains(request)
     links, joints = request.links, joint_number(request.links, request.mobility) or 0
     width = 2 if links <= 10 else 3

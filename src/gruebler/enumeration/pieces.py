@@ -51,6 +51,16 @@ class PieceCount(NamedTuple):
     drives: int
 
 
+def refuse_too_large(links: int, mobility: int) -> None:
+    """Raise `GrueblerError` for more loops or freedoms than the kernels can hold."""
+    loops = loop_number(links, mobility)
+    if loops is not None and (loops > MOST_LOOPS or mobility > MOST_FREEDOMS):
+        raise GrueblerError(
+            f"{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
+            f"{MOST_LOOPS} loops and mobility {MOST_FREEDOMS}"
+        )
+
+
 def pieces(
     links: int, mobility: int, *, assortment: Sequence[int] | None = None, size: int = 50_000_000
 ) -> Iterator[Piece]:
@@ -70,11 +80,7 @@ def pieces(
     loops = loop_number(links, mobility)
     if loops is None or loops < 2:
         return iter(())
-    if loops > MOST_LOOPS or mobility > MOST_FREEDOMS:
-        raise GrueblerError(
-            f"{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
-            f"{MOST_LOOPS} loops and mobility {MOST_FREEDOMS}"
-        )
+    refuse_too_large(links, mobility)
     return _cut(links, mobility, None if assortment is None else tuple(assortment), size)
 
 

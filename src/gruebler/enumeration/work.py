@@ -100,7 +100,7 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
                 yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
             else:
                 found = fractionated_chains(plain_chains, request.links, request.mobility, kind)
-                yield from (chain for chain in found if request.assortment in (None, _assortment(chain)))
+                yield from (chain for chain in found if request.assortment in (None, chain.assortment))
         return
     for work in work_of(request):
         yield from (chain for _, chain in _chains(request, work))
@@ -113,22 +113,18 @@ def _chains(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
     elif isinstance(work, Parts):
         kind = "joint" if work.bridges else "link"
         for compound in composed(plain_chains, work):
-            if request.assortment in (None, _assortment(compound.chain)):
+            if request.assortment in (None, compound.chain.assortment):
                 yield kind, compound.chain
     elif isinstance(work, Grown):
         fewest, most = request.joints_range
         simple = (Chain([("revolute", edge) for edge in edges], links=range(work.links)) for edges in work.simple)
         for chain in with_multiple_joints(simple, fewest=fewest, most=most):
-            if request.assortment in (None, _assortment(chain)) and (kind := fractionation(chain)) in request.classes:
+            if request.assortment in (None, chain.assortment) and (kind := fractionation(chain)) in request.classes:
                 yield kind, chain
 
 
 def _edges(chain: Chain) -> Edges:
     return tuple((chain.index(a), chain.index(b)) for a, b in (joint.links for joint in chain.joints))
-
-
-def _assortment(chain: Chain) -> Assortment:
-    return tuple(chain.link_kinds.get(k, 0) for k in range(2, max(chain.link_kinds) + 1))
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +140,7 @@ class Counter:
             return [Tally("none", *found) for found in count_piece(work, self.orbits)]
         sums: dict[tuple[str, Assortment], list[int]] = {}
         for kind, chain in _chains(self.request, work):
-            row = sums.setdefault((kind, _assortment(chain)), [0, 0, 0, 0])
+            row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
             for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
                 row[k] += number
         return [Tally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]

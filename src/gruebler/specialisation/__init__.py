@@ -1,9 +1,9 @@
 """From a chain of revolutes to typed chains and mechanisms that answer requirements, each once."""
 
+from gruebler.specialisation.assignment import assignments, every_joint_moves, joint_types
 from gruebler.specialisation.contacts import with_contacts
-from gruebler.specialisation.joint_types import assignments, every_joint_moves, joint_types
 from gruebler.specialisation.requirements import Place, Requirements, Wanted
-from gruebler.specialisation.variants import typed_chains, variants
+from gruebler.specialisation.selection import typed_chains, variants
 
 __all__ = [
     "Place",

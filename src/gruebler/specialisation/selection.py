@@ -9,8 +9,8 @@ from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven, driven_mechanisms, inversions
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.pairs import pair
+from gruebler.specialisation.assignment import assignments, every_joint_moves
 from gruebler.specialisation.contacts import with_contacts
-from gruebler.specialisation.joint_types import assignments, every_joint_moves
 from gruebler.specialisation.requirements import Place, Requirements
 
 __all__ = ["typed_chains", "variants"]
@@ -23,7 +23,7 @@ def typed_chains(wanted: Requirements) -> Iterator[Chain]:
     links, and the other pairs on the revolutes that are left; each chain once. Different chains of revolutes give
     different chains with contacts (a contact is undone in one way), so no isomorphism test is needed.
     """
-    from gruebler.enumeration.request import chains
+    from gruebler.enumeration import chains
 
     if wanted.links < 3:
         raise GrueblerError(f"a chain has at least three links, not {wanted.links}")
@@ -36,15 +36,10 @@ def typed_chains(wanted: Requirements) -> Iterator[Chain]:
             if sum(kinds.values()) > sum(j.pair.name == "revolute" and j.count == 1 for j in touching.joints):
                 continue
             for typed in assignments(touching, {k: number for k, number in kinds.items() if number}):
-                if wanted.assortment in (None, _assortment(typed)) and (
+                if wanted.assortment in (None, typed.assortment) and (
                     not wanted.prismatic or every_joint_moves(typed, wanted.mobility)
                 ):
                     yield typed
-
-
-def _assortment(chain: Chain) -> tuple[int, ...]:
-    most = max(chain.link_kinds)
-    return tuple(chain.link_kinds.get(k, 0) for k in range(2, most + 1))
 
 
 def variants(wanted: Requirements) -> Iterator[Chain | Driven]:

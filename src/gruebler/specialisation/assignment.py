@@ -51,7 +51,10 @@ def joint_types(
 def assignments(chain: Chain, kinds: Mapping[Pair, int]) -> Iterator[Chain]:
     """Every assignment of the pairs to simple revolute joints, one for each orbit under the chain's symmetry."""
     places = [k for k, joint in enumerate(chain.joints) if joint.pair.name == "revolute" and joint.count == 1]
-    if any(number < 0 for number in kinds.values()) or sum(kinds.values()) > len(places):
+    for kind, number in kinds.items():
+        if number < 0:
+            raise ChainError(f"the number of {kind.name} joints is 0 or more, not {number}")
+    if sum(kinds.values()) > len(places):
         raise ChainError(
             f"{sum(kinds.values())} joints cannot be exchanged: the chain has {len(places)} simple revolutes"
         )
