@@ -57,6 +57,17 @@ def counting() -> None:
         print(line, ratio(geng(links, "-u"), ours), flush=True)
 
 
+def eighteen() -> None:
+    """The largest count, as a process of its own, with its peak memory in MB."""
+    code = "import resource; from gruebler import count_chains; print(count_chains(18).chains); "
+    code += "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024)"
+    start = time.perf_counter()
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    took = time.perf_counter() - start
+    chains, memory = map(int, done.stdout.split())
+    print(f" 18 links{'':<16}{chains:>14}{took:>9.1f} s{took / chains * 1e9:>9.1f} ns   {memory} MB", flush=True)
+
+
 def listing() -> None:
     def write(path: str) -> None:
         with open(path, "wb") as file:  # noqa: PTH123
@@ -101,6 +112,7 @@ def main() -> None:
     if GENG is None:
         print("geng is not on the PATH: no comparison (Debian: package nauty)")
     counting()
+    eighteen()
     listing()
     commands()
     profile()
