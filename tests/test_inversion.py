@@ -114,3 +114,13 @@ def test_every_driven_mechanism_of_the_six_links_is_fixed_by_its_drive():
 
 def test_unknown_families_have_no_name():
     assert family(Mechanism.parse("R(0-1) R(1-2) R(2-0)")) is None
+
+
+def test_the_four_rows_of_the_seeds_inversion_table_are_one_structure():
+    """Table 2.3: fixing b, d, a or c of a four-bar gives two crank-rockers, a double crank, a double rocker.
+
+    The names come from lengths; in structure the four frames are one.
+    """
+    four = Chain.parse("R(a-b) R(b-c) R(c-d) R(d-a)")
+    assert len({Mechanism(four, frame).code() for frame in "bdac"}) == 1
+    assert len(inversions(four)) == 1

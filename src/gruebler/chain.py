@@ -135,6 +135,8 @@ class Chain:
 
         try:
             graph = nx.from_graph6_bytes(code.encode("ascii"))
+        except UnicodeEncodeError:
+            raise NotationError(f"{code!r} is not a graph6 code: it has letters beyond ASCII") from None
         except IndexError:
             raise NotationError(f"{code!r} is not a graph6 code: it ends too early") from None
         except (nx.NetworkXError, ValueError) as error:

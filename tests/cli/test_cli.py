@@ -1,6 +1,7 @@
 """The command line as a user meets it: output, JSON, exit statuses, and one sentence for every mistake."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -181,3 +182,35 @@ def test_help_names_every_command(capsys):
     for command in ("check", "catalog", "demo"):
         assert command in out
     assert run(capsys, "--version")[1].startswith("gruebler ")
+
+
+def command(script, **options):
+    return subprocess.run(
+        f"{sys.executable} -m gruebler {script}", shell=True, capture_output=True, text=True, check=False, **options
+    )
+
+
+def test_a_closed_or_narrow_output_is_no_traceback():
+    closed = command("check vcomp >&-")
+    assert (closed.returncode, closed.stderr) == (0, "")
+    narrow = command("check vcomp --lang de --explain", env={**os.environ, "PYTHONIOENCODING": "ascii"})
+    assert narrow.returncode == 0
+    assert "z\\xe4hlt" in narrow.stdout
+
+
+def test_files_from_other_editors_and_with_absurd_numbers(capsys, tmp_path):
+    marked = tmp_path / "marked.txt"
+    marked.write_text(FOUR_BAR, encoding="utf-8-sig")
+    assert run(capsys, "check", str(marked))[0] == 0
+    for name, text in (("long.json", f'{{"joints": {"9" * 5000}}}'), ("empty.json", "[]"), ("deep.json", "[" * 10**5)):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        status, _, err = run(capsys, "check", str(path))
+        assert status == 2
+        assert len(err.strip().splitlines()) == 1
+
+
+def test_a_mechanism_is_checked_as_its_chain(capsys):
+    status, out, _ = run(capsys, "check", f"{FOUR_BAR}; frame=frame; drive=R(frame-crank)", "--json")
+    assert status == 0
+    assert json.loads(out)[0]["counted"] == 1

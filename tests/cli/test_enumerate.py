@@ -1,6 +1,7 @@
 """`gruebler enumerate` and `gruebler assortments` as a user meets them."""
 
 import json
+import os
 import subprocess
 import sys
 
@@ -171,3 +172,20 @@ def test_assortments(capfd):
     status, _, err = run(capfd, "assortments", "0")
     assert status == 2
     assert "at least one link" in err
+
+
+def test_the_output_goes_to_ordinary_files_only(tmp_path, capsys):
+    """A pipe is refused and stays one; a link's target gets the content and keeps its rights."""
+    pipe, target, link = tmp_path / "pipe", tmp_path / "target.txt", tmp_path / "link.txt"
+    os.mkfifo(pipe)
+    assert main(["enumerate", "--links", "6", "-o", str(pipe)]) == 2
+    assert pipe.is_fifo()
+    target.write_text("before")
+    target.chmod(0o600)
+    link.symlink_to(target)
+    assert main(["enumerate", "--links", "6", "-o", str(link)]) == 0
+    assert link.is_symlink()
+    assert len(target.read_text().splitlines()) == 2
+    assert target.stat().st_mode & 0o777 == 0o600
+    assert main(["enumerate", "--links", "6", "-o", ""]) == 2
+    assert "cannot be written" in capsys.readouterr().err

@@ -84,7 +84,7 @@ def test_assur_says_what_drives_leave_free(capsys):
     status, out = run(capsys, assur, mechanism=f"{FIVE_BAR}; drive=R(0-1)", json=True, lang="de")
     found = json.loads(out)
     assert (status, found["complete"], found["rest"]) == (1, False, ["2", "3", "4"])
-    assert "bewegen sich noch" in found["message"]
+    assert "noch beweglich" in found["message"]
 
 
 @pytest.mark.parametrize(("links", "number"), [(2, 1), (4, 2), (6, 10)])

@@ -62,7 +62,7 @@ def test_one_part_free_while_another_is_driven_twice():
     assert (wrong.mobility, wrong.drives, wrong.remaining) == (3, 3, 1)
     assert set(wrong.redundant_drives) == {0, 1}
     assert set(wrong.free_links) == {"b", "c", "d"}
-    assert "b, c, d still move" in wrong.explain()
+    assert "still moving: b, c, d" in wrong.explain()
     assert "Nr. 1, 2" in wrong.explain("de")
     right = check_drives(Mechanism(Chain.parse(text), "0", ["R(0-1)", "R(0-a)", "R(0-d)"]))
     assert right.fixed

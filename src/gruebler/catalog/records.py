@@ -122,12 +122,14 @@ def _read(path: Path, kind: type[Record]) -> Record:
     try:
         if path.stat().st_size > _LARGEST:
             raise CatalogError(f"{path}: larger than {_LARGEST:,} bytes; a catalog file holds one entry")
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
+        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
         raise CatalogError(f"{path}: is not UTF-8 text") from None
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except RecursionError:
+        raise CatalogError(f"{path}: is nested too deeply") from None
+    except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
         raise CatalogError(f"{path}: is not TOML: {error}") from None
     _refuse_strange_keys(data, kind, path, "")
     try:

@@ -6,9 +6,11 @@ usage or unreadable input, said in one sentence on standard error.
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from gruebler.cli.parser import build_parser
 from gruebler.errors import GrueblerError
@@ -18,6 +20,7 @@ __all__ = ["main"]
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
+    _prepare_streams()
     arguments = build_parser().parse_args(argv)
     from importlib import import_module
 
@@ -29,9 +32,32 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     except BrokenPipeError:
         # The reader has gone (| head): what is still buffered has nowhere to go.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _forget_output()
         return 0
+    except OSError as error:
+        _forget_output()
+        print(f"gruebler {arguments.command}: cannot write the output: {error.strerror or error}", file=sys.stderr)
+        return 2
     except KeyboardInterrupt:
-        print("\ngruebler: stopped", file=sys.stderr)
+        kept = getattr(arguments, "checkpoint", None)
+        again = f"; the same command goes on from {kept}" if kept else ""
+        print(f"\ngruebler: stopped{again}", file=sys.stderr)
         return 130
     return status
+
+
+def _prepare_streams() -> None:
+    """A closed output swallows what is printed; an encoding without a letter shows it as an escape."""
+    if sys.stdout is None:
+        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115  open as long as the process lives
+    if sys.stderr is None:
+        sys.stderr = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")
+
+
+def _forget_output() -> None:
+    try:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    except (OSError, ValueError):
+        sys.stdout = Path(os.devnull).open("w", encoding="utf-8")  # noqa: SIM115

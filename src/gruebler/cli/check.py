@@ -37,8 +37,8 @@ _HEADERS = {
 _CLAIMS = {"en": {True: "hold", False: "WRONG", None: "-"}, "de": {True: "stimmen", False: "FALSCH", None: "-"}}
 _MOVES = {"en": "moves with {}", "de": "bewegt sich mit {}"}
 _SUMMARY = {
-    "en": ("{n} chains, every claim holds.", "{n} chains, {wrong} with wrong claims."),
-    "de": ("{n} Ketten, alle Angaben stimmen.", "{n} Ketten, {wrong} mit falschen Angaben."),
+    "en": ("Chains: {n}; every claim holds.", "Chains: {n}; with wrong claims: {wrong}."),
+    "de": ("Ketten: {n}; alle Angaben stimmen.", "Ketten: {n}; mit falschen Angaben: {wrong}."),
 }
 _TRUTH = {
     "en": "Dimensions decide: the entry's machine moves with mobility {mobility}, not {generic}. {reason} "
@@ -161,7 +161,7 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
         yield check_entry(read_entry(path), origin=str(path))
         return
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
         raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
@@ -175,8 +175,12 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:
     try:
         document = json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as error:
+    except RecursionError:
+        raise NotationError(f"{path}: is nested too deeply") from None
+    except ValueError as error:  # JSONDecodeError, or a number of thousands of digits
         raise NotationError(f"{path}: is not JSON: {error}") from None
+    if document == []:
+        raise NotationError(f"{path}: no chain in it; expected an object or a list of objects")
     documents = document if isinstance(document, list) else [document]
     for number, one in enumerate(documents, 1):
         name = f"{path}[{number}]" if isinstance(document, list) else str(path)

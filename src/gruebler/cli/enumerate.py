@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
@@ -49,9 +50,9 @@ _WORDS = {
         "joint": "an einem Gelenk zerlegbar",
         "assortment": "binär, ternär, ...",
         "chains": "Ketten",
-        "inversions": "Gestellwechsel (Gestell)",
+        "inversions": "Inversionen (Gestell)",
         "drives": "angetriebene Getriebe (Gestell, Antrieb am Gestell)",
-        "joint_orbits": "Gelenkbahnen",
+        "joint_orbits": "Gelenkklassen (Symmetrie)",
         "found": "{n} Ketten nach {path} geschrieben.",
         "progress": "{pieces} Teile  {chains:,} Ketten  {rate:,.0f}/s  {left}",
         "left": "noch etwa {time}",
@@ -75,9 +76,15 @@ def run(arguments: argparse.Namespace) -> int:
     form = None if arguments.count else _format(arguments, request)
     if arguments.orbits and form is not None:
         raise GrueblerError("--orbits goes with --count: it adds the numbers of mechanisms to the number of chains")
+    if form is None and arguments.format not in (None, "json"):
+        raise GrueblerError(f"--format {arguments.format} goes with a list: a count is a table, or JSON with --json")
+    if form is None and arguments.format == "json":
+        arguments.json = True
+    if arguments.output is not None and not arguments.output.name:
+        raise RunError(f"--output {str(arguments.output)!r} names no file")
     if arguments.output is not None and not arguments.output.parent.is_dir():
         raise RunError(f"{arguments.output} cannot be written: there is no directory {arguments.output.parent}")
-    executor = None if arguments.jobs == 1 else Processes(arguments.jobs)
+    executor = None if arguments.jobs == 1 else Processes(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
     size = estimate(request, form)
     _check_size(size, arguments)
     if form is None:

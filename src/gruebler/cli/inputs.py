@@ -27,6 +27,8 @@ def chain_of(word: str, space: str | None = None) -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, or a catalog entry."""
     if _is_code(word):
         return decode(word.strip()).chain
+    if is_text(word) and ";" in word:
+        return Mechanism.parse(word).chain
     return Chain.parse(word, space) if is_text(word) else entry(word).chain()
 
 

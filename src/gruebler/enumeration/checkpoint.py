@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 import threading
@@ -16,7 +17,7 @@ __all__ = ["Checkpoint", "PieceFiles", "RunError", "whole_file"]
 
 _MANIFEST = "manifest.json"
 _ASIDE = ".aside"  # ends the names of files that are not whole yet
-_LAYOUT = 1  # of the checkpoint directory
+_LAYOUT = 2  # of the checkpoint directory
 
 
 class RunError(GrueblerError):
@@ -38,18 +39,21 @@ class PieceFiles:
     def save(self, number: int, head: Mapping[str, Any], body: bytes = b"") -> None:
         """Keep a piece: some plain data and bytes."""
         with whole_file(self._path(number), durable=self.durable) as file:
-            file.write(json.dumps({**head, "bytes": len(body)}).encode() + b"\n" + body)
+            file.write(json.dumps({**head, **_seal(head, body)}).encode() + b"\n" + body)
 
     def head(self, number: int) -> dict[str, Any] | None:
         """The plain data of a piece kept before, or None; a damaged file counts as none."""
         try:
             with self._path(number).open("rb") as file:
                 line = file.readline()
-                found: dict[str, Any] = json.loads(line)
-                whole = found.pop("bytes", None) == os.fstat(file.fileno()).st_size - len(line)
+                found = json.loads(line)
+                body = file.read()
         except (FileNotFoundError, UnicodeDecodeError, json.JSONDecodeError):
             return None
-        return found if whole else None
+        if not isinstance(found, dict):
+            return None
+        kept = {"bytes": found.pop("bytes", None), "sha256": found.pop("sha256", None)}
+        return found if kept == _seal(found, body) else None
 
     def body(self, number: int) -> bytes:
         """The bytes of a piece kept before."""
@@ -61,6 +65,12 @@ class PieceFiles:
 
     def _path(self, number: int) -> Path:
         return self.directory / f"{number:07d}.piece"
+
+
+def _seal(head: Mapping[str, Any], body: bytes) -> dict[str, Any]:
+    """What tells a piece as it was written from one that was cut off or changed."""
+    text = json.dumps(head, sort_keys=True).encode()
+    return {"bytes": len(body), "sha256": hashlib.sha256(text + b"\n" + body).hexdigest()}
 
 
 class Checkpoint(PieceFiles):
@@ -118,6 +128,11 @@ def whole_file(path: Path, *, durable: bool = True) -> Iterator[BinaryIO]:
     Raises:
         RunError: it cannot be written.
     """
+    if not path.name:
+        raise RunError(f"{str(path)!r} names no file to write")
+    path = path.resolve()  # a link is followed, so that its target gets the content
+    if path.exists() and not path.is_file():
+        raise RunError(f"{path} cannot be written: it is not an ordinary file")
     aside = path.with_name(f".{path.name}.{os.getpid()}.{threading.get_ident()}{_ASIDE}")
     try:
         with aside.open("wb") as file:
@@ -125,6 +140,8 @@ def whole_file(path: Path, *, durable: bool = True) -> Iterator[BinaryIO]:
             if durable:
                 file.flush()
                 os.fsync(file.fileno())
+        if path.exists():
+            aside.chmod(path.stat().st_mode & 0o7777)
         aside.replace(path)
         if durable:
             _flush_directory(path.parent)

@@ -42,9 +42,9 @@ class DriveReport:
         if self.remaining:
             links = ", ".join(self.free_links)
             lines.append(
-                f"Bei festen Antrieben bleiben {self.remaining} Freiheitsgrade: {links} bewegen sich noch."
+                f"Freiheitsgrade bei festen Antrieben: {self.remaining}; noch beweglich: {links}."
                 if german
-                else f"With the drives locked {self.remaining} freedoms remain: {links} still move."
+                else f"Freedoms left with the drives locked: {self.remaining}; still moving: {links}."
             )
         if self.redundant_drives:
             numbers = ", ".join(str(k + 1) for k in self.redundant_drives)
