@@ -189,3 +189,12 @@ def test_the_output_goes_to_ordinary_files_only(tmp_path, capsys):
     assert target.stat().st_mode & 0o777 == 0o600
     assert main(["enumerate", "--links", "6", "-o", ""]) == 2
     assert "cannot be written" in capsys.readouterr().err
+
+
+def test_graph6_files_are_taken_back(tmp_path, capsys):
+    path = tmp_path / "eight.g6"
+    assert main(["enumerate", "--links", "8", "--format", "graph6", "-o", str(path)]) == 0
+    capsys.readouterr()
+    assert main(["check", str(path), "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert [one["verdict"] for one in found] == ["constrained"] * 16

@@ -137,7 +137,7 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
         yield from _lines(sys.stdin.read(), "standard input", arguments)
     elif is_text(word):
         yield _plain(chain_of(word, arguments.space), word, arguments)
-    elif (path := Path(word)).is_file() or path.suffix in {".toml", ".json", ".txt"}:
+    elif (path := Path(word)).is_file() or path.suffix in {".toml", ".json", ".txt", ".g6"}:
         yield from _file(path, arguments)
     elif word in exercises():
         yield from check_exercise(exercises()[word])
@@ -168,6 +168,8 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
         raise CatalogError(f"{path}: is not UTF-8 text") from None
     if path.suffix == ".json":
         yield from _json(path, text, arguments)
+    elif path.suffix == ".g6":
+        yield from _lines("".join(f"g6:{line}\n" for line in text.split()), str(path), arguments)
     else:
         yield from _lines(text, str(path), arguments)
 

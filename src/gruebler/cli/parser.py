@@ -52,7 +52,7 @@ def _add_check(commands: argparse._SubParsersAction[_Parser]) -> None:
         nargs="*",
         metavar="CHAIN|ID|FILE",
         help="a text such as 'R(0-1) R(1-2) R(2-3) R(3-0)', g6:CODE, the id of a catalog entry, a file (.toml entry, "
-        ".json chain or list of chains, otherwise one chain a line), or - for lines on standard input",
+        ".json chain or list of chains, .g6 lines, otherwise one chain a line), or - for lines on standard input",
     )
     check.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where texts live (default: planar)")
     check.add_argument("--b", type=int, metavar="B", help="motions of a free link for the count (2 for a screw group)")
