@@ -28,6 +28,10 @@ class CatalogError(GrueblerError):
     """A catalog file or key that cannot be used; the message names both."""
 
 
+class LinkageError(GrueblerError):
+    """Dimensions that do not make a sound linkage, or a question that its dimensions do not answer."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """The end of a message that offers the known word nearest to a wrong one, or nothing.
 

@@ -1,0 +1,162 @@
+"""`gruebler grashof`: the type of a four-bar, which links turn fully, and for which values of one length."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from collections.abc import Sequence
+
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.linkages.extremes import Arc
+from gruebler.linkages.four_bar import FourBar
+from gruebler.linkages.grashof import Grashof, LengthRange, turning_ranges, types_along
+
+__all__ = ["run"]
+
+_WORDS = {
+    "en": {
+        "limits": "crank angle",
+        "swing": "swing of the output",
+        "time_ratio": "time ratio",
+        "mu": "smallest transmission angle",
+        "full": "full turn",
+        "or": " or ",
+        "none": "No value of {free} lets {turns} turn fully.",
+        "some": "{turns} turns fully for",
+        "turns": "{0} turns fully: {1}",
+        "yes": "yes",
+        "no": "no",
+    },
+    "de": {
+        "limits": "Kurbelwinkel",
+        "swing": "Schwingwinkel des Abtriebs",
+        "time_ratio": "Zeitverhältnis",
+        "mu": "kleinster Übertragungswinkel",
+        "full": "volle Umdrehung",
+        "or": " oder ",
+        "none": "Für keinen Wert von {free} ist {turns} umlauffähig.",
+        "some": "{turns} ist umlauffähig für",
+        "turns": "{0} umlauffähig: {1}",
+        "yes": "ja",
+        "no": "nein",
+    },
+}
+
+_HEADERS = {"en": ("from", "to", "type", "below", "above"), "de": ("von", "bis", "Typ", "darunter", "darüber")}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Classify one four-bar, or go through the values of one length.
+
+    Status 1: it cannot be assembled, the link asked about does not turn fully, or no value lets it turn.
+    """
+    lengths = [_number(text) for text in arguments.lengths]
+    if arguments.free:
+        return _along(_three(lengths, arguments.free), arguments)
+    if len(lengths) != 4:
+        raise GrueblerError(f"four lengths A B C D are needed (three go with --free), not {len(lengths)}")
+    four_bar = FourBar(*lengths)
+    if arguments.json:
+        print(json.dumps(_document(four_bar), ensure_ascii=False, indent=2))
+    else:
+        _say(four_bar, arguments.lang)
+    grashof = four_bar.grashof
+    if arguments.turns is None:
+        return 0 if grashof.assemblable else 1
+    turning = arguments.turns in grashof.turning
+    if not arguments.json:
+        words = _WORDS[arguments.lang]
+        print(words["turns"].format(arguments.turns, words["yes" if turning else "no"]))
+    return 0 if turning else 1
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise GrueblerError(f"a length must be a number, not {text!r}") from None
+
+
+def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
+    names = [name for name in "abcd" if name != free]
+    if len(lengths) == 4:
+        lengths = [length for name, length in zip("abcd", lengths, strict=True) if name != free]
+    if len(lengths) != 3:
+        raise GrueblerError(f"--free {free} takes the lengths {', '.join(names)} (or all four), not {len(lengths)}")
+    return dict(zip(names, lengths, strict=True))
+
+
+def _along(given: dict[str, float], arguments: argparse.Namespace) -> int:
+    free, turns, words = arguments.free, arguments.turns, _WORDS[arguments.lang]
+    found = turning_ranges(turns, **given) if turns else types_along(**given)
+    if arguments.json:
+        items = [_range_item(part) for part in found]
+        print(json.dumps({**given, "free": free, "turns": turns, "items": items}, ensure_ascii=False, indent=2))
+    elif not found:
+        print(words["none"].format(free=free, turns=turns))
+    else:
+        if turns:
+            print(words["some"].format(turns=turns))
+        rows = [_range_row(part, free, arguments.lang) for part in found]
+        print_table(_HEADERS[arguments.lang], rows, numbers=(0, 1))
+    return 0 if found else 1
+
+
+def _range_row(part: LengthRange, free: str, lang: str) -> tuple[str, ...]:
+    lower = f"{part.lower:.6g} {'<' if part.lower == 0 else '<='} {free}"
+    upper = "" if math.isinf(part.upper) else f"<= {part.upper:.6g}"
+    beyond = ("" if kind is None else kind.name(lang) for kind in (part.below, part.above))
+    return lower, upper, part.type.name(lang), *beyond
+
+
+def _range_item(part: LengthRange) -> dict[str, object]:
+    return {
+        "lower": part.lower,
+        "upper": None if math.isinf(part.upper) else part.upper,
+        "type": part.type.key,
+        "turning": list(part.grashof.turning),
+        "below": part.below.key if part.below else None,
+        "above": part.above.key if part.above else None,
+    }
+
+
+def _say(four_bar: FourBar, lang: str) -> None:
+    words = _WORDS[lang]
+    print(four_bar.grashof.explain(lang))
+    if not four_bar.limits:
+        return
+    arcs = words["or"].join(_arc(arc, words["full"]) for arc in four_bar.limits)
+    rows = [("limits", arcs)]
+    if (centres := four_bar.dead_centres) is not None:
+        rows += [("swing", f"{math.degrees(centres.travel):.4f}°"), ("time_ratio", f"{centres.time_ratio:.6f}")]
+    rows.append(("mu", f"{math.degrees(four_bar.transmission_angle.smallest):.4f}°"))
+    for key, value in rows:
+        print(f"{words[key]}: {value}")
+
+
+def _arc(arc: Arc, full: str) -> str:
+    return full if arc.full else f"{math.degrees(arc.start):.4f}°..{math.degrees(arc.end):.4f}°"
+
+
+def _document(four_bar: FourBar) -> dict[str, object]:
+    found: Grashof = four_bar.grashof
+    centres = four_bar.dead_centres
+    document: dict[str, object] = {
+        **found.lengths,
+        "type": found.type.key,
+        "english": found.type.english,
+        "german": found.type.german,
+        "condition": found.condition,
+        "excess": found.excess,
+        "shortest": list(found.shortest),
+        "turning": list(found.turning),
+        "limits_deg": [[math.degrees(end) for end in arc] for arc in four_bar.limits],
+    }
+    if centres is not None:
+        document["swing_deg"] = math.degrees(centres.travel)
+        document["time_ratio"] = centres.time_ratio
+    if four_bar.limits:
+        document["smallest_transmission_angle_deg"] = math.degrees(four_bar.transmission_angle.smallest)
+    return document

@@ -1,0 +1,127 @@
+"""What a linkage with one crank does at given crank angles: positions and their first three derivatives in time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from gruebler.errors import LinkageError
+from gruebler.linkages.quantities import FloatArray, as_finite, as_numbers
+
+__all__ = ["CrankMotion", "InvertedMotion", "Track", "crank_track", "determined", "points", "turned"]
+
+
+class Track(NamedTuple):
+    """A quantity at given instants with its velocity, acceleration and jerk; four arrays of one shape."""
+
+    value: FloatArray
+    velocity: FloatArray
+    acceleration: FloatArray
+    jerk: FloatArray
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CrankMotion:
+    """The poses of a linkage over crank angles, in closed form.
+
+    Angles in radians, counted from the x-axis (from A0 to B0, or along the slider's path); rates per unit of the time
+    in which ``omega`` was given. Points are arrays with (x, y) in the last axis. A pose that cannot be assembled is
+    NaN; so are rates where the output does not determine them (transmission angle 0); ``message`` says so.
+    """
+
+    crank: Track
+    """The crank's angle phi."""
+    coupler: Track
+    """The coupler's angle theta, the direction from A to B."""
+    output: Track
+    """The rocker's angle psi, the direction from B0 to B; for a slider its way s."""
+    A: Track
+    """The joint of crank and coupler."""
+    B: Track
+    """The joint of coupler and output."""
+    mu: FloatArray
+    """The angle between coupler and output in 0..pi, not folded."""
+    branch: int
+    message: str
+    """Empty if every pose is assembled and every rate determined."""
+
+    @property
+    def complete(self) -> bool:
+        """Whether every pose is assembled and every rate determined."""
+        return not self.message
+
+    @property
+    def assembled(self) -> npt.NDArray[np.bool_]:
+        """Which poses can be assembled."""
+        return np.isfinite(self.coupler.value)
+
+    @property
+    def transmission_angle(self) -> FloatArray:
+        """The transmission angle, folded to at most pi/2."""
+        return np.minimum(self.mu, np.pi - self.mu)
+
+    @property
+    def deviation_angle(self) -> FloatArray:
+        """The deviation angle alpha, pi/2 less the transmission angle."""
+        return np.pi / 2 - self.transmission_angle
+
+    @property
+    def ratio(self) -> FloatArray:
+        """The transmission ratio i, the crank's velocity by the output's; infinite in a dead centre."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(self.crank.velocity / self.output.velocity)
+
+    def point(self, u: float, v: float = 0.0) -> Track:
+        """The coupler point u along AB from A and v to the left: its path, velocity, acceleration and jerk."""
+        arm = complex(as_finite("u", u), as_finite("v", v))
+        rates = [arm * turned(self.coupler[: k + 1], k) for k in range(4)]
+        return Track(*(at + points(rate) for at, rate in zip(self.A, rates, strict=True)))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class InvertedMotion(CrankMotion):
+    """The poses of an inverted slider-crank: B is the foot of B0 on the guide through A."""
+
+    slide: Track
+    """The way r of the block along the guide, from A to B."""
+
+
+def points(z: Any) -> FloatArray:
+    """Complex numbers as points: (x, y) in a new last axis."""
+    return np.stack([np.real(z), np.imag(z)], axis=-1)
+
+
+def turned(angle: Sequence[Any], order: int) -> Any:
+    """The derivative of exp(i x) of an order up to 3, given x and its derivatives; those left out count as zero.
+
+    >>> turned([0.0, 2.0], 1)
+    np.complex128(2j)
+    """
+    known: list[Any] = [*angle, 0.0, 0.0, 0.0]
+    x, x1, x2, x3 = known[:4]
+    factor = (1.0, 1j * x1, 1j * x2 - x1**2, 1j * x3 - 3 * x1 * x2 - 1j * x1**3)[order]
+    return factor * np.exp(1j * x)
+
+
+def crank_track(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, jerk: npt.ArrayLike) -> Track:
+    """The crank's own motion, checked; rates are spread over all angles."""
+    named = {"phi": phi, "omega": omega, "alpha": alpha, "jerk": jerk}
+    given = {name: as_numbers(name, value) for name, value in named.items()}
+    for name, values in given.items():
+        if values.size and np.abs(values).max() > 1e50:
+            raise LinkageError(f"{name} must be below 1e50: choose another unit of time")
+    try:
+        return Track(*(np.array(part) for part in np.broadcast_arrays(*given.values())))
+    except ValueError:
+        shapes = ", ".join(f"{name} {values.shape}" for name, values in given.items() if values.ndim)
+        raise LinkageError(f"the crank's angles and rates must fit each other in shape, not {shapes}") from None
+
+
+def determined(rates: Sequence[FloatArray]) -> Track:
+    """A track whose rates are NaN wherever they are not finite."""
+    value, *derivatives = rates
+    return Track(np.asarray(value), *(np.where(np.isfinite(rate), rate, np.nan) for rate in derivatives))

@@ -1,0 +1,114 @@
+"""Files of plain data, read with care: TOML and JSON, then into records that know their keys."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Mapping
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, NoReturn, TypeVar
+
+import msgspec
+
+__all__ = ["Failing", "fitted", "load"]
+
+Failing = Callable[[str], Exception]
+"""Makes the exception of a sentence."""
+
+Record = TypeVar("Record", bound=msgspec.Struct)
+
+LARGEST = 1_000_000
+"""Bytes of a file; a chain of thousands of links fits."""
+_DOTS = 100  # in one line of TOML: the parts of a dotted key cost the square of their number
+
+
+def load(path: Path, fail: Failing) -> Any:
+    """The content of a ``.json`` file, or of any other as TOML; ``fail`` makes the exception for one that cannot be."""
+    form = "JSON" if path.suffix.lower() == ".json" else "TOML"
+    try:
+        with path.open("rb") as file:
+            content = file.read(LARGEST + 1)
+    except OSError as error:
+        raise fail(f"cannot be read ({error.strerror or error})") from None
+    if len(content) > LARGEST:
+        raise fail(f"larger than {LARGEST:,} bytes")
+    try:
+        text = content.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise fail("is not UTF-8 text") from None
+    if form == "TOML" and any(line.count(".") > _DOTS for line in text.splitlines()):
+        raise fail(f"is nested too deeply: a line has more than {_DOTS} dots")
+    try:
+        if form == "TOML":
+            return tomllib.loads(text.replace("\r\n", "\n"))
+        return json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
+    except RecursionError:
+        raise fail("is nested too deeply") from None
+    except ValueError as error:  # also a number of thousands of digits
+        raise fail(f"is not {form}: {error}") from None
+
+
+def _no_number(word: str) -> NoReturn:
+    raise ValueError(f"{word} is not a number")
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    out = dict(pairs)
+    if len(out) < len(pairs):
+        twice = next(key for k, (key, _) in enumerate(pairs) if key in dict(pairs[:k]))
+        raise ValueError(f"the key {twice!r} stands twice in one object")
+    return out
+
+
+def fitted(data: object, kind: type[Record], fail: Failing, where: str = "") -> Record:
+    """The record of plain data; ``fail`` gets the first key that does not fit, with ``where`` in front.
+
+    >>> class Size(msgspec.Struct, forbid_unknown_fields=True):
+    ...     width: float
+    >>> fitted({"width": 3}, Size, ValueError)
+    Size(width=3.0)
+    >>> fitted({"widht": 3}, Size, ValueError)
+    Traceback (most recent call last):
+        ...
+    ValueError: unknown key 'widht'; did you mean 'width'?
+    """
+    if not isinstance(data, Mapping):
+        raise fail(f"{where}: expected a table of keys" if where else "expected a table of keys")
+    prefix = f"{where}." if where else ""
+    _refuse_strange_keys(data, kind, fail, prefix)
+    try:
+        return msgspec.convert(data, kind)
+    except msgspec.ValidationError as error:
+        raise fail(_readable(str(error), prefix)) from None
+
+
+def _readable(message: str, prefix: str) -> str:
+    """Msgspec's message with the path of the key in front: ``claims.n: expected int, got str``."""
+    match = re.fullmatch(r"(.*?)(?: - at `\$\.?(.*)`)?", message, re.DOTALL)
+    assert match is not None  # the second group is optional
+    text = match[1].replace("`", "")
+    text = text[:1].lower() + text[1:]
+    key = (prefix + (match[2] or "")).rstrip(".")
+    return f"{key}: {text}" if key else text
+
+
+def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], fail: Failing, prefix: str) -> None:
+    fields = {f.name: f.type for f in msgspec.structs.fields(kind)}
+    for key, value in data.items():
+        if key not in fields:
+            close = get_close_matches(key[:50], fields, n=1, cutoff=0.4)
+            hint = f"did you mean {close[0]!r}?" if close else f"the keys here are {', '.join(fields)}"
+            raise fail(f"unknown key {prefix + key[:50]!r}; {hint}")
+        for inner in _records_within(fields[key]):
+            values = value if isinstance(value, list) else [value]
+            for one in values:
+                if isinstance(one, Mapping):
+                    _refuse_strange_keys(one, inner, fail, f"{prefix}{key}.")
+
+
+def _records_within(annotation: Any) -> list[type[msgspec.Struct]]:
+    if isinstance(annotation, type) and issubclass(annotation, msgspec.Struct):
+        return [annotation]
+    return [record for part in getattr(annotation, "__args__", ()) for record in _records_within(part)]

@@ -1,0 +1,104 @@
+"""The same linkage with turning and sliding joints only: a pin in a slot becomes a block that turns and slides."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+
+from gruebler.chain import Chain, Joint
+from gruebler.linkages.elements import Line, Pin
+from gruebler.linkages.model import Linkage
+from gruebler.mechanism import Drive, Mechanism
+from gruebler.pairs import pair
+
+__all__ = ["with_lower_pairs"]
+
+
+def with_lower_pairs(linkage: Linkage) -> Linkage:
+    """The linkage with a further link for each pin in a slot and each double slide; the other links keep their names.
+
+    Drives keep their order. A pin in a slot is the pin on a block that slides in the slot; a double slide is a block
+    that slides along the first link's line, and at right angles to it in the second link.
+    """
+    mechanism = linkage.mechanism
+    chain = mechanism.chain
+    split = [n for n, joint in enumerate(chain.joints) if joint.pair.name in ("roll_slide", "double_slide")]
+    if not split:
+        return linkage
+    joints: list[Joint] = []
+    elements: dict[str, dict[str | int, object]] = {link: {} for link in chain.links}
+    place: dict[tuple[int, str], tuple[int, tuple[str, str]]] = {}  # (joint, direction) -> new joint and its links
+    for number, joint in enumerate(chain.joints):
+        if number not in split:
+            for link in joint.links:
+                elements[link][len(joints)] = linkage.elements[number, link]
+            place[number, ""] = len(joints), (joint.links[0], joint.links[1])
+            joints.append(joint)
+            continue
+        block = f"block {chain.joint_names()[number]}"
+        elements[block] = {}
+        first, second = joint.links
+        one, other = linkage.elements[number, first], linkage.elements[number, second]
+        if joint.pair.name == "roll_slide":
+            slotted, pinned = (first, second) if isinstance(one, Line) else (second, first)
+            line, pin = (one, other) if isinstance(one, Line) else (other, one)
+            assert isinstance(line, Line)
+            parts = [
+                ("Tx", "prismatic", slotted, line, Line(0, 0, line.angle)),
+                ("Rz", "revolute", pinned, pin, Pin(0, 0)),
+            ]
+        else:
+            assert isinstance(one, Line)
+            assert isinstance(other, Line)
+            turned = Line(other.x, other.y, other.angle + pi / 2)
+            parts = [
+                ("Tx", "prismatic", first, one, Line(0, 0, one.angle)),
+                ("Ty", "prismatic", second, turned, Line(0, 0, one.angle + pi / 2)),
+            ]
+        measured_from = mechanism.frame if mechanism.frame in joint.links else first
+        for direction, kind, link, mine, on_block in parts:
+            links = (link, block) if link == measured_from else (block, link)
+            place[number, direction] = len(joints), links
+            elements[link][len(joints)] = mine
+            elements[block][len(joints)] = on_block
+            joints.append(Joint(pair(kind), links))
+    drives = []
+    for drive in mechanism.drives:
+        key = (drive.joint, drive.direction if drive.joint in split else "")
+        new, links = place[key]
+        between = links if drive.joint in split else drive.between
+        drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], between))
+    blocks = [link for link in elements if link not in chain.links]
+    made = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
+    home = None
+    if linkage.home is not None:
+        home = {link: tuple(at) for link, at in linkage.home.items()}
+        for number in split:
+            block = f"block {chain.joint_names()[number]}"
+            home[block] = _block_home(linkage, number)
+    points = {name: tuple(point) for name, point in linkage.points.items()}
+    return Linkage(
+        Mechanism(made, mechanism.frame, drives),
+        elements,
+        points,  # type: ignore[arg-type]
+        unit=linkage.unit,
+        home=home,  # type: ignore[arg-type]
+        outputs=linkage.outputs,
+    )
+
+
+def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
+    """Where the block of a split joint lies at home: on the line, at the pin or where the lines cross."""
+    assert linkage.home is not None
+    first, second = linkage.mechanism.chain.joints[number].links
+    one, other = linkage.elements[number, first], linkage.elements[number, second]
+    lined, line = (first, one) if isinstance(one, Line) else (second, other)
+    assert isinstance(line, Line)
+    turned = linkage.home[lined].angle
+    angle = turned + line.angle
+    if isinstance(one, Pin) or isinstance(other, Pin):
+        pinned, pin = (first, one) if isinstance(one, Pin) else (second, other)
+        return (*linkage.home[pinned].put(pin.x, pin.y), turned)
+    x, y = linkage.home[first].put(one.x, one.y)
+    u, v = linkage.home[second].put(other.x, other.y)
+    way = cos(angle) * (u - x) + sin(angle) * (v - y)
+    return x + way * cos(angle), y + way * sin(angle), turned

@@ -1,0 +1,314 @@
+"""The linkage: a mechanism with dimensions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cached_property
+from math import hypot, pi
+from types import MappingProxyType
+from typing import Any
+
+from gruebler.errors import LinkageError, nearest
+from gruebler.linkages.elements import Element, Line, Named, Pin, Place, fitting, read_element
+from gruebler.mechanism import Mechanism
+from gruebler.pairs import Space
+
+__all__ = ["Linkage"]
+
+
+class Linkage:
+    """A planar mechanism whose links have sizes. A value: sound or not constructed, never changed.
+
+    Every link has coordinates of its own; those of the frame are the coordinates of the plane. A driven turning joint
+    has the angle of the second link's x axis against the first's, a driven slide the way from the first line's point to
+    the second's; "first" is the frame, or the link named first in the joint.
+
+    Args:
+        mechanism: a planar mechanism.
+        elements: for each link and each of its joints (by number or text) ``(x, y)`` for a pin, ``(x, y, angle)`` for a
+            line, in the link's coordinates; angles in radians.
+        points: further points by name: ``(link, x, y)``.
+        unit: the unit of all lengths; a name only.
+        home: where the links lie in one position (``(x, y, angle)`` for each link), if the assembly mode is to be that
+            of a drawing.
+        outputs: the links that a user looks at.
+
+    Raises:
+        LinkageError: a joint without dimensions, numbers that are not finite, pins of one link that coincide, a link or
+            joint that the mechanism does not have.
+
+    >>> from gruebler.mechanism import Mechanism
+    >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+    >>> linkage = Linkage(quad, {
+    ...     "0": {"R(0-1)": (0, 0), "R(0-3)": (70, 0)}, "1": {"R(0-1)": (0, 0), "R(1-2)": (25, 0)},
+    ...     "2": {"R(1-2)": (0, 0), "R(2-3)": (70, 0)}, "3": {"R(0-3)": (0, 0), "R(2-3)": (40, 0)}})
+    >>> linkage.length("2", "R(1-2)", "R(2-3)")
+    70.0
+    """
+
+    __slots__ = ("__dict__", "elements", "home", "mechanism", "outputs", "points", "unit")
+
+    mechanism: Mechanism
+    elements: Mapping[tuple[int, str], Element]
+    points: Mapping[str, Named]
+    unit: str
+    home: Mapping[str, Place] | None
+    outputs: tuple[str, ...]
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        elements: Mapping[str, Mapping[str | int, object]],
+        points: Mapping[str, tuple[str, float, float]] | None = None,
+        *,
+        unit: str = "mm",
+        home: Mapping[str, tuple[float, float, float]] | None = None,
+        outputs: Iterable[str] = (),
+    ) -> None:
+        chain = mechanism.chain
+        if chain.space is not Space.PLANAR:
+            raise LinkageError(f"dimensions are those of planar mechanisms; this one is {chain.space}")
+        made: dict[tuple[int, str], Element] = {}
+        for link, mine in elements.items():
+            for joint, raw in mine.items():
+                number = joint_number(mechanism, joint)
+                if link not in chain.joints[number].links:
+                    raise LinkageError(f"{chain.joint_names()[number]} is no joint of {link!r}")
+                made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
+        self._check_joints(mechanism, made)
+        named = {
+            name: _named(mechanism, name, *place) if len(place) == 3 else _refuse_point(name)
+            for name, place in (points or {}).items()
+        }
+        for name in named:
+            if name in chain.links or chain.find_joint(name) is not None:
+                raise LinkageError(f"the point {name!r} has the name of a link or joint")
+        for link in outputs:
+            _link(mechanism, link, "outputs")
+        object.__setattr__(self, "mechanism", mechanism)
+        object.__setattr__(self, "elements", MappingProxyType(made))
+        object.__setattr__(self, "points", MappingProxyType(named))
+        object.__setattr__(self, "unit", unit)
+        object.__setattr__(self, "home", None if home is None else MappingProxyType(_home(mechanism, home)))
+        object.__setattr__(self, "outputs", tuple(outputs))
+
+    @staticmethod
+    def _check_joints(mechanism: Mechanism, made: Mapping[tuple[int, str], Element]) -> None:
+        names = mechanism.chain.joint_names()
+        for number, joint in enumerate(mechanism.chain.joints):
+            for link in joint.links:
+                if (number, link) not in made:
+                    raise LinkageError(f"{names[number]} has no dimensions on {link!r}")
+            fitting(joint.pair, names[number], {link: made[number, link] for link in joint.links})
+        for link in mechanism.chain.links:
+            pins = [(n, e) for (n, owner), e in made.items() if owner == link and isinstance(e, Pin)]
+            for k, (n, pin) in enumerate(pins):
+                for m, other in pins[:k]:
+                    size = max(hypot(*pin), hypot(*other), 1e-300)
+                    if hypot(pin.x - other.x, pin.y - other.y) <= 1e-12 * size or pin == other:
+                        raise LinkageError(
+                            f"on {link!r} the points of {names[m]} and {names[n]} coincide: a link needs a length "
+                            "(turning joints of several links at one place are written as one, such as R(a-b-c))"
+                        )
+
+    @classmethod
+    def drawn(
+        cls,
+        mechanism: Mechanism,
+        places: Mapping[str | int, object],
+        points: Mapping[str, tuple[str, float, float]] | None = None,
+        *,
+        unit: str = "mm",
+        outputs: Iterable[str] = (),
+    ) -> Linkage:
+        """The linkage that is drawn in one position: where each joint lies in the plane.
+
+        A turning joint is given by ``(x, y)``, a slide by ``(x, y, angle)``. A pin in a slot is
+        ``(x, y, angle, link)``, the link being the one with the slot. Points are given by where they lie in the
+        drawing. Each link's x axis goes from its driven (else its first) joint to the next, or along its slide; the
+        ways of slides are counted from pin to pin where the links have pins.
+
+        >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+        >>> drawn = Linkage.drawn(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
+        >>> drawn.length("1", 0, 1), drawn.home["1"].angle
+        (2.0, 1.5707963267948966)
+        """
+        from gruebler.linkages.drawing import from_drawing
+
+        return from_drawing(mechanism, places, points or {}, unit=unit, outputs=tuple(outputs))
+
+    # --- what it is ----------------------------------------------------------------------------------
+
+    def element(self, joint: str | int, link: str) -> Element:
+        """What a joint is on one of its links."""
+        number = joint_number(self.mechanism, joint)
+        if (number, link) not in self.elements:
+            raise LinkageError(f"{self.mechanism.chain.joint_names()[number]} is no joint of {link!r}")
+        return self.elements[number, link]
+
+    def length(self, link: str, first: str | int, second: str | int) -> float:
+        """The distance of the points of two joints of a link, in the linkage's unit."""
+        a, b = self.element(first, link), self.element(second, link)
+        return hypot(a.x - b.x, a.y - b.y)
+
+    def named(self, name: str) -> tuple[Named, ...]:
+        """The point of that name, or of the joint of that name (on each of its links, the frame's first).
+
+        Raises `LinkageError` for a name that is neither, with the nearest one that is.
+        """
+        if name in self.points:
+            return (self.points[name],)
+        chain = self.mechanism.chain
+        number = chain.find_joint(name)
+        if number is None:
+            known = [*self.points, *chain.joint_names()]
+            raise LinkageError(f"there is no point {name!r}{nearest(name, known)}; known are {', '.join(known)}")
+        links = sorted(chain.joints[number].links, key=lambda link: link != self.mechanism.frame)
+        return tuple(Named(link, *self.elements[number, link][:2]) for link in links)
+
+    @cached_property
+    def size(self) -> float:
+        """A length of the order of the linkage: the largest distance of joints on one link."""
+        out = 0.0
+        for link in self.mechanism.chain.links:
+            mine = [e for (_, owner), e in self.elements.items() if owner == link]
+            out = max([out, *(hypot(a.x - b.x, a.y - b.y) for a in mine for b in mine)])
+        return out or 1.0
+
+    def reference(self, drive: int) -> tuple[str, str]:
+        """The two links of a drive: against the first is measured, the second is moved."""
+        first, other = self.mechanism.drives[drive].between
+        return (other, first) if other == self.mechanism.frame else (first, other)
+
+    # --- other linkages ------------------------------------------------------------------------------
+
+    def with_points(self, points: Mapping[str, tuple[str, float, float]]) -> Linkage:
+        """The linkage with further named points, in coordinates of their links."""
+        return self._changed(points={**{n: tuple(p) for n, p in self.points.items()}, **points})
+
+    def with_mechanism(self, mechanism: Mechanism) -> Linkage:
+        """The same sizes with other drives; the mechanism must have the same chain and frame."""
+        if mechanism.chain != self.mechanism.chain or mechanism.frame != self.mechanism.frame:
+            raise LinkageError("the same sizes need the same chain and the same frame")
+        return self._changed(mechanism=mechanism)
+
+    def scaled(self, factor: float) -> Linkage:
+        """Every length times a positive factor."""
+        if not 0 < factor < 1e100:
+            raise LinkageError(f"a scale is a positive number, not {factor!r}")
+
+        def element(e: Element) -> tuple[float, ...]:
+            return (e.x * factor, e.y * factor, *e[2:])
+
+        return self._changed(
+            elements=self._by_link(element),
+            points={n: (p.link, p.x * factor, p.y * factor) for n, p in self.points.items()},
+            home=None
+            if self.home is None
+            else {k: (p.x * factor, p.y * factor, p.angle) for k, p in self.home.items()},
+        )
+
+    def mirrored(self) -> Linkage:
+        """The mirror image in the x axis: every y and every angle with the other sign."""
+
+        def element(e: Element) -> tuple[float, ...]:
+            return (e.x, -e.y, *(-angle for angle in e[2:]))
+
+        return self._changed(
+            elements=self._by_link(element),
+            points={n: (p.link, p.x, -p.y) for n, p in self.points.items()},
+            home=None if self.home is None else {k: (p.x, -p.y, -p.angle) for k, p in self.home.items()},
+        )
+
+    def _by_link(self, change: Any = tuple) -> dict[str, dict[str | int, object]]:
+        out: dict[str, dict[str | int, object]] = {link: {} for link in self.mechanism.chain.links}
+        for (number, link), e in self.elements.items():
+            out[link][number] = change(e)
+        return out
+
+    def _changed(self, **other: Any) -> Linkage:
+        given: dict[str, Any] = {
+            "mechanism": self.mechanism,
+            "elements": self._by_link(),
+            "points": {n: tuple(p) for n, p in self.points.items()},
+            "unit": self.unit,
+            "home": self.home,
+            "outputs": self.outputs,
+        } | other
+        return Linkage(**given)
+
+    # --- a value -------------------------------------------------------------------------------------
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
+
+    def _key(self) -> tuple[object, ...]:
+        home = None if self.home is None else tuple(sorted(self.home.items()))
+        points = tuple(sorted(self.points.items()))
+        return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, home, self.outputs
+
+    def __eq__(self, other: object) -> bool:
+        return self._key() == other._key() if isinstance(other, Linkage) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def __repr__(self) -> str:
+        return f"<linkage {self.mechanism.text()}>"
+
+    def __reduce__(self) -> tuple[object, ...]:
+        home = None if self.home is None else {k: tuple(p) for k, p in self.home.items()}
+        points = {n: tuple(p) for n, p in self.points.items()}
+        return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, home, self.outputs)
+
+
+def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, home: Any, outputs: Any) -> Linkage:
+    return Linkage(mechanism, elements, points, unit=unit, home=home, outputs=outputs)
+
+
+def joint_number(mechanism: Mechanism, joint: str | int) -> int:
+    """The number of a joint given by number or text; `LinkageError` names the joints there are."""
+    chain = mechanism.chain
+    if isinstance(joint, int):
+        if 0 <= joint < len(chain.joints):
+            return joint
+        raise LinkageError(f"there is no joint number {joint}; the chain has joints 0 to {len(chain.joints) - 1}")
+    number = chain.find_joint(joint)
+    if number is None:
+        names = chain.joint_names()
+        raise LinkageError(f"{joint!r} is not one of the joints{nearest(joint, names)}; they are {', '.join(names)}")
+    return number
+
+
+def _link(mechanism: Mechanism, link: str, where: str) -> str:
+    if link not in mechanism.chain.links:
+        known = mechanism.chain.links
+        raise LinkageError(
+            f"{where}: there is no link {link!r}{nearest(str(link), known)}; links are {', '.join(known)}"
+        )
+    return link
+
+
+def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> Named:
+    pin = read_element([x, y], f"the point {name!r}")
+    return Named(_link(mechanism, link, f"the point {name!r}"), pin.x, pin.y)
+
+
+def _refuse_point(name: str) -> Named:
+    raise LinkageError(f"the point {name!r} needs a link and two coordinates")
+
+
+def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Place]:
+    out = {}
+    for link in mechanism.chain.links:
+        if link not in home and link != mechanism.frame:
+            raise LinkageError(f"home: the position of {link!r} is missing")
+        line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
+        if not isinstance(line, Line):
+            raise LinkageError(f"home, {link}: expected x, y and an angle")
+        out[link] = Place(*line)
+    for link in home:
+        _link(mechanism, link, "home")
+    if any(abs(v) > 1e-12 for v in (*out[mechanism.frame][:2], out[mechanism.frame].angle % (2 * pi))):
+        raise LinkageError("home: the frame lies at 0, 0, 0; its coordinates are those of the plane")
+    return out

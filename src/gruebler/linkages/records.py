@@ -1,0 +1,199 @@
+"""What stands in a file of a linkage: the keys, and what they make of a mechanism.
+
+Lengths are in the unit that the file names, angles in degrees; docs/theory/linkage-files.md has every key.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from gruebler.errors import LinkageError, nearest
+from gruebler.linkages.angles import in_radians
+from gruebler.linkages.documents import fitted
+from gruebler.linkages.elements import Place
+from gruebler.linkages.four_bar import FourBar
+from gruebler.linkages.inverted_slider_crank import InvertedSliderCrank
+from gruebler.linkages.mapped_doors import Door, mapped
+from gruebler.linkages.model import Linkage, joint_number
+from gruebler.linkages.slider_crank import SliderCrank
+from gruebler.mechanism import Mechanism
+
+__all__ = ["Dimensions", "dimensioned"]
+
+
+class FourBarLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, coupler b, rocker c, frame d."""
+
+    a: float
+    b: float
+    c: float
+    d: float
+    branch: int = 1
+
+
+class SliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, connecting rod b, eccentricity e."""
+
+    a: float
+    b: float
+    e: float = 0.0
+    branch: int = 1
+
+
+class InvertedSliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, frame d, eccentricity e."""
+
+    a: float
+    d: float
+    e: float = 0.0
+    branch: int = 1
+
+
+class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A named point: its link, and where it lies."""
+
+    link: str
+    at: list[float]
+
+
+class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The sizes of a mechanism, given in one of several ways."""
+
+    unit: str
+    elements: dict[str, Any] | None = None
+    home: dict[str, Any] | None = None
+    places: dict[str, Any] | None = None
+    four_bar: FourBarLengths | None = None
+    slider_crank: SliderCrankLengths | None = None
+    inverted_slider_crank: InvertedSliderCrankLengths | None = None
+    points: dict[str, Any] = {}
+
+
+_DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
+_WAYS = ("elements", "places", *_DOORS)
+
+
+def dimensioned(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
+    """The linkage of these sizes; without a mechanism the one that four_bar, slider_crank, ... bring along.
+
+    Raises `LinkageError` with the key of the first thing that does not fit.
+    """
+    given = [way for way in _WAYS if getattr(sizes, way) is not None]
+    if len(given) != 1:
+        raise LinkageError(f"expected one of {', '.join(_WAYS)}, but found {' and '.join(given) or 'none'}")
+    way = given[0]
+    if sizes.home is not None and way != "elements":
+        raise LinkageError(f"home goes with elements; {way} says itself how the linkage is assembled")
+    if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
+        raise LinkageError(f"unit: expected the name of a unit of length such as 'mm', but found {sizes.unit[:20]!r}")
+    if mechanism is None and way not in _DOORS:
+        raise LinkageError(f"joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...")
+    if way in _DOORS:
+        return _door(way, getattr(sizes, way), sizes, mechanism, outputs)
+    assert mechanism is not None
+    points = _points(sizes.points, mechanism.chain.links)
+    chosen = outputs or ()
+    if way == "places":
+        assert sizes.places is not None
+        places = _by_joint(mechanism, sizes.places, "places", slots=True)
+        return Linkage.drawn(mechanism, places, points, unit=sizes.unit, outputs=chosen)
+    assert sizes.elements is not None
+    elements: dict[str, Mapping[str | int, object]] = {}
+    for link, mine in sizes.elements.items():
+        _check_link(link, mechanism.chain.links, "elements")
+        if not isinstance(mine, Mapping):
+            raise LinkageError(f"elements.{link}: expected a table of joints, but found {_short(mine)}")
+        elements[link] = _by_joint(mechanism, mine, f"elements.{link}")
+    home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
+    return Linkage(mechanism, elements, points, unit=sizes.unit, home=home, outputs=chosen)
+
+
+def _door(
+    way: str, lengths: Any, sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None
+) -> Linkage:
+    given = msgspec.structs.asdict(lengths)
+    branch = given.pop("branch")
+    if branch not in (1, -1):
+        raise LinkageError(f"{way}.branch: expected 1 or -1, but found {branch}")
+    try:
+        door: Door = _DOORS[way](**given)
+    except LinkageError as error:
+        raise LinkageError(f"{way}: {error}") from None
+    linkage = mapped(way, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
+    points = _points(sizes.points, linkage.mechanism.chain.links)
+    return linkage.with_points(points) if points else linkage
+
+
+def _by_joint(
+    mechanism: Mechanism, mine: Mapping[str, Any], where: str, *, slots: bool = False
+) -> dict[str | int, object]:
+    out: dict[str | int, object] = {}
+    for joint, raw in mine.items():
+        try:
+            number = joint_number(mechanism, joint)
+        except LinkageError as error:
+            raise LinkageError(f"{where}: {error}") from None
+        if number in out:
+            raise LinkageError(f"{where}.{joint}: this joint stands there twice")
+        out[number] = _element(raw, f"{where}.{joint}", slots)
+    return out
+
+
+def _element(raw: Any, where: str, slots: bool) -> object:
+    if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
+        return (*_numbers(raw[:3], where, (3,)), raw[3])
+    return _numbers(raw, where, (2, 3))
+
+
+def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
+    """x, y and perhaps an angle, which comes in degrees and goes in radians."""
+    if not isinstance(raw, list) or len(raw) not in counts:
+        wanted = " or ".join("[x, y]" if count == 2 else "[x, y, degrees]" for count in counts)
+        raise LinkageError(f"{where}: expected {wanted}, but found {_short(raw)}")
+    for value in raw[:2]:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not -1e100 < value < 1e100:
+            raise LinkageError(f"{where}: expected numbers below 1e100, but found {_short(value)}")
+    try:
+        return (float(raw[0]), float(raw[1]), *(in_radians(angle) for angle in raw[2:]))
+    except ValueError:
+        raise LinkageError(f"{where}: expected an angle in degrees, but found {_short(raw[2])}") from None
+
+
+def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Place]:
+    for link in home:
+        _check_link(link, links, "home")
+    return {link: Place(*_numbers(raw, f"home.{link}", (3,))) for link, raw in home.items()}
+
+
+def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
+    out = {}
+    for name, raw in points.items():
+        where = f"points.{name}"
+        if not name.strip() or not name.isprintable():
+            raise LinkageError(f"points: {name!r} cannot name a point")
+        point = fitted(raw, PointRecord, LinkageError, where)
+        _check_link(point.link, links, where)
+        x, y = _numbers(point.at, f"{where}.at", (2,))
+        out[name] = (point.link, x, y)
+    return out
+
+
+def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
+    if link not in links:
+        known = ", ".join(links[:12]) + (", ..." if len(links) > 12 else "")
+        raise LinkageError(f"{where}: there is no link {link!r}{nearest(link, links)}; links are {known}")
+
+
+def _short(value: object) -> str:
+    match value:
+        case list():
+            return f"a list of {len(value)}" if len(value) > 4 else f"[{', '.join(_short(one) for one in value)}]"
+        case Mapping():
+            return "a table"
+        case int() if not -(10**20) < value < 10**20:
+            return "a number of many digits"
+    shown = repr(value)
+    return shown if len(shown) < 40 else shown[:37] + "..."
