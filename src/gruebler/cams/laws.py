@@ -1,0 +1,229 @@
+"""Laws of motion from rest to rest, normalised to a unit of angle and a unit of lift; docs/theory/cams.md.
+
+Every law is a row of pieces; on a piece the lift is a polynomial plus one sine wave. So all derivatives, integrals and
+continuity come from one place, exact in closed form.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.cams.extremes import extremes
+from gruebler.errors import GrueblerError, nearest
+
+__all__ = ["LAWS", "CamError", "Law", "Peaks", "Piece", "boundary_law", "finite", "law", "polynomial_law"]
+
+FloatArray = NDArray[np.float64]
+
+
+class CamError(GrueblerError):
+    """A cam, a law or a contour that cannot be."""
+
+
+def finite(values: ArrayLike, what: str) -> FloatArray:
+    """Numbers of any shape as an array; CamError if one is not finite, or none at all."""
+    try:
+        found = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        found = np.array(np.nan)
+    if not np.isfinite(found).all():
+        raise CamError(f"{what}: expected finite numbers, not {values!r}"[:200])
+    return found
+
+
+class Piece(NamedTuple):
+    """From ``start`` on: sum of ``polynomial[k] t^k`` plus ``amplitude * sin(frequency t + phase)``, t = x - start."""
+
+    start: float
+    polynomial: tuple[float, ...]
+    amplitude: float = 0.0
+    frequency: float = 0.0
+    phase: float = 0.0
+
+    def at(self, x: FloatArray, order: int) -> FloatArray:
+        """The derivative of an order at places of any shape."""
+        t = x - self.start
+        wave = self.amplitude * self.frequency**order * np.sin(self.frequency * t + self.phase + order * math.pi / 2)
+        return np.asarray(np.polynomial.polynomial.polyval(t, _derived(self.polynomial, order)) + wave)
+
+
+def _derived(polynomial: Sequence[float], order: int) -> FloatArray:
+    return np.asarray(np.polynomial.polynomial.polyder(polynomial, order), dtype=np.float64)
+
+
+class Peaks(NamedTuple):
+    """The greatest magnitudes of the normalised law's derivatives: C_v, C_a, C_j, and of C_a C_v, the torque."""
+
+    velocity: float
+    acceleration: float
+    jerk: float
+    torque: float
+
+
+@dataclass(frozen=True, slots=True)
+class Law:
+    """A normalised lift on [0, 1], written as pieces in order.
+
+    >>> cycloid = law("cycloidal")
+    >>> [round(float(cycloid.at(0.25, order)), 6) for order in range(4)]
+    [0.090845, 1.0, 6.283185, 0.0]
+    >>> [round(peak, 4) for peak in cycloid.peaks()]
+    [2.0, 6.2832, 39.4784, 8.1621]
+    """
+
+    name: str
+    pieces: tuple[Piece, ...]
+
+    def at(self, x: ArrayLike, order: int = 0) -> FloatArray:
+        """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
+        places = finite(x, "places on a law")
+        found = np.zeros(places.shape)
+        index = np.searchsorted([piece.start for piece in self.pieces[1:]], places, side="right")
+        for k, piece in enumerate(self.pieces):
+            found[index == k] = piece.at(places[index == k], order)
+        return found
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """Where its pieces begin and end."""
+        return (*(piece.start for piece in self.pieces), 1.0)
+
+    def end(self, order: int) -> float:
+        """A derivative at x = 1."""
+        return float(self.pieces[-1].at(np.array(1.0), order))
+
+    def peaks(self) -> Peaks:
+        """C_v, C_a, C_j and the peak of C_a C_v (the torque of a mass); jumps of acceleration are no jerk here."""
+
+        def greatest(function: Callable[[Piece, FloatArray], FloatArray]) -> float:
+            spans = zip(self.pieces, self.joints, self.joints[1:], strict=False)
+            found = (extremes(partial(function, piece), a, b) for piece, a, b in spans)
+            return max(abs(value) for places in found for _, value in places)
+
+        return Peaks(
+            velocity=greatest(lambda piece, x: piece.at(x, 1)),
+            acceleration=greatest(lambda piece, x: piece.at(x, 2)),
+            jerk=greatest(lambda piece, x: piece.at(x, 3)),
+            torque=greatest(lambda piece, x: piece.at(x, 1) * piece.at(x, 2)),
+        )
+
+
+def polynomial_law(*powers: int) -> Law:
+    """The rest-to-rest polynomial with these powers: as many derivatives as there is room for vanish at both ends.
+
+    For m powers, the lift at the end is 1 and its first m - 1 derivatives vanish there (at the beginning all below the
+    lowest power do): coefficients c_i = prod over j != i of p_j / (p_j - p_i). 3-4-5 and 4-5-6-7 are the usual ones.
+
+    >>> [round(c, 9) for c in polynomial_law(3, 4, 5).pieces[0].polynomial]
+    [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
+    """
+    if not powers or any(not isinstance(p, int) or isinstance(p, bool) or not 1 <= p <= 15 for p in powers):
+        raise CamError(f"a polynomial law has whole powers from 1 to 15, such as 3-4-5, not {powers!r}")
+    if len(set(powers)) < len(powers):
+        raise CamError(f"the powers of a polynomial law are different, not {powers!r}")
+    polynomial = [0.0] * (max(powers) + 1)
+    for p in powers:
+        polynomial[p] = math.prod(q / (q - p) for q in powers if q != p)
+    return Law("-".join(map(str, sorted(powers))), (Piece(0.0, tuple(polynomial)),))
+
+
+def boundary_law(start: Sequence[float], end: Sequence[float]) -> Law:
+    """The polynomial of least degree with given lift, velocity, acceleration, ... at both ends (of the unit of angle).
+
+    >>> [round(c, 9) for c in boundary_law((0, 0, 0), (1, 0, 0)).pieces[0].polynomial]
+    [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
+    """
+    values = [*start, *end]
+    if not start or not end or not all(isinstance(v, int | float) and math.isfinite(v) for v in values):
+        raise CamError("boundary values are finite numbers: lift, then velocity, acceleration, ... at each end")
+    if len(values) > 16:
+        raise CamError(f"at most 16 boundary values are taken, not {len(values)}")
+    known = np.array([value / math.factorial(k) for k, value in enumerate(start)])
+    m, n = len(start), len(values)
+    # The rest, c_m .. c_{n-1}, answers the values at 1: the derivatives of the powers there.
+    falling = [[math.perm(power, k) for power in range(n)] for k in range(len(end))]
+    matrix = np.array(falling, dtype=np.float64)
+    rest = np.linalg.solve(matrix[:, m:], np.asarray(end, dtype=np.float64) - matrix[:, :m] @ known)
+    return Law("polynomial", (Piece(0.0, (*map(float, known), *map(float, rest))),))
+
+
+def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, float, float]]) -> Law:
+    """A law from its acceleration: parts (length, constant, amplitude, frequency, phase), integrated, scaled to 1."""
+    pieces, start, lift, velocity = [], 0.0, 0.0, 0.0
+    for length, constant, amplitude, frequency, phase in parts:
+        wave = -amplitude / frequency**2 if frequency else 0.0
+        piece = Piece(start, (0.0, 0.0, constant / 2), wave, frequency, phase)
+        begin = np.array(start)
+        polynomial = (lift - float(piece.at(begin, 0)), velocity - float(piece.at(begin, 1)), constant / 2)
+        pieces.append(piece._replace(polynomial=polynomial))
+        start += length
+        lift, velocity = (float(pieces[-1].at(np.array(start), order)) for order in (0, 1))
+    return Law(
+        name,
+        tuple(
+            piece._replace(polynomial=tuple(c / lift for c in piece.polynomial), amplitude=piece.amplitude / lift)
+            for piece in pieces
+        ),
+    )
+
+
+_QUARTER = math.pi / 2
+# Parts of the acceleration, up to scale: length, constant, amplitude, frequency, phase.
+_ACCELERATIONS = {
+    "parabolic": ((0.5, 1, 0, 0, 0), (0.5, -1, 0, 0, 0)),
+    "harmonic": ((1.0, 0, 1, math.pi, _QUARTER),),
+    "cycloidal": ((1.0, 0, 1, math.tau, 0),),
+    "modified-sine": (
+        (1 / 8, 0, 1, 4 * math.pi, 0),
+        (3 / 4, 0, 1, 4 * math.pi / 3, _QUARTER),
+        (1 / 8, 0, -1, 4 * math.pi, _QUARTER),
+    ),
+    "modified-trapezoid": (
+        (1 / 8, 0, 1, 4 * math.pi, 0),
+        (1 / 4, 1, 0, 0, 0),
+        (1 / 4, 0, 1, 4 * math.pi, _QUARTER),
+        (1 / 4, -1, 0, 0, 0),
+        (1 / 8, 0, -1, 4 * math.pi, _QUARTER),
+    ),
+}
+_POLYNOMIALS = ("linear", "3-4-5", "4-5-6-7", "5-6-7-8-9")
+_ALIASES = {
+    "poly345": "3-4-5",
+    "poly4567": "4-5-6-7",
+    "sine": "cycloidal",
+    "parabola": "parabolic",
+    "modsine": "modified-sine",
+    "modtrap": "modified-trapezoid",
+    "uniform": "linear",
+}
+
+LAWS = MappingProxyType({name: name for name in (*_ACCELERATIONS, *_POLYNOMIALS)} | _ALIASES)
+"""Names of laws, with other names for the same; besides, any powers such as 3-4-5-6 are the name of a polynomial."""
+
+
+@lru_cache(maxsize=64)
+def law(name: str) -> Law:
+    """The law with a name: cycloidal (inclined sine), modified-sine, harmonic, 3-4-5, ...
+
+    >>> law("poly345") == law("3-4-5")
+    True
+    """
+    if not isinstance(name, str):
+        raise CamError(f"a law has a name such as 3-4-5 or cycloidal, not {name!r}")
+    known = LAWS.get(name.lower(), name.lower())
+    if known in _ACCELERATIONS:
+        return _from_acceleration(known, _ACCELERATIONS[known])
+    if known == "linear":
+        return replace(polynomial_law(1), name=known)
+    parts = known.split("-")
+    if all(part.isascii() and part.isdigit() and len(part) < 3 for part in parts):
+        return polynomial_law(*map(int, parts))
+    raise CamError(f"no law is called {name!r}: {', '.join(LAWS)}{nearest(name, LAWS)}")

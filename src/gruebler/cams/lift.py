@@ -1,0 +1,222 @@
+"""The lift of a follower over a turn of the cam: motions and dwells in a row, and their text form."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.cams.extremes import Function, extremes
+from gruebler.cams.laws import CamError, Law, boundary_law, finite, law
+from gruebler.errors import nearest
+
+__all__ = ["Jump", "Lift", "Segment", "Span", "dwell", "motion", "read_lift"]
+
+FloatArray = NDArray[np.float64]
+
+
+class Segment(NamedTuple):
+    """A part of the turn: the lift goes on by ``scale`` times the law; angle in radians. A dwell has no law."""
+
+    angle: float
+    scale: float = 0.0
+    law: Law | None = None
+
+    @property
+    def change(self) -> float:
+        """By how much the lift differs between its ends."""
+        return self.scale * (self.law.end(0) - float(self.law.at(0.0))) if self.law else 0.0
+
+
+class Jump(NamedTuple):
+    """A jump of a derivative at an angle; 1: velocity, a blow; 2: acceleration, infinite jerk."""
+
+    at: float
+    order: int
+    size: float
+
+
+class Span(NamedTuple):
+    """A stretch on which the lift is smooth: its ends, and the derivatives, at the ends as seen from within."""
+
+    start: float
+    end: float
+    segment: int
+    orders: tuple[Function, ...]
+
+
+def dwell(angle: float) -> Segment:
+    """A rest of so many radians."""
+    return Segment(_angle(angle))
+
+
+def motion(change: float, angle: float, name: str | Law = "3-4-5") -> Segment:
+    """A rise (or fall, if negative) by a law."""
+    if not isinstance(change, int | float) or not math.isfinite(change) or change == 0:
+        raise CamError(f"a rise or fall has a finite lift that is not zero, not {change!r}")
+    return Segment(_angle(angle), float(change), name if isinstance(name, Law) else law(name))
+
+
+def _angle(angle: float) -> float:
+    if not isinstance(angle, int | float) or not 0 < angle <= math.tau * (1 + 1e-12):
+        raise CamError(f"a part of the turn has an angle above 0 and up to 2 pi, not {angle!r} rad")
+    return float(angle)
+
+
+@dataclass(frozen=True, slots=True)
+class Lift:
+    """A closed lift: the parts fill a turn and the last ends where the first began.
+
+    >>> quarter = math.pi / 2
+    >>> lift = Lift([motion(20, quarter), dwell(quarter), motion(-20, quarter, "cycloidal"), dwell(quarter)])
+    >>> lift.at([0.0, math.pi / 4, 2.0]).round(6).tolist()
+    [0.0, 10.0, 20.0]
+    >>> round(float(lift.at(math.pi / 4, 1)), 6)  # 1.875 * 20 / (pi / 2)
+    23.873241
+    """
+
+    segments: tuple[Segment, ...]
+
+    def __init__(self, segments: Iterable[Segment]) -> None:
+        object.__setattr__(self, "segments", tuple(segments))
+        if not self.segments:
+            raise CamError("a lift has at least one part")
+        turn = sum(segment.angle for segment in self.segments)
+        if abs(turn - math.tau) > 1e-9:
+            raise CamError(f"the parts of a lift fill 360 degrees, not {math.degrees(turn):.6g}")
+        left = sum(segment.change for segment in self.segments)
+        if abs(left) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
+            raise CamError(f"the lift ends where it began; {left:+.6g} is left over")
+
+    @property
+    def starts(self) -> tuple[float, ...]:
+        """The angle at which each part begins."""
+        angles = np.cumsum([0.0, *(segment.angle for segment in self.segments[:-1])])
+        return tuple(map(float, angles))
+
+    def spans(self) -> Iterator[Span]:
+        """The stretches on which the lift is smooth, with lift, velocity, acceleration, jerk per radian."""
+        lift = 0.0
+        for k, (segment, start) in enumerate(zip(self.segments, self.starts, strict=True)):
+            if segment.law is None:
+                yield Span(start, start + segment.angle, k, tuple(_constant(lift if n == 0 else 0.0) for n in range(4)))
+                continue
+            base = lift - segment.scale * float(segment.law.at(0.0))
+            for piece, a, b in zip(segment.law.pieces, segment.law.joints, segment.law.joints[1:], strict=False):
+                orders = tuple(_scaled(piece.at, n, segment, start, base if n == 0 else 0.0) for n in range(4))
+                yield Span(start + a * segment.angle, start + b * segment.angle, k, orders)
+            lift += segment.change
+
+    def at(self, angle: ArrayLike, order: int = 0) -> FloatArray:
+        """The lift, or its derivative (1 to 3) by the cam's angle, at any angles; at a jump the value after it."""
+        if order not in range(4):
+            raise CamError(f"a lift has derivatives 0 to 3 here, not {order!r}")
+        phi = np.mod(finite(angle, "the cam's angles"), math.tau)
+        spans = list(self.spans())
+        index = np.searchsorted([span.start for span in spans[1:]], phi, side="right")
+        found = np.zeros(phi.shape)
+        for k, span in enumerate(spans):
+            found[index == k] = span.orders[order](phi[index == k])
+        return found
+
+    def jumps(self) -> list[Jump]:
+        """Where velocity or acceleration jump; below a jump of one order the higher ones are not told."""
+        spans = list(self.spans())
+        scales = [max(abs(value) for span in spans for _, value in extremes(span.orders[n], *span[:2])) for n in (1, 2)]
+        found = []
+        for before, after in zip(spans[-1:] + spans[:-1], spans, strict=True):
+            for order, scale in zip((1, 2), scales, strict=True):
+                size = float(after.orders[order](np.array(after.start)) - before.orders[order](np.array(before.end)))
+                if abs(size) > 1e-9 * scale:
+                    found.append(Jump(after.start, order, size))
+                    break
+        return found
+
+    def extremes(self, order: int) -> list[tuple[float, float]]:
+        """All places (angle, value) of extremes of the lift or a derivative, one-sided values at jumps included."""
+        return [one for span in self.spans() for one in extremes(span.orders[order], span.start, span.end)]
+
+
+def _constant(value: float) -> Function:
+    return lambda phi: np.full(np.shape(phi), value)
+
+
+def _scaled(piece: object, order: int, segment: Segment, start: float, base: float) -> Function:
+    factor = segment.scale / segment.angle**order
+    return lambda phi: base + factor * piece((phi - start) / segment.angle, order)  # type: ignore[operator]
+
+
+def read_lift(text: str) -> Lift:
+    """Read a lift; lengths as they are (degrees if ``swinging``), angles in degrees, parts between semicolons.
+
+    ``rise LIFT ANGLE [LAW]``, ``fall LIFT ANGLE [LAW]``, ``dwell [ANGLE]``: one dwell may leave its angle out and takes
+    the rest. Instead of a law boundary values may be given, per radian: ``rise 20 60 v0=0 a0=0 v1=5 a1=0``.
+
+    >>> lift = read_lift("rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell")
+    >>> [round(math.degrees(segment.angle), 9) for segment in lift.segments]
+    [60.0, 30.0, 90.0, 180.0]
+    """
+    parts: list[Segment | None] = []
+    for statement in (
+        " ".join(part.split()) for line in text.splitlines() for part in line.partition("#")[0].split(";")
+    ):
+        if statement:
+            parts.append(_read_part(statement))
+    if not parts:
+        raise CamError("expected a lift such as 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell', got nothing")
+    if parts.count(None) > 1:
+        raise CamError("only one dwell may leave out its angle")
+    rest = math.tau - sum(part.angle for part in parts if part)
+    if None in parts and rest <= 1e-12:
+        raise CamError("no angle is left for the dwell without one")
+    return Lift(dwell(rest) if part is None else part for part in parts)
+
+
+def _read_part(statement: str) -> Segment | None:
+    word, *rest = statement.split()
+    if word not in ("rise", "fall", "dwell"):
+        raise CamError(f"'{statement}': expected rise, fall or dwell{nearest(word, ('rise', 'fall', 'dwell'))}")
+    if word == "dwell":
+        if len(rest) > 1:
+            raise CamError(f"'{statement}': a dwell has an angle and nothing else")
+        return dwell(math.radians(_number(rest[0], statement))) if rest else None
+    if len(rest) < 2:
+        raise CamError(f"'{statement}': expected a lift and an angle in degrees, such as '{word} 20 60 3-4-5'")
+    sign = 1 if word == "rise" else -1
+    change, angle = sign * _number(rest[0], statement), math.radians(_number(rest[1], statement))
+    if len(rest) > 2 and "=" in rest[2]:
+        return Segment(_angle(angle), 1.0, _bounded(change, angle, rest[2:], statement))
+    if len(rest) > 3:
+        raise CamError(f"'{statement}': one law is enough, not {' '.join(rest[2:])!r}")
+    return motion(change, angle, rest[2] if len(rest) > 2 else "3-4-5")
+
+
+def _bounded(change: float, angle: float, words: list[str], statement: str) -> Law:
+    """The polynomial with velocities v0, v1, accelerations a0, a1, jerks j0, j1 per radian; the others are free."""
+    ends: tuple[dict[int, float], dict[int, float]] = ({0: 0.0}, {0: change})
+    for word in words:
+        found = re.fullmatch(r"([vaj])([01])=(\S+)", word)
+        if not found:
+            raise CamError(f"'{statement}': expected boundary values such as v0=0 a1=2, not {word!r}")
+        order = "vaj".index(found[1]) + 1
+        ends[int(found[2])][order] = _number(found[3], statement) * angle**order
+    for values, end in zip(ends, "01", strict=True):
+        if sorted(values) != list(range(len(values))):
+            raise CamError(f"'{statement}': at end {end} lower derivatives are missing; give v before a before j")
+    start, final = ([values[k] for k in range(len(values))] for values in ends)
+    return boundary_law(start, final)
+
+
+def _number(text: str, statement: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise CamError(f"'{statement}': expected a finite number, not {text!r}")
+    return value

@@ -1,0 +1,246 @@
+"""`gruebler cam`: a cam for a lift, the laws of motion, or what a given contour does."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.cams import (
+    LAWS,
+    Cam,
+    Extreme,
+    Flat,
+    Follower,
+    Lift,
+    Roller,
+    Segment,
+    SmoothContour,
+    follow,
+    law,
+    read_lift,
+)
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+
+__all__ = ["run"]
+
+_WORDS = {
+    "en": {
+        "laws": ("law", "C_v", "C_a", "C_j", "C_v·C_a"),
+        "parts": ("part", "from", "to", "lift", "law"),
+        "dwell": "dwell",
+        "motion": "motion",
+        "jump": "At {at}° the {what} jumps by {size} per radian{square}: {effect}.",
+        "orders": {1: ("velocity", "", "a blow"), 2: ("acceleration", "²", "infinite jerk")},
+        "finding": ("quantity", "value", "at"),
+        "pressure_least": "least pressure angle",
+        "pressure_greatest": "greatest pressure angle",
+        "convex": "least convex radius of curvature",
+        "hollow": "least hollow radius of curvature",
+        "face_least": "face needed, one side",
+        "face_greatest": "face needed, other side",
+        "undercut": "Undercut: the profile crosses itself near {at}°; a larger base circle{roller} helps.",
+        "smaller": " or a smaller roller",
+        "fine": "No undercut.",
+        "table": ("cam", "lift", "velocity", "acceleration", "pressure angle", "radius", "x", "y"),
+        "contour": ("cam", "follower", "velocity", "acceleration"),
+    },
+    "de": {
+        "laws": ("Gesetz", "C_v", "C_a", "C_j", "C_v·C_a"),
+        "parts": ("Abschnitt", "von", "bis", "Hub", "Gesetz"),
+        "dwell": "Rast",
+        "motion": "Bewegung",
+        "jump": "Bei {at}° springt die {what} um {size} je Radiant{square}: {effect}.",
+        "orders": {1: ("Geschwindigkeit", "", "Stoß"), 2: ("Beschleunigung", "²", "unendlicher Ruck")},
+        "finding": ("Größe", "Wert", "bei"),
+        "pressure_least": "kleinster Druckwinkel",
+        "pressure_greatest": "größter Druckwinkel",
+        "convex": "kleinster Krümmungsradius, konvex",
+        "hollow": "kleinster Krümmungsradius, hohl",
+        "face_least": "nötige Tellerbreite, eine Seite",
+        "face_greatest": "nötige Tellerbreite, andere Seite",
+        "undercut": "Unterschnitt: Das Profil überschneidet sich bei {at}°; ein größerer Grundkreis{roller} hilft.",
+        "smaller": " oder eine kleinere Rolle",
+        "fine": "Kein Unterschnitt.",
+        "table": ("Kurve", "Hub", "Geschwindigkeit", "Beschleunigung", "Druckwinkel", "Radius", "x", "y"),
+        "contour": ("Kurve", "Abtrieb", "Geschwindigkeit", "Beschleunigung"),
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print laws, a cam's figures (1 if it is undercut), or the motion that a contour gives."""
+    words: dict[str, Any] = _WORDS[arguments.lang]
+    if arguments.laws + (arguments.lift is not None) + (arguments.contour is not None) != 1:
+        example = "'rise 20 60; dwell 30; fall 20 90; dwell'"
+        raise GrueblerError(f"expected one of: a lift such as {example}, --laws, --contour FILE")
+    if arguments.laws:
+        return _laws(arguments.json, words)
+    follower = _follower(arguments)
+    if arguments.contour is not None:
+        return _contour(arguments, follower, words)
+    if arguments.base is None:
+        raise GrueblerError("a cam needs --base RADIUS, the radius of its base circle")
+    lift = read_lift(arguments.lift)
+    if follower.swings:
+        lift = Lift(one._replace(scale=math.radians(one.scale)) for one in lift.segments)
+    cam = Cam(lift, arguments.base, follower)
+    table = _table(cam, _angles(arguments.step)) if arguments.step is not None else None
+    if arguments.json:
+        print(json.dumps(_document(cam, table), ensure_ascii=False, indent=2))
+    else:
+        _print(cam, table, words)
+    return int(cam.findings().undercut)
+
+
+def _laws(as_json: bool, words: dict[str, Any]) -> int:
+    names = list(dict.fromkeys(law(name).name for name in LAWS))
+    found = [(name, law(name).peaks()) for name in names]
+    if as_json:
+        print(json.dumps([{"law": name, **peaks._asdict()} for name, peaks in found], indent=2))
+    else:
+        rows = [(name, *(f"{peak + 0.0:.6g}" for peak in peaks)) for name, peaks in found]
+        print_table(words["laws"], rows, numbers=range(1, 5))
+    return 0
+
+
+def _follower(arguments: argparse.Namespace) -> Follower:
+    chosen = (arguments.flat is not None) + arguments.knife + (arguments.roller is not None)
+    if chosen != 1:
+        raise GrueblerError("expected one follower: --roller RADIUS, --knife or --flat")
+    arm, distance = arguments.swing or (0.0, 0.0)
+    if arguments.flat is not None:
+        if arguments.offset:
+            raise GrueblerError("--offset changes nothing for a flat follower and is not taken")
+        if arm:
+            raise GrueblerError("a swinging flat face has no arm: give --swing 0 DISTANCE, and --flat FACE")
+        return Flat(distance, arguments.flat)
+    return Roller(arguments.roller or 0.0, arguments.offset, arm, distance)
+
+
+def _angles(step: float) -> NDArray[np.float64]:
+    if not 0.001 <= step <= 360:
+        raise GrueblerError(f"--step: expected degrees from 0.001 to 360, not {step:g}")
+    return np.arange(0, 360 - step / 1e6, step)
+
+
+def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str, Any]) -> int:
+    path = Path(arguments.contour)
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise GrueblerError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    points = []
+    for number, line in enumerate(lines, 1):
+        cells = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
+        if cells:
+            try:
+                points.append([float(cell) for cell in cells])
+            except ValueError:
+                raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}") from None
+            if len(cells) != 2:
+                raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}")
+    degrees = _angles(arguments.step or 10)
+    found = follow(SmoothContour.through(points), follower, np.radians(degrees))
+    scale = 180 / math.pi if follower.swings else 1.0
+    rows = np.stack([degrees, *(one * scale for one in found)], axis=1).tolist()
+    if arguments.json:
+        keys = ("cam_deg", "follower", "velocity", "acceleration")
+        print(json.dumps({"motion": [dict(zip(keys, row, strict=True)) for row in rows]}, indent=2))
+    else:
+        unit = "°" if follower.swings else ""
+        shown = [[f"{row[0]:g}°", f"{row[1]:.6f}{unit}", *(f"{one:.6f}" for one in row[2:])] for row in rows]
+        print_table(words["contour"], shown, numbers=range(4))
+    return 0
+
+
+def _parts(cam: Cam) -> list[tuple[Segment, float, float]]:
+    scale = 180 / math.pi if cam.follower.swings else 1.0
+    return [(one, start, one.change * scale) for one, start in zip(cam.lift.segments, cam.lift.starts, strict=True)]
+
+
+def _table(cam: Cam, degrees: NDArray[np.float64]) -> list[list[float]]:
+    """Rows of the table; the lift of a swinging follower in degrees, rates per radian of the cam."""
+    phi, scale = np.radians(degrees), 180 / math.pi if cam.follower.swings else 1.0
+    rates = (cam.lift.at(phi, order) * scale for order in range(3))
+    with np.errstate(divide="ignore"):
+        radius = 1 / cam.curvature(phi)
+    table = np.column_stack([degrees, *rates, np.degrees(cam.pressure_angle(phi)), radius, cam.profile(phi)])
+    noise = 1e-13 * np.abs(np.where(np.isfinite(table), table, 0)).max(axis=0)
+    rows: list[list[float]] = np.where(np.abs(table) <= noise, 0.0, table).tolist()
+    return rows
+
+
+def _print(cam: Cam, table: list[list[float]] | None, words: dict[str, Any]) -> None:
+    unit, scale = ("°", 180 / math.pi) if cam.follower.swings else ("", 1.0)
+    rows = []
+    for one, start, change in _parts(cam):
+        span = (f"{math.degrees(start):.6g}°", f"{math.degrees(start + one.angle):.6g}°")
+        named = words["motion" if one.law else "dwell"]
+        rows.append((named, *span, f"{change:+.6g}{unit}" if one.law else "", one.law.name if one.law else ""))
+    print_table(words["parts"], rows, numbers=(1, 2, 3))
+    for jump in cam.lift.jumps():
+        what, square, effect = words["orders"][jump.order]
+        size = f"{jump.size * scale:+.6g}{unit}"
+        print(words["jump"].format(at=_degrees(jump.at), what=what, size=size, square=square, effect=effect))
+    print()
+    found = cam.findings()
+    lines: list[tuple[str, Extreme | None, bool]] = [
+        ("pressure_least", found.pressure[0], True),
+        ("pressure_greatest", found.pressure[1], True),
+        ("convex", found.convex, False),
+        ("hollow", found.hollow, False),
+    ]
+    if isinstance(cam.follower, Flat):
+        lines += [("face_least", found.face[0], False), ("face_greatest", found.face[1], False)]
+    cells = [(words[key], _said(one.value, angle), f"{_degrees(one.at)}°") for key, one, angle in lines if one]
+    print_table(words["finding"], cells, numbers=(1, 2))
+    roller = words["smaller"] if isinstance(cam.follower, Roller) and cam.follower.radius else ""
+    print(words["undercut"].format(at=_degrees(found.room.at), roller=roller) if found.undercut else words["fine"])
+    if table is not None:
+        print()
+        marks = ("°", unit, "", "", "°", "", "", "")
+        shown = [[f"{one + 0.0:.6g}{mark}" for one, mark in zip(row, marks, strict=True)] for row in table]
+        print_table(words["table"], shown, numbers=range(8))
+
+
+def _degrees(angle: float) -> str:
+    return f"{math.degrees(angle):.6g}"
+
+
+def _said(value: float, angle: bool) -> str:
+    return f"{math.degrees(value) + 0.0:.6g}°" if angle else f"{value + 0.0:.6g}"
+
+
+def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
+    found = cam.findings()
+
+    def told(one: Extreme | None, angle: bool = False) -> dict[str, float] | None:
+        return one and {"value": math.degrees(one.value) if angle else one.value, "at_deg": math.degrees(one.at)}
+
+    document: dict[str, Any] = {
+        "parts": [_part(one, start, change) for one, start, change in _parts(cam)],
+        "jumps": [{"at_deg": math.degrees(one.at), "order": one.order, "size": one.size} for one in cam.lift.jumps()],
+        "start": math.degrees(cam.start) if cam.follower.swings else cam.start,
+        "pressure_angle_deg": [told(one, angle=True) for one in found.pressure],
+        "convex_radius": told(found.convex),
+        "hollow_radius": told(found.hollow),
+        "face": [told(one) for one in found.face] if isinstance(cam.follower, Flat) else None,
+        "undercut": found.undercut,
+    }
+    if table is not None:
+        keys = ("cam_deg", "lift", "velocity", "acceleration", "pressure_angle_deg", "radius", "x", "y")
+        rows = [[one if math.isfinite(one) else None for one in row] for row in table]
+        document["table"] = [dict(zip(keys, row, strict=True)) for row in rows]
+    return document
+
+
+def _part(one: Segment, start: float, change: float) -> dict[str, Any]:
+    name = one.law.name if one.law else None
+    return {"from_deg": math.degrees(start), "angle_deg": math.degrees(one.angle), "lift": change, "law": name}

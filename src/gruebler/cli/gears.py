@@ -1,0 +1,117 @@
+"""`gruebler gears`: speeds, ratios, torques and power of a gear train."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
+from gruebler.gears.prose import number
+
+__all__ = ["run"]
+
+_HEADERS = {
+    "en": ("link", "speed", "per turn of {drive}", "torque or force", "power"),
+    "de": ("Glied", "Drehzahl", "je Umdrehung von {drive}", "Moment oder Kraft", "Leistung"),
+}
+_UNITS = {
+    "en": {
+        Unit.TURNING: "",
+        Unit.PER_RADIAN: " (length, speeds per radian)",
+        Unit.PER_TURN: " (length, speeds per turn)",
+    },
+    "de": {
+        Unit.TURNING: "",
+        Unit.PER_RADIAN: " (Länge, Drehung in rad)",
+        Unit.PER_TURN: " (Länge, Drehung in Umdrehungen)",
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print what the train does; 1 if something stays undetermined, is contradicted, or cannot be assembled."""
+    reading = _read(arguments.train)
+    found = speeds(reading.train, reading.drives)
+    forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
+    if arguments.json:
+        print(json.dumps(_document(reading, found, forces), ensure_ascii=False, indent=2))
+    else:
+        print(explain(reading, arguments.lang))
+        if reading.drives:
+            print()
+            _print_speeds(reading, found, forces, arguments.lang)
+    possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
+    return int((bool(reading.drives) and not found.complete) or not possible)
+
+
+def _read(word: str) -> Reading:
+    path = Path(word)
+    if "\n" in word or ";" in word or ":" in word or path.suffix not in (".toml", ".txt"):
+        return read_train(word)
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        raise GrueblerError(f"{word}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+    return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
+
+
+def _driver(reading: Reading) -> str | None:
+    """The one drive that moves, if there is exactly one."""
+    moving = [link for link, speed in reading.drives.items() if speed]
+    return moving[0] if len(moving) == 1 else None
+
+
+def _print_speeds(reading: Reading, found: Speeds, forces: Balance | None, lang: str) -> None:
+    driver = _driver(reading)
+    columns = [True, True, driver is not None, forces is not None, forces is not None]
+    units = reading.train.units()
+    rows = []
+    for link, speed in found.values.items():
+        cells = [link + _UNITS[lang][units[link]], "?" if speed is None else number(speed)]
+        cells.append(number(speed / reading.drives[driver]) if driver and speed is not None else "")
+        torques = (forces.torques, forces.powers) if forces else ({}, {})
+        cells += [number(one[link]) if link in one else "" for one in torques]
+        rows.append([cell for cell, shown in zip(cells, columns, strict=True) if shown])
+    headers = [head.format(drive=driver) for head, shown in zip(_HEADERS[lang], columns, strict=True) if shown]
+    print_table(headers, rows, numbers=range(1, len(headers)))
+
+
+def _document(reading: Reading, found: Speeds, forces: Balance | None) -> dict[str, Any]:
+    train, units = reading.train, reading.train.units()
+    document: dict[str, Any] = {
+        "meshes": [str(mesh) for mesh in train.meshes],
+        "mobility": train.mobility,
+        "redundant": [str(mesh) for mesh in train.redundant],
+        "complete": found.complete,
+        "links": [
+            {"link": link, "unit": units[link].value, "speed": _value(found.values[link])} for link in train.links
+        ],
+        "contradictions": [
+            {"link": one.link, "wanted": _value(one.wanted), "follows": _value(one.follows)}
+            for one in found.contradictions
+        ],
+        "spare": list(found.spare),
+    }
+    if forces:
+        document["torques"] = {link: _value(value) for link, value in forces.torques.items()}
+        document["powers"] = {link: _value(value) for link, value in forces.powers.items()}
+    if reading.planets:
+        tested = [assembly(train, planet, count) for planet, count in reading.planets.items()]
+        document["assembly"] = [
+            {name: getattr(one, name) for name in ("planet", "number", "coaxial", "evenly", "clear", "possible")}
+            | {"spacing_turns": _value(one.spacing)}
+            for one in tested
+        ]
+    return document
+
+
+def _value(value: Fraction | float | None) -> dict[str, Any] | None:
+    """Both the exact text and a number."""
+    if value is None:
+        return None
+    return {"exact": str(value) if isinstance(value, Fraction) else None, "value": float(value)}

@@ -1,0 +1,78 @@
+"""Whether planets can be put in: coaxial wheels, equal spacing, neighbours that do not touch; docs/theory/gears.md."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from gruebler.gears.train import FRAME, GearError, Mesh, Train
+
+__all__ = ["Assembly", "assembly"]
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """Equal planets (all wheels of one module, without profile shift) on one carrier."""
+
+    carrier: str
+    planet: str
+    number: int
+    coaxial: bool
+    """Whether all central wheels have their axes at the same distance from the planets: z_ring = z_sun + 2 z_planet."""
+    spacing: Fraction
+    """The least angle between places of planets, in turns; any multiple is possible. 0: every place is."""
+    clear: bool
+    """Whether the tip circles of neighbours (addendum one module) stay apart at equal spacing."""
+
+    @property
+    def evenly(self) -> bool:
+        """Whether equal spacing is possible: (z_sun + z_ring) / number whole for simple planets."""
+        return not self.spacing or (Fraction(1, self.number) / self.spacing).denominator == 1
+
+    @property
+    def possible(self) -> bool:
+        """Whether all three conditions hold."""
+        return self.coaxial and self.evenly and self.clear
+
+
+def assembly(train: Train, planet: str, number: int) -> Assembly:
+    """The conditions of assembly for so many equal planets at equal angles.
+
+    The planet must mesh with two central wheels on one moving carrier, with whole tooth numbers; its two wheels may
+    differ (stepped planets), their teeth standing against each other in the same way on every planet.
+
+    >>> from gruebler.gears import read_train
+    >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
+    >>> assembly(train, "planet", 3).possible, assembly(train, "planet", 5).evenly, assembly(train, "planet", 7).clear
+    (True, False, False)
+    """
+    if not isinstance(number, int) or isinstance(number, bool) or number < 1:
+        raise GearError(f"planets: expected a whole number, at least 1, not {number!r}")
+    train.known(planet)
+    meshes = [_from(mesh, planet) for mesh in train.meshes if planet in (mesh.a, mesh.b) and mesh.carrier != FRAME]
+    meshes = [mesh for mesh in meshes if mesh.kind == "gear"]
+    carriers = {mesh.carrier for mesh in meshes}
+    if len(meshes) != 2 or len(carriers) != 1:
+        raise GearError(
+            f"{planet} is no planet between two gears on one moving carrier: no conditions of assembly are known"
+        )
+    if any(mesh.size_a.denominator != 1 or mesh.size_b.denominator != 1 for mesh in meshes):
+        raise GearError(f"the conditions of assembly need whole tooth numbers on {planet} and its partners")
+    distances = {abs(mesh.size_a + mesh.size_b) for mesh in meshes}
+    tip = max(mesh.size_a for mesh in meshes) + 2
+    apart = min(distances) * math.sin(math.pi / number) > tip if number > 1 else True
+    return Assembly(carriers.pop(), planet, number, len(distances) == 1, _spacing(*meshes), bool(apart))
+
+
+def _from(mesh: Mesh, planet: str) -> Mesh:
+    """The mesh with the planet as its first link."""
+    if mesh.a == planet:
+        return mesh
+    return Mesh(mesh.b, mesh.a, mesh.size_b, mesh.size_a, mesh.carrier, mesh.kind)
+
+
+def _spacing(first: Mesh, other: Mesh) -> Fraction:
+    """In turns: centrals a, b and planet teeth p, q fit again after gcd(p, q) / |a q - b p| of a turn."""
+    p, a, q, b = (int(size) for size in (first.size_a, first.size_b, other.size_a, other.size_b))
+    return Fraction(math.gcd(p, q), abs(a * q - b * p)) if a * q != b * p else Fraction(0)

@@ -1,0 +1,180 @@
+"""What a train does with given drives: speeds, ratios, torques and power, all exact; docs/theory/gears.md."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import NamedTuple
+
+from gruebler.gears.rational import Row, echelon, reduced
+from gruebler.gears.train import MIXED, GearError, Train, Unit, exact
+
+__all__ = ["Balance", "Contradiction", "Speeds", "balance", "influence", "ratio", "speeds"]
+
+
+class Contradiction(NamedTuple):
+    """A drive whose speed follows from the drives before it."""
+
+    link: str
+    wanted: Fraction
+    follows: Fraction
+
+
+@dataclass(frozen=True, slots=True)
+class Speeds:
+    """The speed of every link that the drives determine, None for the others."""
+
+    values: dict[str, Fraction | None]
+    contradictions: tuple[Contradiction, ...]
+    spare: tuple[str, ...]
+    """Drives that say what others say already, without contradiction."""
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """The links whose speed stays undetermined."""
+        return tuple(link for link, value in self.values.items() if value is None)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every speed is determined and no drive is contradicted."""
+        return not self.free and not self.contradictions
+
+
+def speeds(train: Train, drives: Mapping[str, object]) -> Speeds:
+    """The speeds of all links if some are given (0 holds a link); a contradicted drive is left out and reported.
+
+    >>> from gruebler.gears import read_train
+    >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
+    >>> {link: str(value) for link, value in speeds(train, {"sun": 7, "ring": 0}).values.items()}
+    {'sun': '7', 'planet': '-14/3', 'arm': '2', 'ring': '0'}
+    """
+    chosen: dict[str, Fraction] = {}
+    wrong: list[Contradiction] = []
+    spare: list[str] = []
+    units = train.units()
+    for link, value in drives.items():
+        wanted = exact(value, f"speed of {train.known(link)}")
+        if wanted and units[link] != Unit.TURNING and not train.comparable(train.links):
+            raise GearError(f"{link} is driven, but {MIXED}")
+        rest = reduced({link: Fraction(1)}, _with(train, chosen))
+        if rest:
+            chosen[link] = wanted
+            continue
+        follows = _combined(_influence(train, chosen, (link,))[link], chosen)
+        spare.append(link) if follows == wanted else wrong.append(Contradiction(link, wanted, follows))
+    found = _influence(train, chosen, train.links)
+    determined = _with(train, chosen)
+    values = {
+        link: None if reduced({link: Fraction(1)}, determined) else _combined(found[link], chosen)
+        for link in train.links
+    }
+    return Speeds(values, tuple(wrong), tuple(spare))
+
+
+def influence(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
+    """Each link's speed as a combination of the drives' speeds: link to drive to factor, zeros left out.
+
+    Raises GearError if the drives do not determine every link, or depend on one another.
+
+    >>> from gruebler.gears import read_train
+    >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
+    >>> {drive: str(factor) for drive, factor in influence(train, ["sun", "ring"])["arm"].items()}
+    {'sun': '2/7', 'ring': '5/7'}
+    """
+    names = [train.known(link) for link in drives]
+    if len(_with(train, names)) < len(train.links) or len(names) != train.mobility or len(set(names)) < len(names):
+        told = ", ".join(names) or "none"
+        raise GearError(f"the train has {train.mobility} freedoms and needs as many independent drives; given: {told}")
+    return _influence(train, names, train.links)
+
+
+def ratio(train: Train, a: str, b: str, held: Iterable[str] = ()) -> Fraction:
+    """The transmission ratio i = w_a / w_b while the held links stand still.
+
+    >>> from gruebler.gears import read_train
+    >>> str(ratio(read_train("sun:24 planet:18 ring:-60 on arm").train, "sun", "arm", held=["ring"]))
+    '7/2'
+    """
+    found = speeds(train, {**dict.fromkeys(held, 0), a: 1})
+    if a in (one.link for one in found.contradictions) or found.values[train.known(b)] == 0:
+        raise GearError(f"{a} or {b} stands still: there is no ratio of {a} to {b}")
+    value = found.values[b]
+    if value is None:
+        raise GearError(f"the speed of {b} does not follow from {', '.join((a, *held))}")
+    if not train.comparable((a, b)):
+        raise GearError(f"{a}, {b}: {MIXED}")
+    return 1 / value
+
+
+@dataclass(frozen=True, slots=True)
+class Balance:
+    """Torques from outside (forces on links that slide) and the power of each; the powers sum to zero."""
+
+    torques: dict[str, Fraction | float]
+    powers: dict[str, Fraction | float]
+    """Torque times speed, the speeds taken per radian; for turns multiply by 2 pi."""
+
+
+def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, object]) -> Balance:
+    """The torques that drives and held links must give against loads, by virtual work.
+
+    For every motion that the train allows the torques do no work in sum: T_d = -sum of T_l * (dw_l / dw_d). Exact,
+    except where a force acts on a link moved by a screw (a float, because of 2 pi).
+
+    >>> from gruebler.gears import read_train
+    >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
+    >>> found = balance(train, {"sun": 7, "ring": 0}, {"arm": -70})
+    >>> {link: str(torque) for link, torque in found.torques.items()}
+    {'sun': '20', 'ring': '50', 'arm': '-70'}
+    """
+    factors = influence(train, drives)
+    given = {train.known(link): exact(value, f"load on {link}") for link, value in loads.items()}
+    if both := set(given) & set(drives):
+        raise GearError(f"{', '.join(sorted(both))}: driven or held, so its torque is an answer and cannot be a load")
+    units = train.units()
+    torques: dict[str, Fraction | float] = {}
+    for drive in drives:
+        terms = [(link, -factors[link].get(drive, Fraction(0)) * load) for link, load in given.items()]
+        torques[drive] = _per_radian(terms, units, drive)
+    torques |= given
+    moving = speeds(train, drives).values
+    powers = {
+        link: (
+            torque * (moving[link] or 0)
+            if units[link] != Unit.PER_TURN
+            else float(torque * (moving[link] or 0)) / math.tau
+        )
+        for link, torque in torques.items()
+    }
+    return Balance(torques, powers)
+
+
+def _per_radian(terms: list[tuple[str, Fraction]], units: Mapping[str, Unit], drive: str) -> Fraction | float:
+    """The sum, forces at screws weighed with lead / 2 pi."""
+    scale = math.tau if units[drive] == Unit.PER_TURN else 1
+    plain = sum((value for link, value in terms if units[link] != Unit.PER_TURN), Fraction(0))
+    screwed = sum((value for link, value in terms if units[link] == Unit.PER_TURN), Fraction(0))
+    if scale == 1:
+        return plain + float(screwed) / math.tau if screwed else plain
+    return screwed + float(plain) * scale if plain else screwed
+
+
+def _with(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
+    """The relations together with the rows that fix the drives."""
+    return echelon([*(mesh.row() for mesh in train.meshes), *({link: Fraction(1)} for link in drives)], train.links)
+
+
+def _influence(train: Train, drives: Iterable[str], links: Iterable[str]) -> dict[str, Row[str]]:
+    names = list(drives)
+    form = echelon((mesh.row() for mesh in train.meshes), [link for link in train.links if link not in names] + names)
+    found: dict[str, Row[str]] = {}
+    for link in links:
+        rest = reduced({link: Fraction(1)}, form)
+        found[link] = {drive: rest[drive] for drive in names if drive in rest}
+    return found
+
+
+def _combined(factors: Row[str], values: Mapping[str, Fraction]) -> Fraction:
+    return sum((factor * values[drive] for drive, factor in factors.items()), Fraction(0))

@@ -1,0 +1,115 @@
+"""A gear train in words, English and German."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from gruebler.gears.assembly import Assembly, assembly
+from gruebler.gears.motion import speeds
+from gruebler.gears.reading import Reading
+from gruebler.gears.train import FRAME, Train
+
+__all__ = ["explain", "number"]
+
+# sentence: (English, German)
+SENTENCES = {
+    "mobility": (
+        "{links} moving links, {meshes} independent meshes: mobility {freedoms}.",
+        "{links} bewegte Glieder, {meshes} unabhängige Eingriffe: Laufgrad {freedoms}.",
+    ),
+    "redundant": (
+        "Says nothing new: {meshes}.",
+        "Sagt nichts Neues: {meshes}.",
+    ),
+    "relation": ("Speeds: {relation} = 0", "Drehzahlen: {relation} = 0"),
+    "contradiction": (
+        "{link} cannot have {wanted}: it follows from the other drives as {follows}.",
+        "{link} kann nicht {wanted} haben: Aus den anderen Antrieben folgt {follows}.",
+    ),
+    "spare": ("Drives more than needed: {links}.", "Überzählige Antriebe: {links}."),
+    "free": (
+        "Not determined: {links}; {missing} more drive(s) needed.",
+        "Nicht bestimmt: {links}; {missing} Antrieb(e) fehlen.",
+    ),
+    "possible": (
+        "{number} planets ({planet}) at equal angles can be put in.",
+        "{number} Planeten ({planet}) lassen sich gleichmäßig verteilt einbauen.",
+    ),
+    "impossible": (
+        "{number} planets ({planet}) at equal angles cannot be put in: {reasons}.",
+        "{number} Planeten ({planet}) lassen sich nicht gleichmäßig verteilt einbauen: {reasons}.",
+    ),
+    "coaxial": (
+        "the central wheels are not coaxial (wheels of one module without profile shift)",
+        "die Zentralräder sind nicht gleichachsig (gleicher Modul, keine Profilverschiebung)",
+    ),
+    "evenly": (
+        "places are {degrees}° or multiples of it apart",
+        "die Plätze liegen um {degrees}° oder Vielfache davon auseinander",
+    ),
+    "clear": ("neighbours touch", "Nachbarn berühren sich"),
+}
+
+
+def number(value: Fraction | float) -> str:
+    """A number for people: whole, or a fraction with its decimal value.
+
+    >>> number(Fraction(7, 2)), number(Fraction(6)), number(0.25)
+    ('7/2 (3.5)', '6', '0.25')
+    """
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    return str(value) if value.denominator == 1 else f"{value} ({float(value):.6g})"
+
+
+def explain(reading: Reading, lang: str = "en") -> str:
+    """What can be said of a train and its drives, line by line.
+
+    >>> from gruebler.gears import read_train
+    >>> print(explain(read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=7")))
+    4 moving links, 2 independent meshes: mobility 2.
+    Speeds: 2 sun - 7 arm + 5 ring = 0
+    3 planets (planet) at equal angles can be put in.
+    """
+    train, column = reading.train, int(lang == "de")
+
+    def say(key: str, **words: object) -> str:
+        return SENTENCES[key][column].format(**words)
+
+    lines = [say("mobility", links=len(train.links), meshes=len(train.basis), freedoms=train.mobility)]
+    if train.redundant:
+        lines.append(say("redundant", meshes="; ".join(map(str, train.redundant))))
+    lines += [say("relation", relation=relation) for relation in _outer_relations(train)]
+    if reading.drives:
+        found = speeds(train, reading.drives)
+        for link, wanted, follows in found.contradictions:
+            lines.append(say("contradiction", link=link, wanted=number(wanted), follows=number(follows)))
+        if found.spare:
+            lines.append(say("spare", links=", ".join(found.spare)))
+        if found.free:
+            used = len(reading.drives) - len(found.spare) - len(found.contradictions)
+            lines.append(say("free", links=", ".join(found.free), missing=train.mobility - used))
+    for planet, count in reading.planets.items():
+        one = assembly(train, planet, count)
+        reasons = _reasons(one, column)
+        key = "impossible" if reasons else "possible"
+        lines.append(say(key, number=count, planet=planet, reasons="; ".join(reasons)))
+    return "\n".join(lines)
+
+
+def _reasons(one: Assembly, column: int) -> list[str]:
+    degrees = f"{float(one.spacing * 360):.6g}"
+    wrong = [key for key in ("coaxial", "evenly", "clear") if not getattr(one, key)]
+    return [SENTENCES[key][column].format(degrees=degrees) for key in wrong]
+
+
+def _outer_relations(train: Train) -> list[str]:
+    """The relations between the links that are not planets, where their speeds can be compared."""
+    ends = [link for mesh in train.meshes if mesh.carrier != FRAME for link in (mesh.a, mesh.b)]
+    outer = [link for link in train.links if ends.count(link) < 2]
+    return [_sum(form) for form in train.relations(*outer) if train.comparable(form)]
+
+
+def _sum(form: dict[str, int]) -> str:
+    terms = "".join(f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else f'{abs(k)} '}{link}" for link, k in form.items())
+    return terms.removeprefix(" + ")

@@ -1,0 +1,176 @@
+"""The text and TOML forms of a gear train with its drives, loads and planets.
+
+Statements stand on lines or between semicolons; # begins a remark.
+
+    sun:24 planet:18 ring:-60 on arm planets=3    wheels that mesh in a row, LINK:TEETH; minus: internal toothing
+    in:20 lay:41; lay:19 out:42                   two wheels on one shaft: the link is named twice
+    belt motor:100 drum:250                       also chain, crossed, friction, bevel, gear (the usual kind)
+    bevel left:16 star:10 right:-16 on case       central, planet, central; minus: the one that faces the other
+    rack pinion:18 slide                          radius 18; or with module=2 or pitch=6.28 and a number of teeth
+    screw spindle slide lead=5                    travel in a turn; minus: left-hand; on NUT if the nut turns too
+    winch drum:60 load falls=2                    radius; falls: ropes that carry the load; or drum:1 pitch=377
+    drive sun=1000                                a speed (drive may be left out); hold ring = drive ring=0
+    load arm=-50                                  a torque from outside; a force on links that slide
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+from gruebler.errors import nearest
+from gruebler.gears.train import FRAME, KINDS, GearError, Mesh, Train, exact
+
+__all__ = ["Reading", "read_toml", "read_train"]
+
+_STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
+_OPTIONS = {"rack": {"module", "pitch"}, "screw": {"lead"}, "winch": {"falls", "pitch"}, "gear": {"planets"}}
+_NAME = re.compile(r"[^\s:=;#]+\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What a text says: the train, the speeds and loads that are given, and how many planets of a kind there are."""
+
+    train: Train
+    drives: dict[str, Fraction] = field(default_factory=dict)
+    loads: dict[str, Fraction] = field(default_factory=dict)
+    planets: dict[str, int] = field(default_factory=dict)
+
+
+def read_train(text: str) -> Reading:
+    """Read the text form; the links of drives and loads must be in the train.
+
+    >>> reading = read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000")
+    >>> [str(mesh) for mesh in reading.train.meshes]
+    ['gear sun:24 planet:18 on arm', 'gear planet:18 ring:-60 on arm']
+    >>> reading.planets, {link: str(speed) for link, speed in reading.drives.items()}
+    ({'planet': 3}, {'ring': '0', 'sun': '1000'})
+    """
+    meshes: list[Mesh] = []
+    found: dict[str, dict[str, Any]] = {"drive": {}, "load": {}, "planets": {}}
+    for statement in _statements(text):
+        words = statement.split()
+        head = words[0] if words[0] in _STATEMENTS else ""
+        rest = words[1:] if head else words
+        if head in ("drive", "hold", "load") or (not head and all("=" in word for word in words)):
+            kind = "load" if head == "load" else "drive"
+            for word in rest:
+                link, value = (word, "0") if head == "hold" else _pair(word, "=", statement)
+                if link in found[kind]:
+                    raise GearError(f"'{statement}': {link} is given twice")
+                found[kind][link] = exact(value, f"'{statement}': {link}")
+        else:
+            if not head and ":" not in statement:
+                known = ", ".join(_STATEMENTS)
+                hint = nearest(words[0], _STATEMENTS)
+                raise GearError(f"'{statement}': expected wheels such as sun:24 planet:18, or one of {known}{hint}")
+            meshes += _read_meshes(head or "gear", rest, statement, found["planets"])
+    train = Train(meshes)
+    for link in (*found["drive"], *found["load"]):
+        train.known(link)
+    return Reading(train, found["drive"], found["load"], found["planets"])
+
+
+def read_toml(text: str, name: str = "TOML") -> Reading:
+    r"""Read the TOML form: ``train`` is the text of the meshes (or a list of such); tables drive, load; list hold.
+
+    >>> reading = read_toml('train = ["sun:24 planet:18 ring:-60 on arm"]\nhold = ["ring"]\ndrive.sun = 1000')
+    >>> reading.train.mobility, len(reading.drives)
+    (2, 2)
+    """
+    try:
+        document = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise GearError(f"{name}: is not TOML: {error}") from None
+    known: dict[str, tuple[type, ...]] = {"train": (str, list), "drive": (dict,), "load": (dict,), "hold": (list,)}
+    for key, value in document.items():
+        if key not in known:
+            raise GearError(f"{name}: no key is called {key!r}: {', '.join(known)}{nearest(key, known)}")
+        if not isinstance(value, known[key]):
+            raise GearError(f"{name}: {key} has the wrong form: train is text, drive and load are tables, hold a list")
+    train = document.get("train", "")
+    statements = [train] if isinstance(train, str) else [str(one) for one in train]
+    statements += [f"hold {link}" for link in document.get("hold", [])]
+    statements += [
+        f"{key} {link}={value}" for key in ("drive", "load") for link, value in document.get(key, {}).items()
+    ]
+    return read_train("\n".join(statements))
+
+
+def _statements(text: str) -> Iterator[str]:
+    for line in text.splitlines():
+        for statement in line.partition("#")[0].split(";"):
+            if statement.strip():
+                yield " ".join(statement.split())
+
+
+def _pair(word: str, sign: str, statement: str) -> tuple[str, str]:
+    left, found, right = word.partition(sign)
+    if not found or not left or not right:
+        raise GearError(f"'{statement}': expected LINK{sign}NUMBER, not {word!r}")
+    return left, right
+
+
+def _read_meshes(kind: str, words: list[str], statement: str, planets: dict[str, int]) -> Iterator[Mesh]:
+    carrier, words = _carrier(words, statement)
+    options = dict(_pair(word, "=", statement) for word in words if "=" in word)
+    for option in options:
+        if option not in _OPTIONS.get(kind, set()):
+            raise GearError(f"'{statement}': {kind} has no option {option!r}")
+    wheels = [word for word in words if "=" not in word]
+    if KINDS[kind].sign == 0:
+        yield _linear(kind, wheels, options, carrier, statement)
+        return
+    if len(wheels) < 2:
+        raise GearError(f"'{statement}': expected at least two wheels LINK:TEETH")
+    sized = [(link, exact(size, f"'{statement}': {link}")) for link, size in (_pair(w, ":", statement) for w in wheels)]
+    if "planets" in options:
+        planets |= dict.fromkeys(
+            [link for link, _ in sized[1:-1]] or [sized[-1][0]], _count(options["planets"], statement)
+        )
+    for k, ((a, size_a), (b, size_b)) in enumerate(pairwise(sized)):
+        # Central and planet wheels of a bevel statement alternate; the central one comes first in its mesh.
+        swap = kind == "bevel" and k % 2 == 1
+        yield Mesh(b, a, size_b, size_a, carrier, kind) if swap else Mesh(a, b, size_a, size_b, carrier, kind)
+
+
+def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str, statement: str) -> Mesh:
+    if len(wheels) != 2 or ":" in wheels[1]:
+        raise GearError(f"'{statement}': expected a wheel and a link that slides, such as 'rack pinion:18 slide'")
+    what = f"'{statement}'"
+    numbers = {option: exact(value, f"{what}: {option}") for option, value in options.items()}
+    if kind == "screw":
+        if ":" in wheels[0] or "lead" not in numbers:
+            raise GearError(f"{what}: expected 'screw SPINDLE SLIDE lead=NUMBER'")
+        return Mesh(wheels[0], wheels[1], numbers["lead"], Fraction(1), carrier, kind)
+    link, text = _pair(wheels[0], ":", statement)
+    size = exact(text, f"{what}: {link}")
+    if numbers.get("falls", 1) < 1:
+        raise GearError(f"{what}: at least one rope carries the load")
+    if "pitch" in numbers:
+        travel = size * numbers["pitch"] / numbers.get("falls", 1)
+        return Mesh(link, wheels[1], travel, Fraction(1), carrier, "rack by pitch")
+    return Mesh(
+        link, wheels[1], size * numbers.get("module", 2) / 2 / numbers.get("falls", 1), Fraction(1), carrier, kind
+    )
+
+
+def _carrier(words: list[str], statement: str) -> tuple[str, list[str]]:
+    if "on" not in words:
+        return FRAME, words
+    at = words.index("on")
+    if at + 1 >= len(words) or not _NAME.match(words[at + 1]):
+        raise GearError(f"'{statement}': expected the name of a carrier after 'on'")
+    return words[at + 1], words[:at] + words[at + 2 :]
+
+
+def _count(text: str, statement: str) -> int:
+    if re.fullmatch("[1-9][0-9]{0,3}", text) is None:
+        raise GearError(f"'{statement}': expected a whole number of planets, not {text!r}")
+    return int(text)

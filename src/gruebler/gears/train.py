@@ -1,0 +1,260 @@
+"""Gear trains: shafts, and meshes between wheels on them; docs/theory/gears.md.
+
+A *link* is what turns (or slides) as one piece: a shaft with all its wheels, a carrier, a rack, a nut. A *mesh* joins
+two links; if its axes are held by a carrier, it joins the speeds relative to that carrier (Willis).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+from numbers import Rational
+from types import MappingProxyType
+from typing import NamedTuple
+
+from gruebler.errors import GrueblerError, nearest
+from gruebler.gears.rational import Row, echelon, reduced
+
+__all__ = ["KINDS", "MIXED", "GearError", "Kind", "Mesh", "Train", "Unit", "exact"]
+
+FRAME = "frame"
+
+
+MIXED = "some slide per radian, others per turn, which differ by 2 pi; give racks and winches by pitch=TRAVEL"
+
+
+class GearError(GrueblerError):
+    """A gear train that cannot be, or a question that it cannot answer."""
+
+
+class Unit(StrEnum):
+    """What a link's speed is counted in, if wheels turn with one unit of angle."""
+
+    TURNING = "turning"
+    PER_RADIAN = "per radian"
+    """Length: a rack moves radius times angle."""
+    PER_TURN = "per turn"
+    """Length: a nut moves its lead in a full turn. Per radian and per turn differ by 2 pi and are never mixed."""
+
+
+class Kind(NamedTuple):
+    """How a mesh joins speeds: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
+
+    sign: int
+    unit: Unit = Unit.TURNING
+    """Of the second link."""
+    signed: bool = True
+    """Whether a negative size has a meaning: internal toothing, a bevel gear that faces the other way, a left screw."""
+
+
+KINDS = MappingProxyType(
+    {
+        "gear": Kind(+1),
+        "friction": Kind(+1),
+        "bevel": Kind(+1),
+        "belt": Kind(-1, signed=False),
+        "chain": Kind(-1, signed=False),
+        "crossed": Kind(+1, signed=False),
+        "rack": Kind(0, Unit.PER_RADIAN),
+        "rack by pitch": Kind(0, Unit.PER_TURN),
+        "winch": Kind(0, Unit.PER_RADIAN),
+        "screw": Kind(0, Unit.PER_TURN),
+    }
+)
+
+
+def exact(value: object, what: str) -> Fraction:
+    """A finite number as a fraction; decimals as they are written.
+
+    >>> exact(0.1, "size"), exact("7/2", "size")
+    (Fraction(1, 10), Fraction(7, 2))
+    """
+    try:
+        if isinstance(value, Rational) and not isinstance(value, bool):
+            return Fraction(int(value.numerator), int(value.denominator))
+        # A text has no exponent and is short: 1e999999999 is no number of teeth, and would not end.
+        if isinstance(value, float) or (isinstance(value, str) and len(value) <= 40 and "e" not in value.lower()):
+            return Fraction(str(value))
+    except (ValueError, ZeroDivisionError):
+        pass
+    raise GearError(f"{what}: expected a finite number such as 24, 12.5 or 7/2, not {value!r}")
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Two links that drive each other, with tooth numbers or radii, and the carrier of their axes.
+
+    ``size_a`` is the radius, pitch travel or lead where the second link slides, and ``size_b`` is then not used. In a
+    bevel mesh on a moving carrier the second link is the planet, its speed counted about its own axis, relative to the
+    carrier.
+    """
+
+    a: str
+    b: str
+    size_a: Fraction
+    size_b: Fraction = Fraction(1)
+    carrier: str = FRAME
+    kind: str = "gear"
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise GearError(f"no kind of mesh is called {self.kind!r}: {', '.join(KINDS)}{nearest(self.kind, KINDS)}")
+        if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
+            raise GearError(f"a mesh joins two different links and is carried by a third: {self}")
+        for name, given in ((self.a, self.size_a), (self.b, self.size_b)):
+            if not isinstance(name, str) or not name:
+                raise GearError(f"a link has a name, not {name!r}")
+            size = exact(given, f"wheel on {name}")
+            if size == 0 or (size < 0 and not KINDS[self.kind].signed):
+                raise GearError(f"wheel on {name}: {self.kind} takes a positive size, not {size}")
+        object.__setattr__(self, "size_a", exact(self.size_a, self.a))
+        object.__setattr__(self, "size_b", exact(self.size_b, self.b))
+        if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
+            raise GearError(f"an internal wheel (minus) is larger than the wheel in it: {self}")
+        if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
+            raise GearError(f"two internal wheels do not mesh: {self}")
+
+    def __str__(self) -> str:
+        """The text of the mesh, as `read_train` takes it back.
+
+        >>> str(Mesh("planet", "ring", 18, -60, "arm"))
+        'gear planet:18 ring:-60 on arm'
+        """
+        kind = KINDS.get(self.kind)
+        second = self.b if kind and kind.sign == 0 else f"{self.b}:{self.size_b}"
+        first, tail = f"{self.a}:{self.size_a}", "" if self.carrier == FRAME else f" on {self.carrier}"
+        if self.kind == "screw":
+            return f"screw {self.a} {self.b} lead={self.size_a}{tail}"
+        if self.kind == "rack by pitch":
+            return f"rack {self.a}:1 {second} pitch={self.size_a}{tail}"
+        return f"{self.kind} {first} {second}{tail}"
+
+    def row(self) -> Row[str]:
+        """The linear form of speeds that vanishes."""
+        kind, form = KINDS[self.kind], Row[str]()
+        if self.kind == "screw":
+            terms = ((self.b, Fraction(1)), (self.a, -self.size_a), (self.carrier, self.size_a))
+        elif kind.sign == 0:
+            terms = ((self.b, Fraction(1)), (self.carrier, Fraction(-1)), (self.a, -self.size_a))
+        else:
+            size_b = kind.sign * self.size_b
+            held = self.size_a if self.kind == "bevel" else self.size_a + size_b
+            terms = ((self.a, self.size_a), (self.b, size_b), (self.carrier, -held))
+        for link, value in terms:
+            form[link] = form.get(link, Fraction(0)) + value
+        form.pop(FRAME, None)
+        return form
+
+    def units(self) -> dict[str, Unit]:
+        """What the speeds of its links are counted in."""
+        kind = KINDS[self.kind]
+        slides = kind.sign == 0 and self.kind != "screw"
+        return {self.a: Unit.TURNING, self.b: kind.unit, self.carrier: kind.unit if slides else Unit.TURNING}
+
+
+@dataclass(frozen=True, slots=True)
+class Train:
+    """Links and meshes; the link ``frame`` stands still.
+
+    >>> train = Train((Mesh("sun", "planet", 24, 18, "arm"), Mesh("planet", "ring", 18, -60, "arm")))
+    >>> train.links, train.mobility
+    (('sun', 'planet', 'arm', 'ring'), 2)
+    >>> train.relation("sun", "ring", "arm")
+    {'sun': 2, 'ring': 5, 'arm': -7}
+    """
+
+    meshes: tuple[Mesh, ...]
+
+    def __init__(self, meshes: Iterable[Mesh]) -> None:
+        object.__setattr__(self, "meshes", tuple(meshes))
+        if not self.meshes:
+            raise GearError("a gear train has at least one mesh")
+        self.units()
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The moving links in the order in which they are named."""
+        named = dict.fromkeys(link for mesh in self.meshes for link in (mesh.a, mesh.b, mesh.carrier))
+        return tuple(link for link in named if link != FRAME)
+
+    def units(self) -> dict[str, Unit]:
+        """What each link's speed is counted in; a link that would need two is refused."""
+        found: dict[str, Unit] = {}
+        for mesh in self.meshes:
+            for link, unit in mesh.units().items():
+                if link != FRAME and found.setdefault(link, unit) != unit:
+                    hint = "" if Unit.TURNING in (unit, found[link]) else "; give the rack by its pitch instead"
+                    raise GearError(f"{link} is {found[link]} in one mesh and {unit} in '{mesh}'{hint}")
+        return found
+
+    @property
+    def basis(self) -> dict[str, Row[str]]:
+        """The speed relations in reduced form: each dependent link with its row."""
+        # Last links first: what is named first is kept as free, so that others are told in terms of it.
+        return echelon((mesh.row() for mesh in self.meshes), self.links[::-1])
+
+    @property
+    def mobility(self) -> int:
+        """How many speeds can be chosen."""
+        return len(self.links) - len(self.basis)
+
+    @property
+    def redundant(self) -> tuple[Mesh, ...]:
+        """Meshes that say nothing new, such as those of a second planet; each depends on the ones before it."""
+        found: list[Mesh] = []
+        for k, mesh in enumerate(self.meshes):
+            if not reduced(mesh.row(), echelon((one.row() for one in self.meshes[:k]), self.links)):
+                found.append(mesh)
+        return tuple(found)
+
+    def comparable(self, links: Iterable[str]) -> bool:
+        """Whether the speeds of these links can be compared: not if some slide per radian and others per turn."""
+        units = self.units()
+        return not {Unit.PER_RADIAN, Unit.PER_TURN} <= {units[link] for link in links}
+
+    def known(self, link: str) -> str:
+        """The link, if the train has it; otherwise an error that offers the nearest name."""
+        if link not in self.links:
+            raise GearError(
+                f"the train has no moving link {link!r}: {', '.join(self.links)}{nearest(link, self.links)}"
+            )
+        return link
+
+    def relations(self, *links: str) -> list[dict[str, int]]:
+        """All independent relations between the speeds of some links, each in whole numbers."""
+        chosen = [self.known(link) for link in links]
+        others = [link for link in self.links if link not in chosen]
+        # What slides is told by what turns, so that lengths per radian and per turn stay apart.
+        turning = [link for link in chosen if self.units()[link] == Unit.TURNING]
+        sliding = [link for link in chosen if link not in turning]
+        form = echelon((mesh.row() for mesh in self.meshes), [*others, *sliding, *turning])
+        return [
+            _whole({link: row[link] for link in chosen if link in row})
+            for pivot, row in form.items()
+            if pivot in chosen
+        ]
+
+    def relation(self, *links: str) -> dict[str, int]:
+        """The one relation between the speeds of some links: the sum of coefficient times speed is zero.
+
+        Raises GearError if their speeds are independent, or joined by more than one relation.
+        """
+        found = self.relations(*links)
+        if len(found) != 1:
+            number = f"{len(found)} relations" if found else "no relation"
+            raise GearError(f"there is {number} between the speeds of {', '.join(links)}, not one")
+        if not self.comparable(found[0]):
+            raise GearError(f"{', '.join(found[0])}: {MIXED}")
+        return found[0]
+
+
+def _whole(row: Row[str]) -> dict[str, int]:
+    from math import gcd, lcm
+
+    scale = lcm(*(value.denominator for value in row.values()))
+    whole = {link: int(value * scale) for link, value in row.items()}
+    common = gcd(*whole.values())
+    sign = 1 if next(iter(whole.values())) > 0 else -1
+    return {link: sign * value // common for link, value in whole.items()}

@@ -1,0 +1,136 @@
+"""Laws of motion: printed peaks, ends, smoothness, boundary values; and the finder of extremes behind them."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gruebler.cams import LAWS, CamError, boundary_law, law, polynomial_law
+from gruebler.cams.extremes import extremes, roots
+
+RESTING = ["3-4-5", "4-5-6-7", "5-6-7-8-9", "cycloidal", "modified-sine", "modified-trapezoid", "harmonic", "parabolic"]
+
+
+@pytest.mark.parametrize(
+    ("name", "velocity", "acceleration", "jerk", "torque"),
+    [
+        ("3-4-5", 1.875, 5.7735, 60, 6.69),
+        ("4-5-6-7", 2.1875, 7.5132, 52.5, 10.75),
+        ("cycloidal", 2, 6.2832, 39.478, 8.16),
+        ("modified-sine", 1.7596, 5.5280, 69.47, 5.46),
+        ("modified-trapezoid", 2, 4.8881, 61.43, 8.09),
+        ("harmonic", 1.5708, 4.9348, 15.503, 3.88),
+        ("parabolic", 2, 4, 0, 8),
+    ],
+)
+def test_printed_peaks(name, velocity, acceleration, jerk, torque):
+    """VDI 2143 part 1, table of the normalised laws; Norton, Design of Machinery, table 8-2 and 8-3."""
+    peaks = law(name).peaks()
+    assert peaks.velocity == pytest.approx(velocity, abs=5e-5)
+    assert peaks.acceleration == pytest.approx(acceleration, abs=5e-5)
+    assert peaks.jerk == pytest.approx(jerk, abs=5e-3)
+    assert peaks.torque == pytest.approx(torque, abs=5e-3)
+
+
+def test_peaks_in_closed_form():
+    pi = math.pi
+    assert law("3-4-5").peaks()[:3] == pytest.approx((15 / 8, 10 / math.sqrt(3), 60), rel=1e-12)
+    assert law("cycloidal").peaks()[:3] == pytest.approx((2, 2 * pi, 4 * pi**2), rel=1e-12)
+    assert law("modified-sine").peaks()[1:3] == pytest.approx((4 * pi**2 / (pi + 4), 16 * pi**3 / (pi + 4)), rel=1e-12)
+    trapezoid = law("modified-trapezoid").peaks()
+    assert trapezoid[1:3] == pytest.approx((8 * pi / (pi + 2), 32 * pi**2 / (pi + 2)), rel=1e-12)
+
+
+@pytest.mark.parametrize("name", RESTING)
+def test_from_rest_to_rest(name):
+    one = law(name)
+    assert one.at([0.0, 1.0]) == pytest.approx([0, 1], abs=1e-12)
+    assert one.at([0.0, 1.0], 1) == pytest.approx([0, 0], abs=1e-12)
+    x = np.linspace(0, 1, 501)
+    assert one.at(x) + one.at(1 - x) == pytest.approx(1, abs=1e-11)
+    assert (np.diff(one.at(x)) > -1e-15).all()
+
+
+@pytest.mark.parametrize("name", RESTING)
+def test_pieces_join(name):
+    """Lift and velocity never jump; the acceleration only where the parabola changes its sign."""
+    one = law(name)
+    for before, after in zip(one.pieces, one.pieces[1:], strict=False):
+        at = np.array(after.start)
+        for order in range(2 if name == "parabolic" else 3):
+            assert before.at(at, order) == pytest.approx(after.at(at, order), abs=1e-11)
+
+
+@given(st.sampled_from(RESTING), st.floats(0.001, 0.999), st.integers(0, 2))
+def test_derivatives(name, x, order):
+    one, h = law(name), 1e-6
+    if min(abs(x - joint) for joint in one.joints) > 2 * h:
+        slope = (one.at(x + h, order) - one.at(x - h, order)) / (2 * h)
+        assert slope == pytest.approx(float(one.at(x, order + 1)), abs=1e-6 * 10 ** (order + 1))
+
+
+values = st.lists(st.floats(-5, 5), min_size=1, max_size=4)
+
+
+@given(values, values)
+def test_boundary_values_are_met(start, end):
+    one = boundary_law(start, end)
+    scale = 1e-9 * (1 + max(map(abs, one.pieces[0].polynomial))) * 10
+    assert [float(one.at(0.0, k)) for k in range(len(start))] == pytest.approx(start, abs=scale)
+    assert [one.end(k) for k in range(len(end))] == pytest.approx(end, abs=scale * 100)
+    assert len(one.pieces[0].polynomial) == len(start) + len(end)
+
+
+@pytest.mark.parametrize("powers", [(3, 4, 5), (4, 5, 6, 7), (5, 6, 7, 8, 9)])
+def test_two_ways_to_a_polynomial(powers):
+    m = len(powers)
+    by_ends = boundary_law((0,) * m, (1,) + (0,) * (m - 1)).pieces[0].polynomial
+    assert polynomial_law(*powers).pieces[0].polynomial == pytest.approx(by_ends, abs=1e-8)
+
+
+def test_names():
+    assert all(law(name) == law(target) for name, target in LAWS.items())
+    assert law("2-3").peaks()[:2] == pytest.approx((1.5, 6))
+    assert law("Cycloidal") == law("sine")
+
+
+@given(st.lists(st.tuples(st.floats(0.1, 3), st.integers(1, 9), st.floats(0, 6)), min_size=1, max_size=4))
+def test_no_extreme_is_lost(waves):
+    """Oracle: nothing on a fine grid is above the greatest or below the least of the extremes found."""
+
+    def function(x):
+        return sum(a * np.sin(k * x + p) for a, k, p in waves)
+
+    found = [value for _, value in extremes(function, 0.3, 5.0)]
+    grid = function(np.linspace(0.3, 5.0, 4001))
+    size = sum(abs(a) for a, _, _ in waves)
+    assert max(found) >= grid.max() - 1e-10 * size
+    assert min(found) <= grid.min() + 1e-10 * size
+
+
+def test_roots_and_poles():
+    assert roots(lambda x: np.sin(30 * x), 0.01, 3.0) == pytest.approx(np.arange(1, 29) * math.pi / 30, abs=1e-12)
+    assert roots(np.ones_like, 0, 1) == []
+    assert max(y for _, y in extremes(lambda x: np.sqrt(np.abs(x)), -1, 1)) == pytest.approx(1)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: law("cycloid"), "did you mean 'cycloidal'"),
+        (lambda: law(""), "no law is called ''"),
+        (lambda: law("3-3-5"), "different"),
+        (lambda: law("0-4"), "whole powers from 1 to 15"),
+        (lambda: law("99"), "whole powers"),
+        (polynomial_law, "whole powers"),
+        (lambda: polynomial_law(2.5), "whole powers"),
+        (lambda: boundary_law((), (1,)), "boundary values"),
+        (lambda: boundary_law((0,), (math.nan,)), "finite"),
+        (lambda: boundary_law((0,) * 9, (0,) * 9), "at most 16"),
+    ],
+)
+def test_absurd_laws_are_refused(make, words):
+    with pytest.raises(CamError, match=words):
+        make()

@@ -1,0 +1,146 @@
+"""`gruebler gears`, `gruebler cam` and `gruebler geneva` as a user meets them."""
+
+import json
+import math
+
+import pytest
+
+from gruebler.cli import main
+
+PLANETARY = "sun:24 planet:18 ring:-60 on arm"
+LIFT = "rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell"
+
+
+def run(capsys, *arguments):
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_gears_in_words(capsys):
+    text = f"{PLANETARY} planets=3; hold ring; drive sun=7; load arm=-70"
+    status, out, err = run(capsys, "gears", text)
+    assert (status, err) == (0, "")
+    assert "Speeds: 2 sun - 7 arm + 5 ring = 0" in out
+    rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line}
+    assert rows["arm"] == ["2", "2/7", "(0.285714)", "-70", "-140"]
+    _, german, _ = run(capsys, "gears", text, "--lang", "de")
+    assert "Laufgrad 2" in german
+    assert "Moment oder Kraft" in german
+
+
+def test_gears_from_files_and_as_json(capsys, tmp_path):
+    lines = tmp_path / "train.txt"
+    lines.write_text(f"{PLANETARY}  # a planetary stage\nhold ring\nsun=7\nload arm=-70\n", encoding="utf-8")
+    table = tmp_path / "train.toml"
+    table.write_text(f'train = "{PLANETARY}"\nhold = ["ring"]\ndrive.sun = 7\nload.arm = -70\n', encoding="utf-8")
+    one, other = (json.loads(run(capsys, "gears", str(path), "--json")[1]) for path in (lines, table))
+    assert one == other
+    assert {link["link"]: link["speed"]["exact"] for link in one["links"]}["planet"] == "-14/3"
+    assert sum(power["value"] for power in one["powers"].values()) == 0
+    assert one["mobility"] == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (f"{PLANETARY}; sun=1", "Not determined: planet, arm, ring; 1 more"),
+        ("a:10 b:20; a=1; b=1", "b cannot have 1: it follows from the other drives as -1/2"),
+        (f"{PLANETARY} planets=5", "cannot be put in"),
+    ],
+)
+def test_gears_status_1(capsys, text, words):
+    status, out, err = run(capsys, "gears", text)
+    assert (status, err) == (1, "")
+    assert words in out
+
+
+def test_geneva(capsys):
+    status, out, _ = run(capsys, "geneva", "4", "--json", "--distance", "100", "--speed", "60", "--step", "15")
+    found = json.loads(out)
+    assert status == 0
+    assert found["greatest_ratio"] == pytest.approx(2.4142135623730945)
+    assert found["greatest_acceleration_at_deg"] == pytest.approx(11.4637449, abs=1e-6)
+    assert found["crank"] == pytest.approx(100 / math.sqrt(2))
+    assert found["dwell_s"] == pytest.approx(0.75)
+    assert found["step_s"] == pytest.approx(0.25)
+    assert len(found["motion"]) == 25
+    assert found["motion"][-1]["wheel_deg"] == pytest.approx(-90)
+    _, out, _ = run(capsys, "geneva", "6", "--internal", "--lang", "de", "--step", "90")
+    assert "Rastanteil einer Umdrehung" in out
+    assert out.splitlines()[-1].split()[:3] == ["360°", "60.000000°", "0.333333"]
+
+
+def test_cam(capsys):
+    status, out, _ = run(
+        capsys, "cam", LIFT, "--base", "60", "--roller", "10", "--offset", "5", "--step", "30", "--json"
+    )
+    found = json.loads(out)
+    assert status == 0
+    assert found["undercut"] is False
+    assert len(found["table"]) == 12
+    assert found["table"][1]["lift"] == pytest.approx(10)
+    assert found["table"][1]["velocity"] == pytest.approx(1.875 * 20 / math.radians(60))
+    status, out, _ = run(capsys, "cam", LIFT, "--base", "40", "--flat", "--lang", "de")
+    assert status == 1
+    assert "Unterschnitt" in out
+    lift = "rise 15 60 parabolic; fall 15 60; dwell"
+    status, out, _ = run(capsys, "cam", lift, "--base", "40", "--knife", "--swing", "80", "100")
+    assert status == 0
+    assert "At 30° the acceleration jumps" in out
+    assert "+15°" in out
+
+
+def test_cam_laws(capsys):
+    _, out, _ = run(capsys, "cam", "--laws", "--json")
+    found = {one["law"]: one for one in json.loads(out)}
+    assert found["modified-trapezoid"]["acceleration"] == pytest.approx(4.8881, abs=5e-5)
+    assert "linear" in found
+
+
+def test_cam_of_a_contour(capsys, tmp_path):
+    path = tmp_path / "points.txt"
+    rows = [f"{10 + 30 * math.cos(k / 20 * math.pi)} {30 * math.sin(k / 20 * math.pi)}" for k in range(40)]
+    path.write_text("\n".join(["# x y", *rows]), encoding="utf-8")
+    status, out, _ = run(capsys, "cam", "--contour", str(path), "--flat", "--step", "90", "--json")
+    assert status == 0
+    assert [row["follower"] for row in json.loads(out)["motion"]] == pytest.approx([30, 40, 30, 20], abs=1e-3)
+    path.write_text("1 2\n3\n", encoding="utf-8")
+    status, _, err = run(capsys, "cam", "--contour", str(path), "--flat")
+    assert status == 2
+    assert "line 2: expected two numbers" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["gears", "a:0 b:1"], "positive size"),
+        (["gears", "nowhere.toml"], "cannot be read"),
+        (["gears"], "required"),
+        (["cam"], "expected one of"),
+        (["cam", LIFT, "--laws"], "expected one of"),
+        (["cam", LIFT, "--roller", "5"], "needs --base"),
+        (["cam", LIFT, "--base", "40"], "expected one follower"),
+        (["cam", LIFT, "--base", "40", "--knife", "--flat"], "expected one follower"),
+        (["cam", LIFT, "--base", "-1", "--knife"], "positive radius"),
+        (["cam", LIFT, "--base", "40", "--knife", "--step", "0"], "--step"),
+        (["cam", LIFT, "--base", "40", "--knife", "--step", "nan"], "--step"),
+        (["cam", LIFT, "--base", "40", "--flat", "--offset", "3"], "changes nothing"),
+        (["cam", LIFT, "--base", "40", "--flat", "--swing", "30", "90"], "no arm"),
+        (["cam", "--contour", "nowhere.txt", "--flat"], "cannot be read"),
+        (["geneva", "2"], "at least 3"),
+        (["geneva", "four"], "invalid int value"),
+        (["geneva", "4", "--pins", "9"], "at most 4 pins"),
+        (["geneva", "4", "--distance", "-1"], "positive length"),
+        (["geneva", "4", "--speed", "0"], "--speed"),
+        (["geneva", "4", "--step", "1e-9"], "--step"),
+    ],
+)
+def test_wrong_usage_is_one_sentence_and_status_2(capsys, arguments, words):
+    status, out, err = run(capsys, *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert len(err.strip().splitlines()) == 1

@@ -1,0 +1,311 @@
+"""Gear trains: Willis, differentials, torques, assembly; exact everywhere."""
+
+import math
+from fractions import Fraction as Q
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gruebler.gears import (
+    GearError,
+    Mesh,
+    Train,
+    assembly,
+    balance,
+    explain,
+    influence,
+    ratio,
+    read_toml,
+    read_train,
+    speeds,
+)
+from tests.gears.oracles import fits, rolling
+
+PLANETARY = "sun:24 planet:18 ring:-60 on arm"
+teeth = st.integers(8, 90)
+speed = st.fractions(-100, 100, max_denominator=60)
+
+
+def differential(planets):
+    return Train(
+        mesh
+        for k in range(planets)
+        for mesh in (Mesh("sun1", f"planet{k}", 30, 17, "arm"), Mesh("sun2", f"planet{k}", -64, 17, "arm"))
+    )
+
+
+def test_a_pair_has_the_ratio_of_its_teeth():
+    """Exercise 1 of the seeds: i = 2, psi = phi / 2; against each other outside, together inside."""
+    assert ratio(read_train("in:20 out:40").train, "in", "out") == -2
+    assert ratio(read_train("in:20 out:-40").train, "in", "out") == 2
+    assert ratio(read_train("friction in:12.5 out:25").train, "in", "out") == -2
+    for kind, sign in (("belt", 1), ("chain", 1), ("crossed", -1)):
+        assert ratio(read_train(f"{kind} in:20 out:40").train, "in", "out") == 2 * sign
+
+
+@pytest.mark.parametrize("planets", [1, 2, 3])
+def test_more_planets_change_nothing(planets):
+    """Reference data A3: the differential with one, two, three planets has M = 2; each further one a redundancy more.
+
+    Reference count in the plane: 0, 1, 2 redundant constraints for 1, 2, 3 planets.
+    """
+    train = differential(planets)
+    assert train.mobility == 2
+    assert len(train.redundant) == planets - 1
+    assert train.relation("sun1", "sun2", "arm") == differential(1).relation("sun1", "sun2", "arm")
+
+
+@given(teeth, teeth, st.integers(91, 200), speed, speed)
+def test_willis(sun, planet, ring, first, second):
+    """w1 - i0 w2 = (1 - i0) wc with i0 = -z_ring / z_sun, for any two of the three driven."""
+    train = read_train(f"sun:{sun} planet:{planet} ring:-{ring} on arm").train
+    i0 = Q(-ring, sun)
+    for drives in (("sun", "ring"), ("sun", "arm"), ("ring", "arm")):
+        w = speeds(train, dict(zip(drives, (first, second), strict=True))).values
+        assert w["sun"] - i0 * w["ring"] == (1 - i0) * w["arm"]
+        assert sun * (w["sun"] - w["arm"]) == -planet * (w["planet"] - w["arm"])
+
+
+def test_bevel_differential_is_a_mean():
+    """A bevel differential with equal side gears: the case turns with the mean of both sides."""
+    train = read_train("bevel left:16 star:10 right:-16 on case; pinion:11 case:43").train
+    assert train.mobility == 2
+    assert train.relation("left", "right", "case") == {"left": 1, "right": 1, "case": -2}
+    found = speeds(train, {"left": 90, "right": -90}).values
+    assert (found["case"], found["pinion"], found["star"]) == (0, 0, -144)
+    twice = read_train("bevel left:16 star:10 right:-16 on case; bevel left:16 other:10 right:-16 on case").train
+    assert (twice.mobility, len(twice.redundant)) == (2, 1)
+    forces = balance(train, {"pinion": 430, "left": 100}, {"right": -50})
+    assert forces.torques["left"] == -50
+    assert sum(forces.powers.values()) == 0
+
+
+@given(st.lists(st.tuples(teeth, teeth), min_size=1, max_size=6))
+def test_ordinary_trains_multiply(stages):
+    train = read_train("; ".join(f"s{k}:{a} s{k + 1}:{b}" for k, (a, b) in enumerate(stages))).train
+    assert train.mobility == 1
+    assert ratio(train, "s0", f"s{len(stages)}") == math.prod((Q(-b, a) for a, b in stages), start=Q(1))
+
+
+@given(teeth, teeth, teeth, st.integers(91, 200), speed, speed)
+def test_rolling_circles_agree(sun, first, second, ring, one, other):
+    """Oracle: stepped planets as circles whose pitch points have equal velocities; the module follows the distance."""
+    module = (sun + first) / (ring - second)
+    meshes = [("sun", "planet", sun, first, "arm"), ("ring", "planet", -ring * module, second * module, "arm")]
+    expected = rolling(meshes, {"sun": one, "arm": other})
+    train = read_train(f"sun:{sun} planet:{first} on arm; planet:{second} ring:-{ring} on arm").train
+    found = speeds(train, {"sun": one, "arm": other}).values
+    for link, value in expected.items():
+        assert float(found[link]) == pytest.approx(value, abs=1e-7 * (1 + abs(value)))
+
+
+@given(teeth, teeth, st.integers(91, 200), speed, speed, speed)
+def test_power_in_is_power_out(sun, planet, ring, first, second, torque):
+    train = read_train(f"sun:{sun} planet:{planet} ring:-{ring} on arm; arm:20 out:33").train
+    found = balance(train, {"sun": first, "ring": second}, {"out": torque})
+    assert sum(found.powers.values()) == 0
+    assert found.torques["sun"] * ring == found.torques["ring"] * sun
+
+
+@given(teeth, teeth, speed)
+def test_tooth_forces_give_the_same_torques(sun, planet, torque):
+    """Oracle: one tooth force on the sun, the same on the ring (the planet is free), twice that on the pin."""
+    train = read_train(f"sun:{sun} planet:{planet} ring:-{sun + 2 * planet} on arm").train
+    force = torque / sun
+    found = balance(train, {"ring": 0, "arm": 1}, {"sun": torque}).torques
+    assert found["ring"] == force * (sun + 2 * planet)
+    assert found["arm"] == -2 * force * (sun + planet)
+
+
+@given(st.permutations(range(5)), speed, speed)
+def test_the_order_of_writing_is_nothing(order, first, second):
+    meshes = (*differential(2).meshes, Mesh("arm", "out", 20, 31))
+    drives = {"sun1": first, "arm": second}
+    one, other = speeds(Train(meshes), drives), speeds(Train(meshes[k] for k in order), drives)
+    assert one.values == other.values
+    assert one.complete
+
+
+@given(speed, speed, speed)
+def test_seen_from_the_arm_it_is_an_ordinary_train(sun, arm, shift):
+    """Turning everything, the frame too, changes no relative speed."""
+    train = read_train(PLANETARY).train
+    still, moved = (speeds(train, {"sun": sun + k, "arm": arm + k}).values for k in (0, shift))
+    assert all(moved[link] - still[link] == shift for link in train.links)
+
+
+def test_free_contradicted_and_spare_drives():
+    train = read_train(f"{PLANETARY}; arm:20 out:40").train
+    found = speeds(train, {"sun": 7})
+    assert found.free == ("planet", "arm", "ring", "out")
+    assert not found.complete
+    found = speeds(train, {"sun": 7, "ring": 0, "out": 5, "arm": 2})
+    assert found.values["out"] == -1
+    assert [(one.link, one.wanted, one.follows) for one in found.contradictions] == [("out", 5, -1)]
+    assert found.spare == ("arm",)
+    locked = read_train("a:10 b:20; b:10 c:10; c:10 a:20").train
+    assert locked.mobility == 0
+    assert speeds(locked, {}).values == {"a": 0, "b": 0, "c": 0}
+    with pytest.raises(GearError, match="stands still"):
+        ratio(locked, "a", "b")
+
+
+def test_a_ring_on_the_frame_is_a_held_ring():
+    fixed = read_train("sun:24 planet:18 frame:-60 on arm").train
+    assert fixed.mobility == 1
+    assert ratio(fixed, "sun", "arm") == Q(7, 2) == 1 + Q(60, 24)
+
+
+def test_a_double_ring_gear_reduces_much():
+    """Wolfrom: i = (1 + z3/z1) / (1 - z3 z5 / (z2 z4)) with fixed ring 3, turning ring 4; planet wheels 2 and 5."""
+    z1, z2, z3, z5, z4 = 21, 24, 69, 23, 68
+    train = read_train(f"sun:{z1} planet:{z2} frame:-{z3} on arm; planet:{z5} out:-{z4} on arm").train
+    assert ratio(train, "sun", "out") == (1 + Q(z3, z1)) / (1 - Q(z3 * z5, z2 * z4))
+
+
+def test_rack_screw_and_winch_move_in_lines():
+    train = read_train("winch drum:60 load falls=2; drum:80 spindle:20; screw spindle guide lead=-5").train
+    found = influence(train, ["drum"])
+    assert [found[link]["drum"] for link in ("load", "spindle", "guide")] == [30, -4, 20]
+    assert influence(read_train("rack pinion:18 slide module=2").train, ["pinion"])["slide"] == {"pinion": 18}
+    assert influence(read_train("rack pinion:18 slide pitch=6").train, ["pinion"])["slide"] == {"pinion": 108}
+    # A pinion on a car between a fixed and a moving rack: the rack goes twice as far.
+    car = read_train("rack pinion:18 frame on car; rack pinion:-18 slide on car").train
+    assert car.relation("car", "slide") == {"car": 2, "slide": -1}
+    # A nut that turns with the spindle does not move.
+    nut = read_train("screw spindle slide lead=5 on nut").train
+    assert speeds(nut, {"spindle": 3, "nut": 3}).values["slide"] == 0
+
+
+def test_per_radian_and_per_turn_are_not_mixed():
+    """A spooling gear: the guide goes on by a lead in a turn, the rope by a radius in a radian."""
+    text = "winch drum:{} load{}; drum:20 spindle:20; screw spindle guide lead=12"
+    mixed, turns = read_train(text.format(60, "")).train, read_train(text.format(1, " pitch=377")).train
+    assert ratio(mixed, "drum", "load") == Q(1, 60)
+    for question in (
+        lambda: ratio(mixed, "load", "guide"),
+        lambda: mixed.relation("load", "guide"),
+        lambda: speeds(mixed, {"load": 5}),
+    ):
+        with pytest.raises(GearError, match="give racks and winches by pitch"):
+            question()
+    assert ratio(turns, "load", "guide") == Q(-377, 12)
+    assert speeds(turns, {"load": 377}).values["guide"] == -12
+    told = explain(read_train(text.format(60, ""))).splitlines()
+    assert not any("load" in line and "guide" in line for line in told)
+
+
+def test_a_screw_jack_lifts_by_virtual_work():
+    """T = F lead / 2 pi; with a hand wheel on a worm of 1:20 it is a twentieth."""
+    found = balance(read_train("screw spindle load lead=6").train, {"spindle": 1}, {"load": -1000})
+    assert found.torques["spindle"] == pytest.approx(1000 * 6 / (2 * math.pi))
+    assert sum(found.powers.values()) == pytest.approx(0, abs=1e-9)
+    back = balance(read_train("screw spindle load lead=6").train, {"load": 6}, {"spindle": 1})
+    assert back.torques["load"] == pytest.approx(-2 * math.pi / 6)
+    assert sum(back.powers.values()) == pytest.approx(0, abs=1e-12)
+
+
+@given(st.integers(8, 30), st.integers(8, 30), st.integers(8, 30), st.integers(31, 80), st.integers(1, 7))
+def test_planets_fit_where_trying_says_so(sun, first, second, ring, number):
+    train = read_train(f"sun:{sun} planet:{first} on arm; planet:{second} ring:-{ring} on arm").train
+    one = assembly(train, "planet", number)
+    assert one.evenly == fits(Q(sun), Q(first), Q(second), Q(ring), Q(1, number))
+    assert fits(Q(sun), Q(first), Q(second), Q(ring), one.spacing)
+    assert not fits(Q(sun), Q(first), Q(second), Q(ring), one.spacing / 2)
+
+
+def test_planets_have_room():
+    train = read_train(PLANETARY).train
+    assert [n for n in range(1, 9) if assembly(train, "planet", n).evenly] == [1, 2, 3, 4, 6, 7]
+    assert [n for n in range(1, 9) if assembly(train, "planet", n).clear] == [1, 2, 3, 4, 5, 6]
+    assert not assembly(read_train("sun:24 planet:18 ring:-61 on arm").train, "planet", 5).coaxial
+
+
+def test_texts_are_taken_back():
+    text = (
+        f"{PLANETARY}; belt a:7/2 sun:10; rack arm:3 slide pitch=6; screw a s lead=-2; bevel a:5 x:-6; winch x:2 rope"
+    )
+    meshes = read_train(text).train.meshes
+    assert read_train("; ".join(map(str, meshes))).train.meshes == meshes
+
+
+def test_toml_says_the_same():
+    toml = 'train = """\nsun:24 planet:18 ring:-60 on arm planets=3  # Ravigneaux it is not\n"""\nhold = ["ring"]\n'
+    reading = read_toml(toml + "[drive]\nsun = 12.5\n[load]\narm = -50\n")
+    assert reading == read_train(f"{PLANETARY} planets=3; hold ring; drive sun=12.5; load arm=-50")
+
+
+def test_words_in_both_languages():
+    reading = read_train(f"{PLANETARY} planets=5; sun=1; sun2:5 sun:6; sun2=9")
+    english, german = explain(reading), explain(reading, "de")
+    assert "sun2 cannot have 9" in english
+    assert "places are 4.28571° or multiples of it apart" in english
+    assert "sun2 kann nicht 9 haben" in german
+    assert len(english.splitlines()) == len(german.splitlines()) == 6
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "at least one mesh"),
+        ("sun:0 a:1", "positive size, not 0"),
+        ("sun:x a:1", "not 'x'"),
+        ("sun:nan a:1", "not 'nan'"),
+        ("sun:inf a:1", "not 'inf'"),
+        ("sun:1e999999999 a:1", "finite number"),
+        ("sun:1e-999999999 a:1", "finite number"),
+        ("sun:1/0 a:1", "finite number"),
+        ("a:1", "two wheels"),
+        ("belt a:1 b:-2", "positive size, not -2"),
+        ("a:5 a:6", "two different links"),
+        ("a:1 b:2 on a", "two different links"),
+        ("a:10 b:-9", "larger than the wheel in it"),
+        ("a:-10 b:-9", "two internal wheels"),
+        ("scrw a b lead=2", "did you mean 'screw'"),
+        ("screw a b", "expected 'screw SPINDLE"),
+        ("rack a:3 b:2", "a link that slides"),
+        ("a:1 b:2 on", "after 'on'"),
+        ("a:1 b:2; c=1", "no moving link 'c'"),
+        ("a:1 b:2; a=1 a=2", "given twice"),
+        ("a:1 b:2 lead=3", "no option 'lead'"),
+        ("rack p:3 s; screw q s lead=2", "by its pitch"),
+        ("rack p:3 s; s:3 b:4", "per radian"),
+        ("a:1 b:1 c:1 on h planets=x", "whole number of planets"),
+        ("winch a:1 b falls=0", "at least one rope"),
+    ],
+)
+def test_absurd_texts_are_refused_in_one_sentence(text, words):
+    with pytest.raises(GearError, match=words) as caught:
+        read_train(text)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("train = 3", "wrong form"),
+        ("trian = 'a:1 b:2'", "did you mean 'train'"),
+        ("train = [", "is not TOML"),
+        ("train = 'a:1 b:2'\ndrive.a = 'fast'", "not 'fast'"),
+    ],
+)
+def test_absurd_toml_is_refused(text, words):
+    with pytest.raises(GearError, match=words):
+        read_toml(text)
+
+
+def test_questions_without_an_answer():
+    train = read_train(PLANETARY).train
+    with pytest.raises(GearError, match="does not follow from sun"):
+        ratio(train, "sun", "arm")
+    with pytest.raises(GearError, match="needs as many independent drives"):
+        influence(train, ["sun"])
+    with pytest.raises(GearError, match="cannot be a load"):
+        balance(train, {"sun": 1, "ring": 0}, {"sun": 3})
+    with pytest.raises(GearError, match="no relation"):
+        train.relation("sun", "ring")
+    with pytest.raises(GearError, match="2 relations"):
+        train.relation("sun", "ring", "arm", "planet")
+    with pytest.raises(GearError, match="did you mean 'planet'"):
+        assembly(train, "plant", 3)
