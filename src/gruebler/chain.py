@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gruebler import notation
+from gruebler import notation, views
 from gruebler.errors import ChainError, NotationError, PairError, nearest
 from gruebler.pairs import Alphabet, Pair, Space, pair
 
@@ -195,6 +195,10 @@ class Chain:
         return f"Chain.parse({self.text()!r})"
 
     # --- a value -----------------------------------------------------------------------------------
+
+    def _repr_svg_(self) -> str | None:
+        """The structure picture, for notebooks."""
+        return views.picture(self) if views.picture else None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a chain does not change; build another one instead of setting {name!r}")

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from gruebler import notation
+from gruebler import notation, views
 from gruebler.chain import Chain
 from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import code, decode
@@ -137,6 +137,10 @@ class Mechanism:
                     f"the drive {_drive_text(self.chain, drive)} has no place in a code: codes mark whole joints"
                 )
         return code(self.chain, frame=self.frame, drives=[drive.joint for drive in self.drives])
+
+    def _repr_svg_(self) -> str | None:
+        """The structure picture, for notebooks."""
+        return views.picture(self) if views.picture else None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a mechanism does not change; build another one instead of setting {name!r}")

@@ -1,0 +1,179 @@
+"""Kernels for layouts of points and segments in the plane; see docs/theory/drawing.md.
+
+A layout is float64[n, 2]. Segments are int64[m, 2] of points, watched pairs int64[k, 2] of (segment, point) whose
+distance must not vanish.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import njit
+
+__all__ = ["closest", "crossing_segments", "relax", "symmetrise"]
+
+_SMALLEST = 1e-12
+
+
+@njit(cache=True)
+def _offset(x: NDArray[np.float64], a: int, b: int, p: int) -> tuple[float, float, float]:
+    """The place t in [0, 1] on the segment that is nearest to the point, and the vector from there to the point."""
+    ux, uy = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1]
+    wx, wy = x[p, 0] - x[a, 0], x[p, 1] - x[a, 1]
+    square = ux * ux + uy * uy
+    t = 0.0 if square == 0.0 else (ux * wx + uy * wy) / square
+    t = min(1.0, max(0.0, t))
+    return t, wx - t * ux, wy - t * uy
+
+
+@njit(cache=True)
+def _forces(
+    x: NDArray[np.float64],
+    segments: NDArray[np.int64],
+    pull: NDArray[np.float64],
+    watched: NDArray[np.int64],
+    power: float,
+    slope: NDArray[np.float64],
+    room: NDArray[np.float64],
+) -> float:
+    """Energy, its gradient, and for every point how far it may go; energy = sum pull |s|^2 + sum d^-power."""
+    slope[:] = 0.0
+    room[:] = np.inf
+    energy = 0.0
+    for k in range(len(segments)):
+        a, b = segments[k, 0], segments[k, 1]
+        ux, uy = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1]
+        energy += pull[k] * (ux * ux + uy * uy)
+        slope[a, 0] -= 2.0 * pull[k] * ux
+        slope[a, 1] -= 2.0 * pull[k] * uy
+        slope[b, 0] += 2.0 * pull[k] * ux
+        slope[b, 1] += 2.0 * pull[k] * uy
+    for k in range(len(watched)):
+        a, b = segments[watched[k, 0], 0], segments[watched[k, 0], 1]
+        p = watched[k, 1]
+        t, dx, dy = _offset(x, a, b, p)
+        d = max(math.sqrt(dx * dx + dy * dy), _SMALLEST)
+        step = d / 3.0
+        room[a] = min(room[a], step)
+        room[b] = min(room[b], step)
+        room[p] = min(room[p], step)
+        value = d**-power
+        energy += value
+        push = power * value / (d * d)
+        slope[p, 0] -= push * dx
+        slope[p, 1] -= push * dy
+        slope[a, 0] += (1.0 - t) * push * dx
+        slope[a, 1] += (1.0 - t) * push * dy
+        slope[b, 0] += t * push * dx
+        slope[b, 1] += t * push * dy
+    return energy
+
+
+@njit(cache=True)
+def symmetrise(
+    x: NDArray[np.float64], images: NDArray[np.int64], turns: NDArray[np.float64], out: NDArray[np.float64]
+) -> None:
+    """The mean of the layout over a group: point p goes to images[g, p] as the plane moves by turns[g]."""
+    out[:] = 0.0
+    for g in range(len(images)):
+        for p in range(len(x)):
+            q = images[g, p]
+            out[p, 0] += turns[g, 0, 0] * x[q, 0] + turns[g, 1, 0] * x[q, 1]
+            out[p, 1] += turns[g, 0, 1] * x[q, 0] + turns[g, 1, 1] * x[q, 1]
+    out /= len(images)
+
+
+@njit(cache=True)
+def relax(
+    x: NDArray[np.float64],
+    segments: NDArray[np.int64],
+    pull: NDArray[np.float64],
+    watched: NDArray[np.int64],
+    images: NDArray[np.int64],
+    turns: NDArray[np.float64],
+    power: float,
+    rounds: int,
+) -> float:
+    """Lower the energy in place by steps so short that no watched point can pass its segment; returns the energy.
+
+    Descent with momentum; a step that raises the energy is taken back, its length halved.
+    """
+    n = len(x)
+    slope = np.empty((n, 2))
+    fresh = np.empty((n, 2))
+    room = np.empty(n)
+    new_room = np.empty(n)
+    move = np.zeros((n, 2))
+    trial = np.empty((n, 2))
+    mean = np.empty((n, 2))
+    energy = _forces(x, segments, pull, watched, power, slope, room)
+    length = 0.05
+    keep = 0.0
+    for _ in range(rounds):
+        for p in range(n):
+            for c in range(2):
+                move[p, c] = keep * move[p, c] - length * slope[p, c]
+            size = math.sqrt(move[p, 0] ** 2 + move[p, 1] ** 2)
+            if size > room[p]:
+                move[p, 0] *= room[p] / size
+                move[p, 1] *= room[p] / size
+            trial[p, 0] = x[p, 0] + move[p, 0]
+            trial[p, 1] = x[p, 1] + move[p, 1]
+        if len(images) > 1:
+            symmetrise(trial, images, turns, mean)
+            trial[:] = mean
+        value = _forces(trial, segments, pull, watched, power, fresh, new_room)
+        if value <= energy:
+            done = energy - value <= 1e-7 * value and keep > 0.0
+            x[:] = trial
+            slope[:] = fresh
+            room[:] = new_room
+            energy = value
+            length *= 1.3
+            keep = 0.8
+            if done:
+                break
+        else:
+            move[:] = 0.0
+            keep = 0.0
+            length *= 0.4
+            if length < 1e-14:
+                break
+    return energy
+
+
+@njit(cache=True)
+def closest(x: NDArray[np.float64], segments: NDArray[np.int64], watched: NDArray[np.int64]) -> float:
+    """The smallest distance of a watched pair."""
+    best = np.inf
+    for k in range(len(watched)):
+        s = watched[k, 0]
+        _, dx, dy = _offset(x, segments[s, 0], segments[s, 1], watched[k, 1])
+        best = min(best, dx * dx + dy * dy)
+    return math.sqrt(best)
+
+
+@njit(cache=True)
+def _side(x: NDArray[np.float64], a: int, b: int, c: int) -> float:
+    side: float = (x[b, 0] - x[a, 0]) * (x[c, 1] - x[a, 1]) - (x[b, 1] - x[a, 1]) * (x[c, 0] - x[a, 0])
+    return side
+
+
+@njit(cache=True)
+def crossing_segments(x: NDArray[np.float64], segments: NDArray[np.int64]) -> NDArray[np.int64]:
+    """int64[k, 2]: the pairs of segments without common point that cross."""
+    found = np.empty((len(segments) * (len(segments) - 1) // 2, 2), np.int64)
+    number = 0
+    for i in range(len(segments)):
+        a, b = segments[i, 0], segments[i, 1]
+        for j in range(i):
+            c, d = segments[j, 0], segments[j, 1]
+            if a == c or a == d or b == c or b == d:
+                continue
+            if _side(x, a, b, c) * _side(x, a, b, d) < 0.0 and _side(x, c, d, a) * _side(x, c, d, b) < 0.0:
+                found[number, 0], found[number, 1] = j, i
+                number += 1
+    return found[:number]

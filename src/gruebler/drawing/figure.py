@@ -1,0 +1,154 @@
+"""A picture as a value: shapes in the order in which they are painted, whatever the file will be.
+
+Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; nothing else tells how it looks.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+__all__ = ["Arc", "Circle", "Figure", "Lines", "Point", "Shape", "Text", "figure_of", "text_width"]
+
+
+class Point(NamedTuple):
+    """A place or a vector."""
+
+    x: float
+    y: float
+
+    def plus(self, other: Point, factor: float = 1.0) -> Point:
+        """The place moved by a multiple of a vector."""
+        return Point(self.x + factor * other.x, self.y + factor * other.y)
+
+    def minus(self, other: Point) -> Point:
+        """The vector from the other place."""
+        return Point(self.x - other.x, self.y - other.y)
+
+    def dot(self, other: Point) -> float:
+        """The scalar product."""
+        return self.x * other.x + self.y * other.y
+
+    @property
+    def length(self) -> float:
+        """Of the vector."""
+        return math.hypot(self.x, self.y)
+
+    @property
+    def unit(self) -> Point:
+        """The vector of length 1 in the same direction; to the right for no vector at all."""
+        size = self.length
+        return Point(self.x / size, self.y / size) if size > 1e-9 else Point(1.0, 0.0)
+
+    @property
+    def across(self) -> Point:
+        """The vector turned by a right angle, as x is turned to y."""
+        return Point(-self.y, self.x)
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """One or several lines through points, closed or open."""
+
+    parts: tuple[tuple[Point, ...], ...]
+    style: str
+    closed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle."""
+
+    at: Point
+    radius: float
+    style: str
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A part of a circle, from an angle on by an extent of less than a full turn; positive from x to y."""
+
+    at: Point
+    radius: float
+    begin: float
+    extent: float
+    style: str
+
+    def place(self, part: float) -> Point:
+        """The point after this part of the extent."""
+        angle = self.begin + part * self.extent
+        return Point(self.at.x + self.radius * math.cos(angle), self.at.y + self.radius * math.sin(angle))
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Words at a place, their middle at its height; the anchor is start, middle or end."""
+
+    at: Point
+    words: str
+    style: str
+    anchor: str = "middle"
+
+
+Shape = Lines | Circle | Arc | Text
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """Shapes within 0 <= x <= width, 0 <= y <= height, with a title and a description for those who cannot see."""
+
+    shapes: tuple[Shape, ...]
+    width: float
+    height: float
+    title: str
+    description: str
+
+    def svg(self, *, styled: bool = True) -> str:
+        """The picture as SVG; without its styles where the page around has them."""
+        from gruebler.drawing.svg import svg
+
+        return svg(self, styled=styled)
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+def figure_of(shapes: Iterable[Shape], title: str, description: str, margin: float = 10.0) -> Figure:
+    """The figure that just holds the shapes."""
+    all_shapes = tuple(shapes)
+    corners = [corner for shape in all_shapes for corner in _corners(shape)]
+    left, top = (min(axis) - margin for axis in zip(*corners, strict=True))
+    right, bottom = (max(axis) + margin for axis in zip(*corners, strict=True))
+    moved = tuple(_moved(shape, Point(-left, -top)) for shape in all_shapes)
+    return Figure(moved, right - left, bottom - top, title, description)
+
+
+def text_width(words: str, size: float = 13.0) -> float:
+    """About how wide a text is; widths differ from one font to another."""
+    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in words)
+
+
+def _corners(shape: Shape) -> Iterator[Point]:
+    match shape:
+        case Lines(parts):
+            yield from (point for part in parts for point in part)
+        case Circle(at, radius) | Arc(at, radius):
+            yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
+        case Text(at, words, _, anchor):
+            wide = text_width(words)
+            left = at.x - wide * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
+            yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
+
+
+def _moved(shape: Shape, by: Point) -> Shape:
+    match shape:
+        case Lines(parts, style, closed):
+            return Lines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
+        case Circle(at, radius, style):
+            return Circle(at.plus(by), radius, style)
+        case Arc(at, radius, begin, extent, style):
+            return Arc(at.plus(by), radius, begin, extent, style)
+        case Text(at, words, style, anchor):
+            return Text(at.plus(by), words, style, anchor)

@@ -1,0 +1,156 @@
+"""Figures as PNG and PDF, painted by matplotlib; it comes with the extra ``[plot]`` and is loaded only here."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from textwrap import wrap
+from typing import Any, BinaryIO
+
+from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Shape, Text
+from gruebler.drawing.gallery import Item, Section
+from gruebler.drawing.styles import COLOURS, STYLES
+from gruebler.errors import GrueblerError
+
+__all__ = ["gallery_pdf", "paint_on", "painted", "save"]
+
+_POINTS = 72 / 96  # of print, to a pixel
+
+
+def save(figure: Figure, file: str | Path | BinaryIO, suffix: str, *, zoom: float = 3.0) -> None:
+    """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``.
+
+    Raises `GrueblerError` if matplotlib is not installed.
+    """
+    canvas = painted(figure)
+    canvas.savefig(file, format=suffix, dpi=96 * zoom, metadata=_METADATA[suffix] | {"Title": figure.title})
+
+
+_METADATA: dict[str, dict[str, Any]] = {"png": {"Software": None}, "pdf": {"CreationDate": None, "Creator": None}}
+
+
+def painted(figure: Figure) -> Any:
+    """The figure as one of matplotlib's, without pyplot, 96 pixels to the inch."""
+    canvas = _library().Figure(figsize=(figure.width / 96, figure.height / 96))
+    axes = canvas.add_axes((0, 0, 1, 1))
+    paint_on(axes, figure)
+    return canvas
+
+
+def _library() -> Any:
+    try:
+        from matplotlib import figure
+        from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
+    except ImportError:
+        raise GrueblerError(
+            "PNG and PDF need matplotlib, which is not installed: pip install 'gruebler[plot]', or write an .svg"
+        ) from None
+    return figure
+
+
+def paint_on(axes: Any, figure: Figure, *, scale: float = 1.0) -> None:
+    """Paint a figure on axes, on light ground; ``scale`` is the size of a pixel there, at 96 to the inch."""
+    axes.set_xlim(0, figure.width)
+    axes.set_ylim(figure.height, 0)
+    axes.set_aspect("equal")
+    axes.axis("off")
+    for order, shape in enumerate(figure.shapes):
+        _paint(axes, shape, order, scale * _POINTS)
+
+
+def _paint(axes: Any, shape: Shape, order: int, point: float) -> None:
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path as Outline
+
+    style = STYLES[shape.style]
+    if isinstance(shape, Text):
+        axes.text(
+            *shape.at,
+            shape.words,
+            fontsize=style.size * point,
+            color=COLOURS[style.fill][0],
+            ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
+            va="center_baseline",
+            zorder=order,
+            parse_math=False,
+        )
+        return
+    match shape:
+        case Lines(parts, _, closed):
+            outline = (
+                Outline.make_compound_path(*(_line(part, closed) for part in parts)) if parts else Outline([(0, 0)])
+            )
+        case Circle(at, radius):
+            outline = Outline.circle(at, radius)
+        case Arc():
+            steps = max(2, math.ceil(abs(shape.extent) / 0.05))
+            outline = Outline([shape.place(k / steps) for k in range(steps + 1)])
+    axes.add_patch(
+        PathPatch(
+            outline,
+            facecolor=COLOURS[style.fill][0] if style.fill else "none",
+            edgecolor=COLOURS[style.stroke][0] if style.stroke else "none",
+            linewidth=style.width * point,
+            capstyle="round",
+            joinstyle="round",
+            zorder=order,
+        )
+    )
+
+
+def _line(part: Sequence[tuple[float, float]], closed: bool) -> Any:
+    from matplotlib.path import Path as Outline
+
+    return Outline([*part, part[0]], closed=True) if closed else Outline(part)
+
+
+_A4 = (210 / 25.4, 297 / 25.4)
+_LEFT, _TOP, _BOTTOM, _COLUMNS = 0.05, 0.95, 0.04, 5
+_COLUMN = (1 - 2 * _LEFT) / _COLUMNS
+_ROW, _HEADING = 0.15, 0.022  # of the height of a page
+
+
+def gallery_pdf(title: str, sections: Iterable[Section], *, note: str = "") -> bytes:
+    """The gallery on A4 pages, five pictures in a row.
+
+    Raises `GrueblerError` if matplotlib is not installed.
+    """
+    library = _library()
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    memory = io.BytesIO()
+    with PdfPages(memory, metadata=_METADATA["pdf"] | {"Title": title}) as pages:
+        page, top = library.Figure(figsize=_A4), _TOP - _HEADING
+        page.text(_LEFT, _TOP, f"{title}. {note}", fontsize=11, va="center", parse_math=False)
+        for section in sections:
+            rows = [section.items[k : k + _COLUMNS] for k in range(0, len(section.items), _COLUMNS)]
+            for number, row in enumerate(rows):
+                if top - _ROW - _HEADING * (number == 0) < _BOTTOM:
+                    pages.savefig(page)
+                    page, top = library.Figure(figsize=_A4), _TOP + _HEADING
+                if number == 0:
+                    page.text(_LEFT, top - _HEADING / 2, section.heading, fontsize=9, va="center", parse_math=False)
+                    top -= _HEADING
+                for k, item in enumerate(row):
+                    _paint_item(page, item, _LEFT + k * _COLUMN, top)
+                top -= _ROW
+        pages.savefig(page)
+    return memory.getvalue()
+
+
+def _paint_item(page: Any, item: Item, left: float, top: float) -> None:
+    """A picture in its cell, caption and code below it."""
+    box = (left + 0.008, top - _ROW + 0.042, _COLUMN - 0.016, _ROW - 0.046)
+    room = min(box[2] * _A4[0] / item.figure.width, box[3] * _A4[1] / item.figure.height)
+    scale = min(1.0, 96 * room)
+    wide, high = scale * item.figure.width / 96 / _A4[0], scale * item.figure.height / 96 / _A4[1]
+    middle = left + _COLUMN / 2
+    axes = page.add_axes((middle - wide / 2, box[1] + (box[3] - high) / 2, wide, high))
+    paint_on(axes, item.figure, scale=scale)
+    lines = wrap(item.caption, 28)
+    page.text(middle, box[1] - 0.003, "\n".join(lines), fontsize=7, ha="center", va="top", parse_math=False)
+    code = "\n".join(wrap(item.code, 46))
+    below = box[1] - 0.005 - 0.0105 * len(lines)
+    page.text(middle, below, code, fontsize=3.8, ha="center", va="top", parse_math=False)

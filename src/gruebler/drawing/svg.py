@@ -1,0 +1,90 @@
+"""Figures as SVG: small, the same from run to run, with title and description, text as text."""
+
+from __future__ import annotations
+
+import math
+from xml.sax.saxutils import escape
+
+from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text
+from gruebler.drawing.styles import COLOURS, STYLES, Style
+
+__all__ = ["style_sheet", "svg"]
+
+_CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *range(55296, 57344)))
+
+
+def svg(figure: Figure, *, styled: bool = True) -> str:
+    """The document; with ``styled`` it carries the rules of the styles it uses, and looks the same anywhere.
+
+    >>> from gruebler.drawing.figure import figure_of
+    >>> svg(figure_of([Circle(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]
+    '<title>one &lt; two</title><desc>a circle</desc>'
+    """
+    width, height = _number(figure.width), _number(figure.height)
+    used = sorted({"ground", *(shape.style for shape in figure.shapes)}, key=list(STYLES).index)
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="gr" role="img" width="{width}" height="{height}" '
+            f'viewBox="0 0 {width} {height}">',
+            f"<title>{_plain(figure.title)}</title><desc>{_plain(figure.description)}</desc>",
+            *([f"<style>{style_sheet(used)}</style>"] if styled else []),
+            f'<rect class="gr-ground" width="{width}" height="{height}" rx="6"/>',
+            *map(_element, figure.shapes),
+            "</svg>\n",
+        ]
+    )
+
+
+def style_sheet(used: list[str] | None = None) -> str:
+    """The rules of these styles, or of all, on light and dark ground; every class begins with ``gr``."""
+    names = list(STYLES) if used is None else used
+    rules = [".gr{stroke-linecap:round;stroke-linejoin:round;font-family:sans-serif}"]
+    rules += [f".gr-{name}{{{_declarations(STYLES[name], 0)}}}" for name in names]
+    dark = "".join(f".gr-{name}{{{_declarations(STYLES[name], 1)}}}" for name in names)
+    return "".join(rules) + "@media(prefers-color-scheme:dark){" + dark + "}"
+
+
+def _declarations(style: Style, ground: int) -> str:
+    parts = [f"fill:{COLOURS[style.fill][ground] if style.fill else 'none'}"]
+    if style.stroke:
+        parts.append(f"stroke:{COLOURS[style.stroke][ground]}")
+    if ground == 0 and style.stroke:
+        parts.append(f"stroke-width:{style.width:g}")
+    if ground == 0 and style.size:
+        parts.append(f"font-size:{style.size:g}px")
+    return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])
+
+
+def _element(shape: Shape) -> str:
+    match shape:
+        case Lines(parts, style, closed):
+            return f'<path class="gr-{style}" d="{"".join(_line(part, closed) for part in parts)}"/>'
+        case Circle(at, radius, style):
+            return f'<circle class="gr-{style}" cx="{_number(at.x)}" cy="{_number(at.y)}" r="{_number(radius)}"/>'
+        case Arc(_, radius, _, extent, style):
+            size = _number(radius)
+            flags = f"{int(abs(extent) > math.pi)} {int(extent > 0)}"
+            ends = _pair(shape.place(0)), _pair(shape.place(1))
+            return f'<path class="gr-{style}" d="M{ends[0]}A{size} {size} 0 {flags} {ends[1]}"/>'
+        case Text(at, words, style, anchor):
+            where = f'x="{_number(at.x)}" y="{_number(at.y + 0.35 * STYLES[style].size)}"'
+            anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
+            return f'<text class="gr-{style}" {where}{anchored}>{_plain(words)}</text>'
+
+
+def _line(points: tuple[Point, ...], closed: bool) -> str:
+    return "M" + "L".join(map(_pair, points)) + ("Z" if closed else "")
+
+
+def _pair(point: Point) -> str:
+    return f"{_number(point.x)} {_number(point.y)}"
+
+
+def _number(value: float) -> str:
+    """Tenths of a pixel; no minus zero."""
+    return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
+
+
+def _plain(words: str) -> str:
+    """Text that XML can hold."""
+    return escape(words.translate(_CONTROLS))

@@ -1,0 +1,106 @@
+"""`gruebler draw` and `gruebler gallery`, run with their arguments."""
+
+from argparse import Namespace
+from pathlib import Path
+
+import pytest
+
+from gruebler import GrueblerError
+from gruebler.cli import draw, gallery
+
+DRAW = {
+    "output": None,
+    "space": None,
+    "frame": None,
+    "drive": [],
+    "labels": False,
+    "graph": False,
+    "contracted": False,
+    "loops": False,
+    "lang": "en",
+}
+GALLERY = {
+    "ids": [],
+    "links": None,
+    "mobility": 1,
+    "fractionated": "none",
+    "assortment": None,
+    "multiple_joints": "0",
+    "inversions": False,
+    "labels": False,
+    "lang": "en",
+}
+
+
+def drawn(capsys, chain, **options):
+    assert draw.run(Namespace(chain=chain, **(DRAW | options))) == 0
+    return capsys.readouterr().out
+
+
+def paged(path, **options):
+    assert gallery.run(Namespace(output=path, **(GALLERY | options))) == 0
+    return path.read_bytes()
+
+
+def test_a_chain_on_standard_output(capsys):
+    text = drawn(capsys, "R(0-1) R(1-2) R(2-3) R(3-0)")
+    assert "<title>four-bar chain</title>" in text
+    assert "gr-hatch" not in text
+    assert "gr-hatch" in drawn(capsys, "R(0-1) R(1-2) R(2-3) R(3-0)", frame="2")
+    assert "gr-drive" in drawn(capsys, "g6:Cr", drive=["R(0-1)"])
+
+
+def test_an_entry_in_german(capsys):
+    text = drawn(capsys, "vcomp", lang="de", labels=True)
+    assert "<title>Zwei-Zylinder-V-Kompressor</title>" in text
+    assert "Gestell mit Zylindern" in text
+    assert "<desc>Glieder: 6" in text
+
+
+@pytest.mark.parametrize("view", ["graph", "contracted", "loops"])
+def test_views_differ(capsys, view):
+    assert drawn(capsys, "vcomp", **{view: True}) != drawn(capsys, "vcomp")
+
+
+def test_files(tmp_path):
+    assert draw.run(Namespace(chain="diff", **(DRAW | {"output": tmp_path / "x.svg"}))) == 0
+    assert (tmp_path / "x.svg").read_text("utf-8").startswith("<svg")
+    for name, words in (("x.gif", "end it with"), ("no/x.svg", "cannot be written")):
+        with pytest.raises(GrueblerError, match=words):
+            draw.run(Namespace(chain="diff", **(DRAW | {"output": tmp_path / name})))
+
+
+def test_the_sixteen_chains_on_one_page(tmp_path):
+    page = paged(tmp_path / "eight.html", links=8).decode()
+    assert page.count("<svg") == 16
+    assert "16 chains" in page
+    assert [page.count(f"{a} ({n})") for a, n in (("4, 4", 9), ("5, 2, 1", 5), ("6, 0, 2", 2))] == [1, 1, 1]
+    assert page.count("<style>") == 1
+
+
+def test_inversions_are_named(tmp_path):
+    page = paged(tmp_path / "six.html", links=6, inversions=True, lang="de").decode()
+    assert page.count("<svg") == 5
+    assert all(
+        f"  {name}<" in page for name in ("Watt I", "Watt II", "Stephenson I", "Stephenson II", "Stephenson III")
+    )
+
+
+def test_machines_on_a_page(tmp_path):
+    pytest.importorskip("matplotlib")
+    assert paged(tmp_path / "machines.pdf", ids=["vcomp", "diff"], labels=True).startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({}, "say what to show"),
+        ({"links": 8, "ids": ["vcomp"]}, "not both"),
+        ({"links": 14}, "do not fit"),
+        ({"links": 2}, "at least three links"),
+        ({"ids": ["vcmp"]}, "did you mean vcomp"),
+    ],
+)
+def test_refusals(options, words):
+    with pytest.raises(GrueblerError, match=words):
+        gallery.run(Namespace(output=Path("x.html"), **(GALLERY | options)))
