@@ -13,15 +13,15 @@ ROOT = Path(__file__).parents[1]
 
 # From the ground up. A room may import rooms on lower floors and its own files.
 FLOORS = [
-    {"errors", "_numeric"},
+    {"errors", "views", "_numeric"},
     {"pairs"},
     {"notation"},
     {"chain"},
     {"mobility", "isomorphism"},
     {"enumeration", "mechanism"},
-    {"assur", "inversion"},
-    {"transformation", "specialisation"},
-    {"catalog"},
+    {"assur", "inversion", "linkages", "gears", "cams", "geneva"},
+    {"transformation", "specialisation", "kinematics"},
+    {"drawing", "realisation", "catalog"},
     {"cli"},
 ]
 ENTRANCES = {"", "__main__"}  # the front door looks into every room, lazily; python -m opens the command line

@@ -18,15 +18,34 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from gruebler import views
+
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from gruebler.assur import assur_groups, decompose
+    from gruebler.cams import Cam, CamError
     from gruebler.chain import Chain, Joint
+    from gruebler.drawing import draw, gallery_html
     from gruebler.enumeration import chains, count_chains
-    from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
+    from gruebler.errors import CatalogError, ChainError, GrueblerError, LinkageError, NotationError, PairError
+    from gruebler.gears import GearError, Train, read_train
+    from gruebler.geneva import Geneva, GenevaError
     from gruebler.inversion import driven_mechanisms, inversions
     from gruebler.isomorphism import code, decode, find_isomorphism, is_isomorphic, symmetry
+    from gruebler.kinematics import (
+        Circuit,
+        Measures,
+        Motion,
+        circuit,
+        degrees,
+        drive_range,
+        measures,
+        motion_roles,
+        move,
+        rotatability,
+    )
+    from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, read_linkage, write_linkage
     from gruebler.mechanism import Mechanism, check_drives
     from gruebler.mobility import counted, generic_mobility, mobility_report
     from gruebler.pairs import PAIRS, Alphabet, Pair, Space, pair
@@ -36,46 +55,89 @@ if TYPE_CHECKING:
 __all__ = [
     "PAIRS",
     "Alphabet",
+    "Cam",
+    "CamError",
     "CatalogError",
     "Chain",
     "ChainError",
+    "Circuit",
+    "FourBar",
+    "GearError",
+    "Geneva",
+    "GenevaError",
     "GrueblerError",
+    "InvertedSliderCrank",
     "Joint",
+    "Linkage",
+    "LinkageError",
+    "Measures",
     "Mechanism",
+    "Motion",
     "NotationError",
     "Pair",
     "PairError",
     "Requirements",
+    "SliderCrank",
     "Space",
+    "Train",
     "assur_groups",
     "chains",
     "check_drives",
+    "circuit",
     "code",
     "count_chains",
     "counted",
     "decode",
     "decompose",
+    "degrees",
     "derive",
+    "draw",
+    "drive_range",
     "driven_mechanisms",
     "extend",
     "find_isomorphism",
+    "gallery_html",
     "generic_mobility",
     "inversions",
     "is_isomorphic",
     "joint_types",
+    "measures",
     "mobility_report",
+    "motion_roles",
+    "move",
     "pair",
+    "read_linkage",
+    "read_train",
+    "rotatability",
     "symmetry",
     "variants",
+    "write_linkage",
 ]
 
 _ROOMS = {
     "assur": ("assur_groups", "decompose"),
+    "cams": ("Cam", "CamError"),
     "chain": ("Chain", "Joint"),
+    "drawing": ("draw", "gallery_html"),
     "enumeration": ("chains", "count_chains"),
-    "errors": ("CatalogError", "ChainError", "GrueblerError", "NotationError", "PairError"),
+    "errors": ("CatalogError", "ChainError", "GrueblerError", "LinkageError", "NotationError", "PairError"),
+    "gears": ("GearError", "Train", "read_train"),
+    "geneva": ("Geneva", "GenevaError"),
     "inversion": ("driven_mechanisms", "inversions"),
     "isomorphism": ("code", "decode", "find_isomorphism", "is_isomorphic", "symmetry"),
+    "kinematics": (
+        "Circuit",
+        "Measures",
+        "Motion",
+        "circuit",
+        "degrees",
+        "drive_range",
+        "measures",
+        "motion_roles",
+        "move",
+        "rotatability",
+    ),
+    "linkages": ("FourBar", "InvertedSliderCrank", "Linkage", "SliderCrank", "read_linkage", "write_linkage"),
     "mechanism": ("Mechanism", "check_drives"),
     "mobility": ("counted", "generic_mobility", "mobility_report"),
     "pairs": ("PAIRS", "Alphabet", "Pair", "Space", "pair"),
@@ -83,6 +145,15 @@ _ROOMS = {
     "transformation": ("derive", "extend"),
 }
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}
+
+
+def _picture(thing: Any) -> str:
+    from gruebler.drawing import draw
+
+    return str(draw(thing, labels=True).svg())
+
+
+views.picture = _picture
 
 
 def __getattr__(name: str) -> Any:

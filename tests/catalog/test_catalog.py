@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gruebler import CatalogError, Chain
@@ -20,6 +21,8 @@ from gruebler.catalog import (
     search,
 )
 from gruebler.isomorphism import is_isomorphic
+from gruebler.kinematics import move
+from gruebler.linkages.files import linkage_from_json, to_json
 from gruebler.mobility import pebble_mobility, theorem
 
 # REFERENCE A3, computed independently of this project: id, b, n, g1, g2, F, mobility with the real dimensions.
@@ -180,3 +183,116 @@ def test_an_unknown_id_gets_the_nearest_ones():
 def test_files_are_named_as_their_entries():
     for folder, records in (("machines", entries()), ("exercises", exercises())):
         assert {p.stem for p in (catalog_folder() / folder).iterdir()} == set(records)
+
+
+# --- dimensions -------------------------------------------------------------------------------------
+
+SIZED = [one for one in entries().values() if one.dimensions is not None]
+
+
+def moved(id, path=None, rows=73, **options):
+    """A machine over the range that its entry names, or a full turn."""
+    record = entry(id)
+    linkage = record.linkage()
+    low, high = record.dimensions.range or (0, 360)
+    path = np.linspace(low, high, rows) if path is None else np.asarray(path, float)
+    turning = linkage.mechanism.drives[0].direction.startswith("R")
+    return move(linkage, np.radians(path) if turning else path, **options)
+
+
+@pytest.mark.parametrize("record", SIZED, ids=lambda record: record.id)
+def test_every_machine_with_dimensions_moves(record):
+    motion = moved(record.id)
+    assert motion.complete, motion.message()
+    assert motion.closure < 1e-12
+    output = motion.linkage.outputs[0] if motion.linkage.outputs else record.chain().links[-1]
+    k = motion.linkage.mechanism.chain.index(output)
+    assert (
+        abs(motion.places[0, :, k] - motion.places[0, 0, k]).max() + abs(motion.turns[:, k] - motion.turns[0, k]).max()
+        > 0.1
+    )
+    assert linkage_from_json(to_json(motion.linkage)) == motion.linkage
+
+
+def test_dimensions_say_where_they_come_from():
+    assert len(SIZED) >= 34
+    printed = {record.id for record in SIZED if record.dimensions.source}
+    assert printed == {
+        "conchoid",
+        "crane",
+        "crane_cyl",
+        "crankrocker",
+        "kurbelschleife",
+        "lambda",
+        "mzc",
+        "slidercrank",
+        "watt_axle",
+    }
+
+
+POINTS = [
+    # machine, drive in degrees, point, its place: REFERENCE B4 and B3
+    ("conchoid", 60, "C", (87.265956, -27.662798)),
+    ("conchoid", 240, "C", (68.571429, 7.423075)),
+    ("lambda", 30, "C", (79.085955, 88.644959)),
+    ("lambda", 270, "C", (0.0, 80.0)),
+    ("watt_axle", 15, "F", (0.039364, 15.674591)),
+    ("watt_axle", -35, "F", (-1.848841, -31.413059)),
+    ("crane", 10, "C", (84.071616, 43.677859)),
+    ("crane", 30, "C", (84.250006, 79.907617)),
+    ("mzc", 180, "K", (1.7777777777777777, 7.856742013183862)),
+    ("mzc", 0, "K", (1.6501619827636897, 8.30793198338872)),
+]
+
+
+@pytest.mark.parametrize(("id", "drive", "name", "expected"), POINTS)
+def test_coupler_points_of_the_reference(id, drive, name, expected):
+    assert moved(id, [drive]).point(name)[0] == pytest.approx(expected, abs=6e-7)
+
+
+def test_what_special_dimensions_give():
+    assert abs(moved("scottrussell").point("C")[:, 0]).max() < 1e-12  # exactly straight
+    assert abs(moved("garage_rail").point("bottom")[:, 0]).max() < 1e-12
+    for id, link in (("toolbox", "tray"), ("hubpodium_par", "platform"), ("hubpodium", "platform"), ("wiper", "blade")):
+        motion = moved(id)
+        turned = motion.angle(link) - motion.angle(link)[0]
+        assert abs(turned).max() < 1e-12, id  # guided without turning
+    wheels = moved("loco2")
+    assert abs(wheels.angle("wheel2") - wheels.drives[:, 0]).max() < 1e-12  # through both change points
+
+
+SIZES = """
+[dimensions]
+unit = "mm"
+assumed = true
+four_bar = { a = 25, b = 70, c = 40, d = 70 }
+"""
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "words"),
+    [
+        ("assumed = true", "", "dimensions: either assumed = true, or a source"),
+        ("assumed = true", 'assumed = true\nsource = "page 3"', "dimensions: either assumed = true, or a source"),
+        ("a = 25", "a = 0", "dimensions: four_bar: a must be positive, not 0.0"),
+        ("a = 25", "a = 25, brnch = 1", "unknown key 'dimensions.four_bar.brnch'; did you mean 'branch'?"),
+        ('unit = "mm"', "", "dimensions: object missing required field unit"),
+        ("four_bar", "places", "dimensions: places: 'a' is not one of the joints"),
+        ('unit = "mm"', 'unit = "mm"\ndrive = "R(frame-crank)"', "dimensions.drive: for an entry without drives"),
+        ('unit = "mm"', 'unit = "mm"\nrange = [0, nan]', "dimensions.range: expected two numbers"),
+    ],
+)
+def test_mistakes_in_dimensions(tmp_path, right, wrong, words):
+    path = tmp_path / "it.toml"
+    path.write_text(GOOD + SIZES, encoding="utf-8")
+    assert read_entry(path).linkage().length("crank", 0, 1) == 25
+    path.write_text(GOOD + SIZES.replace(right, wrong, 1), encoding="utf-8")
+    with pytest.raises(CatalogError) as caught:
+        read_entry(path)
+    assert str(caught.value).startswith(f"{path}: ")
+    assert words in str(caught.value)
+
+
+def test_an_entry_without_dimensions_is_no_linkage():
+    with pytest.raises(CatalogError, match=r"'tri' has no dimensions"):
+        entry("tri").linkage()

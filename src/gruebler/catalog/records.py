@@ -7,19 +7,19 @@ here, so that an entry is sound or does not exist.
 
 from __future__ import annotations
 
-import re
-import tomllib
-from collections.abc import Mapping
-from difflib import get_close_matches
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Literal, TypeVar
 
 import msgspec
 
 from gruebler.chain import Chain
-from gruebler.errors import CatalogError, ChainError, NotationError, PairError
+from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
+from gruebler.linkages import Linkage
+from gruebler.linkages.documents import fitted, load
+from gruebler.linkages.records import Dimensions, dimensioned
+from gruebler.mechanism import Mechanism
 
-__all__ = ["Case", "Claims", "Entry", "Exercise", "Group", "Text", "read_entry", "read_exercise"]
+__all__ = ["Case", "Claims", "Entry", "Exercise", "Group", "Sizes", "Text", "read_entry", "read_exercise"]
 
 
 class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -58,6 +58,19 @@ class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     idle: tuple[str, ...] = ()
 
 
+class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Dimensions of an entry, as in the file of a linkage (`gruebler.linkages.files`), and where they come from."""
+
+    assumed: bool = False
+    """Whether the seeds print none, so that the dimensions are chosen here."""
+    source: str = ""
+    """Where they are printed."""
+    drive: str | None = None
+    """The driven joint of the example, where the machine itself names none."""
+    range: tuple[float, float] | None = None
+    """Drive values between which it moves, in degrees or in the unit."""
+
+
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """One machine of the catalog."""
 
@@ -75,11 +88,21 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     outputs: tuple[str, ...] = ()
     remark: Text | None = None
     claims: Claims = Claims()
+    dimensions: Sizes | None = None
 
     def chain(self) -> Chain:
         """The chain of the entry, its links in the order of the file."""
         written = Chain.parse(self.joints, self.space)
         return Chain(written.joints, links=self.links, space=self.space)
+
+    def linkage(self) -> Linkage:
+        """The machine with its dimensions; `CatalogError` if the entry has none."""
+        if self.dimensions is None:
+            raise CatalogError(f"the catalog entry {self.id!r} has no dimensions")
+        chain = self.chain()
+        drives = (self.dimensions.drive,) if self.dimensions.drive is not None else self.drives
+        mechanism = Mechanism(chain, self.frame or chain.links[0], drives)
+        return dimensioned(self.dimensions, mechanism, self.outputs)
 
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -103,8 +126,6 @@ class Exercise(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
 Record = TypeVar("Record", Entry, Exercise)
 
-_LARGEST = 1_000_000  # bytes of a catalog file; a chain of thousands of links fits
-
 
 def read_entry(path: Path) -> Entry:
     """The machine in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
@@ -119,52 +140,10 @@ def read_exercise(path: Path) -> Exercise:
 
 
 def _read(path: Path, kind: type[Record]) -> Record:
-    try:
-        if path.stat().st_size > _LARGEST:
-            raise CatalogError(f"{path}: larger than {_LARGEST:,} bytes; a catalog file holds one entry")
-        data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
-    except OSError as error:
-        raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
-    except UnicodeDecodeError:
-        raise CatalogError(f"{path}: is not UTF-8 text") from None
-    except RecursionError:
-        raise CatalogError(f"{path}: is nested too deeply") from None
-    except ValueError as error:  # TOMLDecodeError, or a number of thousands of digits
-        raise CatalogError(f"{path}: is not TOML: {error}") from None
-    _refuse_strange_keys(data, kind, path, "")
-    try:
-        return msgspec.convert(data, kind)
-    except msgspec.ValidationError as error:
-        raise CatalogError(f"{path}: {_readable(str(error))}") from None
+    def fail(text: str) -> CatalogError:
+        return CatalogError(f"{path}: {text}")
 
-
-def _readable(message: str) -> str:
-    """Msgspec's message with the path of the key in front: ``claims.n: expected int, got str``."""
-    match = re.fullmatch(r"(.*?)(?: - at `\$\.?(.*)`)?", message, re.DOTALL)
-    assert match is not None  # the second group is optional
-    text = match[1].replace("`", "")
-    text = text[:1].lower() + text[1:]
-    return f"{match[2]}: {text}" if match[2] else text
-
-
-def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], path: Path, prefix: str) -> None:
-    fields = {f.name: f.type for f in msgspec.structs.fields(kind)}
-    for key, value in data.items():
-        if key not in fields:
-            close = get_close_matches(key, fields, n=1, cutoff=0.4)
-            hint = f"did you mean {close[0]!r}?" if close else f"the keys here are {', '.join(fields)}"
-            raise CatalogError(f"{path}: unknown key {prefix + key!r}; {hint}")
-        for inner in _records_within(fields[key]):
-            values = value if isinstance(value, list) else [value]
-            for one in values:
-                if isinstance(one, Mapping):
-                    _refuse_strange_keys(one, inner, path, f"{prefix}{key}.")
-
-
-def _records_within(annotation: Any) -> list[type[msgspec.Struct]]:
-    if isinstance(annotation, type) and issubclass(annotation, msgspec.Struct):
-        return [annotation]
-    return [record for part in getattr(annotation, "__args__", ()) for record in _records_within(part)]
+    return fitted(load(path, fail), kind, fail)
 
 
 def _check(entry: Entry, path: Path) -> None:
@@ -188,3 +167,18 @@ def _check(entry: Entry, path: Path) -> None:
             raise CatalogError(
                 f"{path}: drives: {drive!r} is not one of the joints; they are {', '.join(chain.joint_names())}"
             )
+    if entry.dimensions is not None:
+        _check_dimensions(entry, entry.dimensions, chain, path)
+
+
+def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path) -> None:
+    if sizes.assumed == bool(sizes.source):
+        raise CatalogError(f"{path}: dimensions: either assumed = true, or a source that prints them")
+    if sizes.drive is not None and (entry.drives or chain.find_joint(sizes.drive) is None):
+        raise CatalogError(f"{path}: dimensions.drive: for an entry without drives, one of its joints")
+    if sizes.range is not None and not -1e9 < sizes.range[0] < sizes.range[1] < 1e9:
+        raise CatalogError(f"{path}: dimensions.range: expected two numbers, the smaller first")
+    try:
+        entry.linkage()
+    except GrueblerError as error:
+        raise CatalogError(f"{path}: dimensions: {error}") from None

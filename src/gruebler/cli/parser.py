@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import NoReturn
 
+from gruebler.cli.linkage_commands import add_linkage_commands
+
 __all__ = ["build_parser"]
 
 
@@ -35,6 +37,7 @@ def build_parser() -> argparse.ArgumentParser:
     _add_assur(commands)
     _add_derive(commands)
     _add_extend(commands)
+    add_linkage_commands(commands)
     _add_demo(commands)
     return parser
 

@@ -8,6 +8,7 @@ transmission angles and closed forms of their motion: docs/theory/four-bar.md.
 from gruebler.linkages.crank_motion import CrankMotion, InvertedMotion, Track
 from gruebler.linkages.elements import Element, Line, Named, Pin, Place
 from gruebler.linkages.extremes import Arc, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
+from gruebler.linkages.files import linkage_from_json, read_linkage, to_json, to_toml, write_linkage
 from gruebler.linkages.four_bar import FourBar
 from gruebler.linkages.grashof import (
     FOUR_BAR_TYPES,
@@ -51,7 +52,12 @@ __all__ = [
     "Transmission",
     "TransmissionAngle",
     "grashof",
+    "linkage_from_json",
+    "read_linkage",
+    "to_json",
+    "to_toml",
     "turning_ranges",
     "types_along",
     "with_lower_pairs",
+    "write_linkage",
 ]

@@ -1,0 +1,82 @@
+"""Derivatives of planar motions, written with complex numbers: a point is x + iy, a turn is a factor of modulus 1.
+
+A *jet* is a quantity with its first three time derivatives. A body has the jet `places[body]` of its origin, the turn
+`turns[body]` and the angular velocity, acceleration and jerk `rates[body]`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import njit
+
+__all__ = ["carry", "element", "turned"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def turned(
+    order: int, turn: complex, w: float, a: float, j: float, b0: complex, b1: complex, b2: complex, b3: complex
+) -> complex:
+    """The derivative of that order of ``turn(t) * b(t)``; ``w``, ``a``, ``j`` are the rates of the angle."""
+    if order == 0:
+        return turn * b0
+    if order == 1:
+        return turn * (b1 + 1j * w * b0)
+    if order == 2:
+        return turn * (b2 + 2j * w * b1 + (1j * a - w * w) * b0)
+    return turn * (b3 + 3j * w * b2 + 3 * (1j * a - w * w) * b1 + (1j * (j - w * w * w) - 3 * w * a) * b0)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def element(
+    order: int,
+    link: int,
+    point: complex,
+    line: complex,
+    places: Complexes,
+    turns: Complexes,
+    rates: Reals,
+    slot: int,
+    points: Complexes,
+    lines: Complexes,
+    spins: Reals,
+) -> None:
+    """Put the jet of a link's point, the direction of its line and the rates of that direction into a slot."""
+    turn = turns[link]
+    arm = turn * point
+    points[slot, 0] = places[link, 0] + arm
+    lines[slot] = turn * line
+    if order >= 1:
+        w = rates[link, 0]
+        points[slot, 1] = places[link, 1] + 1j * w * arm
+        spins[slot, 0] = w
+        if order >= 2:
+            a = rates[link, 1]
+            points[slot, 2] = places[link, 2] + (1j * a - w * w) * arm
+            spins[slot, 1] = a
+            if order >= 3:
+                j = rates[link, 2]
+                points[slot, 3] = places[link, 3] + (1j * (j - w * w * w) - 3 * w * a) * arm
+                spins[slot, 2] = j
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def carry(order: int, link: int, body: int, places: Complexes, turns: Complexes, rates: Reals) -> None:
+    """Motion of a link known against a body, the body's motion known: the link's motion against what the body's is."""
+    w = a = j = 0.0
+    b0, b1, b2, b3 = places[link, 0], 0j, 0j, 0j
+    if order >= 1:
+        w, b1 = rates[body, 0], places[link, 1]
+    if order >= 2:
+        a, b2 = rates[body, 1], places[link, 2]
+    if order >= 3:
+        j, b3 = rates[body, 2], places[link, 3]
+    for k in range(order + 1):
+        places[link, k] = places[body, k] + turned(k, turns[body], w, a, j, b0, b1, b2, b3)
+    for k in range(order):
+        rates[link, k] += rates[body, k]
+    turns[link] *= turns[body]

@@ -1,0 +1,126 @@
+"""The table of `gruebler analyse`: columns of numbers over the rows of a motion."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Sequence
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.kinematics import Motion
+from gruebler.kinematics.outputs import Output
+from gruebler.linkages import Linkage
+
+__all__ = ["Column", "as_csv", "columns", "shown"]
+
+Reals = NDArray[np.float64]
+_POSE = ("x", "y")
+_RATES = (("vx", "vy"), ("ax", "ay"))
+_DEGREES = 180 / pi
+
+
+class Column(NamedTuple):
+    """A quantity over the rows."""
+
+    name: str
+    unit: str
+    values: Reals
+    """(rows,); NaN where it is not defined."""
+
+    @property
+    def header(self) -> str:
+        """Name and unit."""
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+    def without(self, rows: int) -> Column:
+        """The column without its first rows."""
+        return self._replace(values=self.values[rows:])
+
+
+def columns(
+    motion: Motion,
+    outputs: Sequence[Output],
+    points: Iterable[str],
+    speed: float | None = None,
+    transmission: Reals | None = None,
+    word: str = "",
+) -> list[Column]:
+    """Drives, outputs with derivatives by the drive and in time, transmission angle, points.
+
+    Args:
+        motion: solved for speed 1, to the second order; several drives: to order 0.
+        outputs: what is looked at.
+        points: names of points or joints.
+        speed: of the drive, in radians or units of length a second; None: rates by the drive only.
+        transmission: (rows,) angle in radians, if there is one.
+        word: the name of that column.
+    """
+    linkage, mechanism = motion.linkage, motion.linkage.mechanism
+    out = []
+    for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
+        turning = drive.direction.startswith("R")
+        out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
+    per = "rad" if mechanism.drives[0].direction.startswith("R") else linkage.unit
+    for output in outputs:
+        own = "rad" if output.turning else linkage.unit
+        out.append(_scaled(output.name, output.turning, linkage, output.track(motion)))
+        if motion.order < 2:
+            continue
+        for order in (1, 2):
+            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), output.track(motion, order)))
+        if speed is not None:
+            for order, letter in ((1, "ω"), (2, "α")) if output.turning else ((1, "v"), (2, "a")):
+                seconds = "s" if order == 1 else "s²"
+                rates = output.track(motion, order) * speed**order
+                out.append(Column(f"{letter} {output.name}", f"{own}/{seconds}", rates))
+    if transmission is not None:
+        out.append(Column(word, "°", transmission * _DEGREES))
+    for name in points:
+        at = motion.point(name)
+        out += [Column(f"{name} {axis}", linkage.unit, at[:, k]) for k, axis in enumerate(_POSE)]
+        for order, axes in enumerate(_RATES, 1) if motion.order >= 2 else ():
+            rates = motion.point(name, order) * (1.0 if speed is None else speed) ** order
+            timed = f"{linkage.unit}/{'s' if order == 1 else 's²'}"
+            unit = timed if speed is not None else _by(linkage.unit, per, order)
+            out += [Column(f"{name} {axis}", unit, rates[:, k]) for k, axis in enumerate(axes)]
+    return out
+
+
+def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column:
+    return Column(name, "°", values * _DEGREES) if turning else Column(name, linkage.unit, values)
+
+
+def _by(own: str, per: str, order: int) -> str:
+    """The unit of a derivative by the drive.
+
+    >>> _by("mm", "rad", 2), _by("rad", "rad", 1), _by("mm", "mm", 2)
+    ('mm/rad²', '', '1/mm')
+    """
+    if own == per:
+        return "" if order == 1 else f"1/{per}"
+    return f"{own}/{per}{'' if order == 1 else '²'}"
+
+
+def shown(made: Sequence[Column]) -> list[list[str]]:
+    """The rows as texts of six digits, rounding noise as 0."""
+    cells = []
+    for column in made:
+        finite = np.abs(column.values[np.isfinite(column.values)])
+        noise = 1e-12 * max(finite.max(initial=0.0), 1e-300)
+        values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
+        cells.append([f"{value + 0.0:.6g}" if np.isfinite(value) else "–" for value in values])
+    return [list(row) for row in zip(*cells, strict=True)]
+
+
+def as_csv(made: Sequence[Column]) -> str:
+    """A table with the units in its header; an empty cell where a quantity is not defined."""
+    text = io.StringIO()
+    writer = csv.writer(text)
+    writer.writerow([column.header for column in made])
+    for row in zip(*(column.values for column in made), strict=True):
+        writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
+    return text.getvalue()

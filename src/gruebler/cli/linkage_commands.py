@@ -1,0 +1,188 @@
+"""The parsers of the commands about linkages and other machines with sizes. Nothing heavy is imported."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+__all__ = ["add_linkage_commands"]
+
+_Commands = Any  # argparse's own type of a parser's commands is private
+
+
+def add_linkage_commands(commands: _Commands) -> None:
+    """Add them to the parser of all commands."""
+    _add_analyse(commands)
+    _add_grashof(commands)
+    _add_gears(commands)
+    _add_cam(commands)
+    _add_geneva(commands)
+    _add_draw(commands)
+    _add_gallery(commands)
+
+
+def _add_analyse(commands: _Commands) -> None:
+    analyse = commands.add_parser(
+        "analyse",
+        help="what a linkage does: dead centres, stroke, times, transmission angle, then poses and rates",
+        description="Measures of a linkage with one drive, then a table of poses, rates and transmission angles; of "
+        "several drives the poses.",
+        epilog="Examples: gruebler analyse four-bar:25,70,40,70 --speed 60; gruebler analyse lambda --point C "
+        "--drive 90:270:10. Exit status: 0 all well, 1 it cannot be assembled or not be moved all the way, 2 wrong "
+        "usage or unreadable input.",
+    )
+    analyse.add_argument(
+        "linkage",
+        metavar="FILE|ID|LENGTHS",
+        help="a .toml or .json file, the id of a catalog entry with dimensions, or four-bar:A,B,C,D, "
+        "slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
+    )
+    analyse.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="rows of the table, in degrees or the unit; for several drives once each, one number holds a drive still "
+        "(default: a full turn by 15 degrees, or the whole range)",
+    )
+    analyse.add_argument("--at", action="append", type=float, default=[], metavar="VALUE", help="one row only")
+    analyse.add_argument("--speed", type=float, metavar="N", help="turns a minute; of a slide, lengths a second")
+    analyse.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    analyse.add_argument(
+        "--point", action="append", default=[], metavar="K", help="a named point or a joint; repeatable"
+    )
+    analyse.add_argument("--output", action="append", default=[], metavar="LINK", help="the link looked at; repeatable")
+    analyse.add_argument("--json", action="store_true", help="an object with linkage, measures, columns and rows")
+    analyse.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the table as CSV, units in its header")
+    _finish(analyse, "analyse")
+
+
+def _add_grashof(commands: _Commands) -> None:
+    grashof = commands.add_parser(
+        "grashof",
+        help="the type of a four-bar, which links turn fully, and for which lengths",
+        description="Crank A, coupler B, rocker C, frame D: type, links that turn fully, limits, swing, transmission "
+        "angle. With --free: the types (with --turns: only where that link turns fully) along one length, the others "
+        "given in order.",
+        epilog="Exit status: 0 yes, 1 not assemblable, the link does not turn or no value lets it, 2 wrong usage. "
+        "Example: gruebler grashof 25 40 70 --free d --turns a",
+    )
+    grashof.add_argument(
+        "lengths", nargs="+", metavar="LENGTH", help="A B C D; with --free the other three, or all four"
+    )
+    grashof.add_argument("--free", choices=("a", "b", "c", "d"), help="go through the values of this length")
+    grashof.add_argument(
+        "--turns", choices=("a", "b", "c"), metavar="LINK", help="a, b or c: does it turn fully against the frame"
+    )
+    grashof.add_argument("--json", action="store_true", help="one object; with --free its items")
+    _finish(grashof, "grashof")
+
+
+def _add_gears(commands: _Commands) -> None:
+    gears = commands.add_parser(
+        "gears",
+        help="speeds, ratios, torques and power of a gear train",
+        description="Speeds of all links of a gear train from one linear system (Willis), exact; torques by virtual "
+        "work. A wheel is LINK:TEETH (or a radius), minus for internal toothing; wheels in a row mesh in turn; "
+        "'on ARM' names the carrier of their axes. Other kinds: belt, chain, crossed, friction, bevel, rack, screw, "
+        "winch. Then drive LINK=SPEED, hold LINK, load LINK=TORQUE; planets=N asks whether so many can be put in.",
+        epilog="Example: gruebler gears 'sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; "
+        "load arm=-50'. Exit status: 0 determined (or nothing driven), 1 undetermined, contradicted or not to be "
+        "assembled, 2 wrong usage or unreadable input.",
+    )
+    gears.add_argument("train", metavar="TRAIN|FILE", help="a text, a file of statements (.txt) or a table (.toml)")
+    gears.add_argument("--json", action="store_true", help="an object; numbers as exact fractions and decimals")
+    _finish(gears, "gears")
+
+
+def _add_cam(commands: _Commands) -> None:
+    cam = commands.add_parser(
+        "cam",
+        help="a cam for a lift: profile, pressure angle, curvature, undercut; or what a given contour does",
+        description="A disc cam that turns counter-clockwise. LIFT is a row of 'rise LIFT ANGLE [LAW]', 'fall LIFT "
+        "ANGLE [LAW]', 'dwell [ANGLE]' with angles in degrees (the lift of a swinging follower too); instead of a law "
+        "boundary values per radian, such as v0=0 a0=0 v1=5 a1=0. Rates are told per radian of the cam.",
+        epilog="Example: gruebler cam 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell' --base 40 --roller 10. "
+        "Exit status: 0 good, 1 undercut, 2 wrong usage or unreadable input.",
+    )
+    cam.add_argument("lift", nargs="?", metavar="LIFT", help="the lift over a turn; one dwell may take the rest")
+    cam.add_argument("--laws", action="store_true", help="the laws of motion with C_v, C_a, C_j")
+    cam.add_argument("--contour", metavar="FILE", help="points x y of a given contour, one a line: the motion it gives")
+    cam.add_argument("--base", type=float, metavar="R", help="radius of the base circle")
+    cam.add_argument("--roller", type=float, metavar="R", help="a roller with this radius")
+    cam.add_argument("--knife", action="store_true", help="a knife edge")
+    cam.add_argument(
+        "--flat", type=float, nargs="?", const=0.0, metavar="E", help="a flat face; E: how far from its pivot"
+    )
+    cam.add_argument("--offset", type=float, default=0.0, metavar="E", help="the guide lies so far right of the axis")
+    cam.add_argument(
+        "--swing", type=float, nargs=2, metavar=("ARM", "D"), help="arm length (0 for a face) and distance of the pivot"
+    )
+    cam.add_argument("--step", type=float, metavar="DEG", help="a table of the turn in such steps")
+    cam.add_argument("--json", action="store_true", help="as JSON")
+    _finish(cam, "cam")
+
+
+def _add_geneva(commands: _Commands) -> None:
+    geneva = commands.add_parser(
+        "geneva",
+        help="a Geneva drive: dwell, ratio, acceleration",
+        description="A Geneva drive with radial slots that the pins enter without a blow.",
+        epilog="Example: gruebler geneva 4 --distance 100 --speed 60 --step 15",
+    )
+    geneva.add_argument("slots", type=int, metavar="N", help="number of slots, at least 3")
+    geneva.add_argument("--internal", action="store_true", help="the driver turns inside the wheel")
+    geneva.add_argument("--pins", type=int, default=1, metavar="K", help="pins on the driver (default: 1)")
+    geneva.add_argument("--distance", type=float, metavar="D", help="distance of the axes: lengths are told")
+    geneva.add_argument("--speed", type=float, metavar="RPM", help="of the driver, turns a minute: times are told")
+    geneva.add_argument("--step", type=float, metavar="DEG", help="a table of the driver's turn in such steps")
+    geneva.add_argument("--json", action="store_true", help="as JSON")
+    _finish(geneva, "geneva")
+
+
+def _add_draw(commands: _Commands) -> None:
+    draw = commands.add_parser(
+        "draw",
+        help="draw a chain or a mechanism",
+        description="The structure picture of a chain or mechanism: links as bodies, joints by their signs, the frame "
+        "hatched, drives as arrows.",
+        epilog="Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+    )
+    draw.add_argument("chain", metavar="CHAIN|ID", help="a text, a code, g6:CODE or the id of a catalog entry")
+    draw.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
+    draw.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
+    draw.add_argument("--frame", metavar="LINK", help="the link that stands still")
+    draw.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
+    draw.add_argument("--labels", action="store_true", help="name the links")
+    view = draw.add_mutually_exclusive_group()
+    view.add_argument("--graph", action="store_true", help="the link graph instead")
+    view.add_argument("--contracted", action="store_true", help="the contracted graph instead")
+    view.add_argument("--loops", action="store_true", help="mark the independent loops")
+    _finish(draw, "draw")
+
+
+def _add_gallery(commands: _Commands) -> None:
+    gallery = commands.add_parser(
+        "gallery",
+        help="draw all chains or mechanisms of a request on one page",
+        description="All chains of a request, or machines of the catalog, on one page.",
+        epilog="Example: gruebler gallery --links 8 -o eight.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
+    )
+    gallery.add_argument("ids", nargs="*", metavar="ID", help="entries of the catalog, instead of a request")
+    gallery.add_argument("--links", type=int, metavar="N", help="number of links")
+    gallery.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
+    gallery.add_argument(
+        "--fractionated", choices=("none", "link", "joint", "all"), default="none", help="as for enumerate"
+    )
+    gallery.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    gallery.add_argument("--multiple-joints", default="0", metavar="K|any", help="as for enumerate (default: 0)")
+    gallery.add_argument("--inversions", action="store_true", help="each chain with every frame that matters")
+    gallery.add_argument("--labels", action="store_true", help="name the links")
+    gallery.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="a file .html or .pdf")
+    _finish(gallery, "gallery")
+
+
+def _finish(parser: argparse.ArgumentParser, module: str) -> None:
+    parser.add_argument("--lang", choices=("en", "de"), default="en", help="language of the answer (default: en)")
+    parser.set_defaults(run=f"gruebler.cli.{module}")

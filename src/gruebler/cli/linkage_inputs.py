@@ -1,0 +1,61 @@
+"""What a word stands for: the file of a linkage, an entry of the catalog, or lengths such as four-bar:25,70,40,70."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from gruebler.errors import GrueblerError
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+
+__all__ = ["linkage_of"]
+
+_DOORS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
+    "four-bar": ("a,b,c,d", 4, FourBar),
+    "slider-crank": ("a,b[,e]", 2, SliderCrank),
+    "inverted-slider-crank": ("a,d[,e]", 2, InvertedSliderCrank),
+}
+
+
+def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
+    """The linkage of a word, and the drive values between which a catalog entry shows it.
+
+    >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
+    70.0
+    """
+    kind, colon, lengths = word.partition(":")
+    if colon and kind in _DOORS:
+        return _door(kind, lengths), None
+    path = Path(word)
+    if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
+        from gruebler.linkages.files import read_linkage
+
+        return read_linkage(path), None
+    if "(" in word:
+        raise GrueblerError(f"{word[:40]!r} has no dimensions; give a file, a catalog entry or {_forms()}")
+    from gruebler.catalog import entries, entry
+    from gruebler.errors import nearest
+
+    if word not in entries() and colon:
+        raise GrueblerError(f"{word!r}: expected {_forms()}{nearest(kind, _DOORS)}")
+    record = entry(word)
+    if record.dimensions is None:
+        sized = [one.id for one in entries().values() if one.dimensions is not None]
+        raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {', '.join(sized)}")
+    return record.linkage(), record.dimensions.range
+
+
+def _door(kind: str, text: str) -> Linkage:
+    names, least, make = _DOORS[kind]
+    most = names.replace("[", "").replace("]", "").count(",") + 1
+    try:
+        lengths = [float(part) for part in text.split(",")]
+    except ValueError:
+        raise GrueblerError(f"{kind}: expected numbers {names}, but found {text!r}") from None
+    if not least <= len(lengths) <= most:
+        raise GrueblerError(f"{kind}: expected {names}, but found {len(lengths)} numbers")
+    return make(*lengths).linkage()
+
+
+def _forms() -> str:
+    return ", ".join(f"{kind}:{names}" for kind, (names, _, _) in _DOORS.items())

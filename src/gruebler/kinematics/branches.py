@@ -1,0 +1,170 @@
+"""Assembly modes: labels that a caller sees and chooses.
+
+A branch has one label for each group that can be assembled in more than one way, in solving order: ``+`` or ``-`` for a
+dyad, the number of the mode (from 1) for a larger group.
+
+- RRR: ``+`` if the inner joint lies left of the line from the first link's outer joint to the second link's; the first
+  link is the one that the chain names first.
+- RRP: ``+`` if the inner joint lies towards the end of the slide's line, seen from the foot of the outer joint.
+- RPR: ``+`` if the second outer joint lies in the direction of the slide's line, seen from the first.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.plan import Dyad, Larger, Plan
+
+__all__ = ["all_branches", "branch_of", "modes_of", "pose_before", "read_branch"]
+
+Reals = NDArray[np.float64]
+
+
+def part_at_fault(plan: Plan, number: int) -> Dyad | Larger:
+    """What the kernel's number of a dyad (from 0) or larger group (-1, -2, ...) stands for."""
+    return plan.dyads[number] if number >= 0 else plan.larger[-1 - number]
+
+
+def choices(plan: Plan) -> tuple[Dyad | Larger, ...]:
+    """The groups that have a label."""
+    return tuple(part for part in plan.parts if isinstance(part, Larger) or part.branching)
+
+
+def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ...]:
+    """The labels of a text such as ``+-`` or ``+,2,-``; `LinkageError` says what is expected."""
+    parts = choices(plan)
+    default = tuple("+" if isinstance(part, Dyad) else "1" for part in parts)
+    if branch is None:
+        return default
+    text = branch if isinstance(branch, str) else ",".join(branch)
+    labels = re.findall(r"[+-]|\d+", text)
+    if "".join(labels) != re.sub(r"[\s,]", "", text) or len(labels) != len(parts):
+        wanted = ", ".join(f"{'+ or -' if isinstance(p, Dyad) else 'a number'} for {_name(plan, p)}" for p in parts)
+        raise LinkageError(f"a branch of this linkage is {wanted or 'empty: it has one assembly mode'}; found {text!r}")
+    for part, label in zip(parts, labels, strict=True):
+        if isinstance(part, Dyad) != (label in "+-") or label == "0":
+            expected = "+ or -" if isinstance(part, Dyad) else "a number from 1"
+            raise LinkageError(f"branch: expected {expected} for {_name(plan, part)}, but found {label!r}")
+    return tuple(labels)
+
+
+def _name(plan: Plan, part: Dyad | Larger) -> str:
+    group = plan.decomposition.groups[part.group]
+    return f"{group.form()} {{{', '.join(group.links)}}}"
+
+
+def starting(plan: Plan, labels: tuple[str, ...], drives: Reals, last: Larger | None = None) -> tuple[Reals, Reals]:
+    """The signs of the dyads and the unknowns of larger groups (before the last) at a start.
+
+    Raises `Unassembled` for a group that has no such mode there.
+    """
+    signs = np.ones(len(plan.dyads))
+    unknowns = np.zeros(3 * sum(len(part.roots) for part in plan.larger))
+    found = 0
+    for part, label in zip(choices(plan), labels, strict=False):
+        if part == last:
+            break
+        if isinstance(part, Dyad):
+            signs[part.number] = -1 if label == "-" else 1
+            continue
+        modes = modes_of(plan, part, drives, signs, unknowns)
+        if len(modes) < int(label):
+            raise Unassembled(part)
+        count = 3 * len(part.roots)
+        unknowns[found : found + count] = modes[int(label) - 1].ravel()
+        found += count
+    return signs, unknowns
+
+
+class Unassembled(Exception):
+    """A group that cannot be assembled at a start."""
+
+    def __init__(self, part: Dyad | Larger) -> None:
+        super().__init__(part)
+        self.part = part
+
+
+def branch_of(plan: Plan, roots: Reals, unknowns: Reals, drives: Reals) -> tuple[str, ...]:
+    """The labels of a pose."""
+    labels, found = [], 0
+    signs = np.where(roots < 0, -1.0, 1.0)
+    for part in choices(plan):
+        if isinstance(part, Dyad):
+            labels.append("-" if roots[part.number] < 0 else "+")
+            continue
+        count = 3 * len(part.roots)
+        mine = unknowns[found : found + count].reshape(-1, 3)
+        modes = modes_of(plan, part, drives, signs, unknowns)
+        far = [_distance(mode, mine, plan.lower.size) for mode in modes]
+        labels.append(str(1 + int(np.argmin(far))) if far and min(far) < 1e-6 else "0")
+        found += count
+    return tuple(labels)
+
+
+def _distance(one: Reals, other: Reals, size: float) -> float:
+    gap = one - other
+    angles = np.abs(np.exp(1j * gap[:, 2]) - 1)
+    return float(max(np.abs(gap[:, :2]).max() / size, angles.max()))
+
+
+def modes_of(plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals) -> Reals:
+    """All assembly modes of a larger group with everything before it placed: (modes, bodies, 3)."""
+    from gruebler.kinematics.search import conditions as closing_conditions
+    from gruebler.kinematics.triads import assembly_modes
+
+    places, turns = pose_before(plan, part, drives, signs, unknowns)
+    program = plan.program
+    rows = []
+    for kind, a, b, body_a, body_b in plan.conditions[part.number]:
+        (point_a, line_a), (point_b, line_b) = (
+            (places[k] + turns[k] * program.points[e], turns[k] * program.lines[e])
+            for e, k in ((a, program.links[a]), (b, program.links[b]))
+        )
+        rows.append((kind, body_a, body_b, point_a, line_a, point_b, line_b))
+    return assembly_modes(closing_conditions(rows)).poses
+
+
+def pose_before(
+    plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals
+) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
+    """Where the links lie before a group is placed: against the frame, or against the root of their body."""
+    from gruebler.kinematics.moving import run_rows
+
+    stop = next(k for k, operation in enumerate(plan.operations) if operation[:2] == (7, part.number))
+    program = plan.program._replace(operations=plan.program.operations[:stop])
+    rows = run_rows(program, plan, np.asarray(drives).reshape(1, -1), None, 0, signs, unknowns)
+    if rows.reached == 0:
+        raise Unassembled(part_at_fault(plan, rows.fault))
+    return rows.places[0, 0], rows.turns[0]
+
+
+def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:
+    """Every branch that can be assembled at these drive values."""
+    yield from _extended(plan, drives, choices(plan), ())
+
+
+def _extended(
+    plan: Plan, drives: Reals, parts: tuple[Dyad | Larger, ...], labels: tuple[str, ...]
+) -> Iterator[tuple[str, ...]]:
+    from gruebler.kinematics.moving import move
+
+    if len(labels) == len(parts):
+        if len(move(plan, drives.reshape(1, -1), branch=labels)):
+            yield labels
+        return
+    part = parts[len(labels)]
+    if isinstance(part, Dyad):
+        for label in "+-":
+            yield from _extended(plan, drives, parts, (*labels, label))
+        return
+    try:
+        modes = modes_of(plan, part, drives, *starting(plan, labels, drives, part))
+    except Unassembled:
+        return
+    for number in range(len(modes)):
+        yield from _extended(plan, drives, parts, (*labels, str(number + 1)))

@@ -1,0 +1,373 @@
+"""The circuit of a linkage: all positions that it can reach without being taken apart, as one curve.
+
+The curve is followed by its length, not by the drive, so that limits of the drive and dead centres are points like any
+others; nothing of the Assur decomposition is used on the way. docs/theory/circuits.md has the method.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import isfinite
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.curve import System, Traced, on_curve, system, trace_circuit
+from gruebler.kinematics.moving import move
+from gruebler.kinematics.poses import Poses
+from gruebler.kinematics.zeros import zeros
+from gruebler.linkages import Linkage, Named, with_lower_pairs
+
+__all__ = ["ChangePoint", "Circuit", "Extreme", "Stretch", "circuit"]
+
+Reals = NDArray[np.float64]
+Quantity = Callable[[Poses, int], Reals]
+"""From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
+
+_CONSTANT = 1e-11  # a derivative that is nowhere larger is none
+_SINGULAR = 1e-3  # a start with a smaller gauge is taken only if there is no better one
+_SHAKY = 1e-4  # a shaky linkage moves less, within what counts as closed joints
+_TRIALS = 1024  # values of the drive that are tried for a start
+_REACH = 4.0  # ways of a driven slide up to that many sizes are tried
+
+
+class Extreme(NamedTuple):
+    """A place where something is largest or smallest."""
+
+    arc: float
+    value: float
+    largest: bool
+    """Whether it is a maximum."""
+
+
+class ChangePoint(NamedTuple):
+    """A position in which another curve of positions crosses: the linkage can go on in another way."""
+
+    arc: float
+    drive: float
+    """The drive value there; NaN without a drive."""
+    pose: Poses
+    """The position, exactly."""
+
+
+class Stretch(NamedTuple):
+    """A piece of the circuit on which the drive never turns back."""
+
+    start: float
+    """The arc at which it begins; it may lie before 0 on a closed circuit."""
+    end: float
+    drives: tuple[float, float]
+    """The drive values at both."""
+
+
+@dataclass(frozen=True, eq=False)
+class Circuit:
+    """All positions of a linkage on one curve.
+
+    Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle
+    counting as the way of a point at that distance. On a closed circuit arcs below 0 or above `length` go round again.
+    """
+
+    linkage: Linkage
+    system: System
+    traced: Traced
+    turned: float
+    """What is added to the drive's angle so that it begins near the value asked for."""
+
+    def __len__(self) -> int:
+        return len(self.traced.arcs)
+
+    @property
+    def closed(self) -> bool:
+        """Whether it comes back to where it began."""
+        return self.traced.closed
+
+    @property
+    def length(self) -> float:
+        """The length of the curve, in sizes; to about 1e-6 of itself."""
+        return float(self.traced.arcs[-1])
+
+    @property
+    def start(self) -> float:
+        """The arc of the position from which it was followed; 0 on a closed circuit."""
+        return self.traced.start
+
+    @property
+    def arcs(self) -> Reals:
+        """(samples,) where the samples are; a closed circuit has its first position once more at the end."""
+        return self.traced.arcs
+
+    @cached_property
+    def samples(self) -> Poses:
+        """The positions at `arcs`."""
+        return self._poses(self.traced.arcs, self.traced.poses, self.traced.tangents)
+
+    def at(self, arcs: ArrayLike) -> Poses:
+        """The positions at given arcs, each exact; (k,) or one number.
+
+        Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
+        """
+        from gruebler._numeric.tracing import Curve, evaluate
+
+        given = np.atleast_1d(np.asarray(arcs, np.float64))
+        if given.ndim != 1 or not np.isfinite(given).all():
+            raise LinkageError(f"expected finite places on the circuit, but found {arcs!r}")
+        traced, laps = self.traced, np.zeros(len(given))
+        if self.closed:
+            laps = np.floor(given / self.length)
+        place = given - laps * self.length
+        if len(place) and not (place.min() >= 0 and place.max() <= self.length):
+            raise LinkageError(f"this circuit goes from 0 to {self.length:.9g} and is not closed, so no {arcs!r} on it")
+        segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
+        x, t = np.empty((2, len(place), self.system.unknowns))
+        curve = Curve(*traced[:3], np.zeros(0))
+        found = evaluate(self.system.conditions, curve, place, segments, x, t, self.system.room)
+        if found < len(place):
+            raise LinkageError(
+                f"the position at {place[found]:.9g} of the circuit cannot be found: it is singular there"
+            )
+        x += laps[:, None] * (traced.poses[-1] - traced.poses[0])
+        return self._poses(given, x, t)
+
+    def _poses(self, arcs: Reals, x: Reals, t: Reals) -> Poses:
+        lower = self.system.lower
+        links = lower.mechanism.chain.links
+        places, turns = np.zeros((2, len(arcs), len(links)), np.complex128), np.zeros((2, len(arcs), len(links)))
+        for body, link in enumerate(self.system.bodies):
+            k = links.index(link)
+            for order, part in enumerate((x, t)):
+                places[order, :, k] = lower.size * (part[:, 3 * body] + 1j * part[:, 3 * body + 1])
+                turns[order, :, k] = part[:, 3 * body + 2]
+        return Poses(self.linkage, lower, arcs, places, turns, self.turned)
+
+    # --- along it ------------------------------------------------------------------------------------
+
+    def angle(self, link: str) -> Reals:
+        """The angle of a link at the samples, continuous; (samples,)."""
+        return self.samples.angle(link)
+
+    def point(self, name: str | Named) -> Reals:
+        """A named point or a joint at the samples; (samples, 2)."""
+        return self.samples.point(name)
+
+    def slide(self, joint: str | int) -> Reals:
+        """The way of a sliding joint at the samples; (samples,)."""
+        return self.samples.slide(joint)
+
+    @property
+    def drive(self) -> Reals:
+        """The drive value at the samples; a turning drive begins in (-pi, pi], or near the value asked for."""
+        return self.samples.drive()
+
+    @cached_property
+    def closure(self) -> float:
+        """The largest distance by which a joint of any sample is open, in sizes."""
+        return max(float(np.abs(self.system.linearised(x)[0]).max()) for x in self.traced.poses)
+
+    # --- events --------------------------------------------------------------------------------------
+
+    def roots(self, quantity: Quantity) -> tuple[float, ...]:
+        """The arcs at which something is zero, in order; touches (double roots) among them.
+
+        ``quantity(poses, order)`` is the value (order 0) or its derivative by the arc (order 1) for each pose.
+
+        >>> from gruebler.linkages import FourBar
+        >>> made = circuit(FourBar(25, 70, 40, 70).linkage())
+        >>> upright = made.roots(lambda poses, order: poses.angle("crank", order) - (order == 0) * np.pi / 2)
+        >>> np.degrees(made.at(upright).angle("crank")).round(9).tolist()
+        [90.0]
+        """
+        found = zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), self.arcs)
+        return tuple(zero.at for zero in found)
+
+    def extremes(self, quantity: Quantity) -> tuple[Extreme, ...]:
+        """All extremes of something along the curve, in order; values to rounding."""
+        found = zeros(lambda s: quantity(self.at(s), 1)[None], self.arcs, least=_CONSTANT)
+        values = quantity(self.at([zero.at for zero in found]), 0)
+        return tuple(Extreme(z.at, float(v), not z.rises) for z, v in zip(found, values, strict=True))
+
+    def range(self, quantity: Quantity) -> tuple[float, float]:
+        """The smallest and the largest value of something along the curve."""
+        values = [extreme.value for extreme in self.extremes(quantity)]
+        values += quantity(self.samples, 0).tolist()
+        return min(values), max(values)
+
+    @cached_property
+    def drive_limits(self) -> tuple[Extreme, ...]:
+        """Where the drive turns back: dead centres of the linkage for this drive."""
+        return self.extremes(lambda poses, order: poses.drive(order))
+
+    @property
+    def stretches(self) -> tuple[Stretch, ...]:
+        """The pieces between limits of the drive, in order; the first one contains the first sample."""
+        ends = [limit.arc for limit in self.drive_limits]
+        if not self.closed:
+            ends = [0.0, *ends, self.length]
+        elif ends:
+            ends = [ends[-1] - self.length, *ends]
+        else:
+            ends = [0.0, self.length]
+        values = self.at(ends).drive().tolist()
+        pairs = itertools.pairwise(zip(ends, values, strict=True))
+        return tuple(Stretch(one, two, (v, w)) for (one, v), (two, w) in pairs)
+
+    @cached_property
+    def change_points(self) -> tuple[ChangePoint, ...]:
+        """Where other curves of positions cross this one; it goes straight on there."""
+        return tuple(self._change_points())
+
+    def _change_points(self) -> Iterator[ChangePoint]:
+        traced = self.traced
+        for pose, k in traced.changes:
+            chord = traced.poses[k + 1] - traced.poses[k]
+            part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
+            arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
+            found = self._poses(np.array([arc]), pose[None], self.at([arc]).tangents(self.system.bodies))
+            driven = bool(self.system.lower.mechanism.drives)
+            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found)
+
+    def message(self, lang: str = "en") -> str:
+        """Why it is not closed; empty if it is."""
+        return _OPEN[self.traced.ended]["de" if lang == "de" else "en"] if self.traced.ended else ""
+
+
+_OPEN = {
+    "long": {
+        "en": "The circuit was not followed to its end: it is longer than what was asked for.",
+        "de": "Der Umlauf wurde nicht zu Ende verfolgt: er ist länger als verlangt.",
+    },
+    "singular": {
+        "en": "The circuit ends in a singular position from which it cannot be followed.",
+        "de": "Der Umlauf endet in einer singulären Lage, aus der er nicht weiter verfolgt werden kann.",
+    },
+}
+
+
+def circuit(
+    linkage: Linkage,
+    *,
+    branch: str | Iterable[str] | None = None,
+    drive: float | None = None,
+    step: float = 0.1,
+    most: float = 1000.0,
+) -> Circuit:
+    """The circuit of a linkage with one freedom.
+
+    It starts from the linkage's home if there is one and neither a branch nor a drive value is asked for; else from the
+    drive value, or from the first value of a fixed list at which the branch can be assembled. Redundant joints are
+    allowed from a home. It begins in the direction in which the drive increases.
+
+    Args:
+        linkage: with one drive, or with a home and none.
+        branch: the assembly mode at the start, as for `move`.
+        drive: the drive value at the start.
+        step: the longest distance of samples, in sizes; extremes nearer to each other than that may be missed in pairs.
+        most: the length at which to give up, in sizes.
+
+    Raises:
+        LinkageError: no start, several drives or freedoms, a start that cannot move or that is singular.
+
+    Cost: 10 (four-bar) to 200 us (ten links) a sample, some 100 to 1000 samples.
+
+    >>> from gruebler.linkages import FourBar
+    >>> made = circuit(FourBar(30, 30, 50, 60).linkage())
+    >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
+    (True, [121.855431, -121.855431])
+    """
+    if not isinstance(linkage, Linkage):
+        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
+        if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
+            raise LinkageError(f"{name}: expected a finite number, but found {value!r}")
+    if not 1e-4 <= step <= 0.2 or not most > 0:
+        raise LinkageError(f"the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}")
+    lower = with_lower_pairs(linkage)
+    if len(lower.mechanism.drives) > 1:
+        raise LinkageError(f"a circuit has one drive at most, but this linkage has {len(lower.mechanism.drives)}")
+    made = system(lower)
+    pose, tangent = _start(linkage, made, branch, drive)
+    found = Circuit(linkage, made, Traced(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
+    turned = 0.0
+    if lower.mechanism.drives:
+        value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
+        tangent = -tangent if ahead < 0 else tangent
+        if lower.mechanism.drives[0].direction.startswith("R"):
+            turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))
+    traced = trace_circuit(made, pose, tangent, float(step), float(most))
+    if not traced.closed and traced.arcs[-1] < _SHAKY:
+        raise LinkageError("the linkage cannot be moved from its start: it is shaky there, or the position is isolated")
+    return Circuit(linkage, made, traced, turned)
+
+
+def _start(
+    linkage: Linkage, made: System, branch: str | Iterable[str] | None, drive: float | None
+) -> tuple[Reals, Reals]:
+    """A pose and its tangent."""
+    lower = made.lower
+    if lower.home is not None and branch is None and drive is None:
+        rows = [lower.home[link] for link in made.bodies]
+        x = np.array([(p.x / lower.size, p.y / lower.size, p.angle) for p in rows]).ravel()
+        pose, tangent, _, rank = on_curve(made, x)
+        return _movable(made, pose, tangent, rank)
+    best: tuple[Reals, Reals] | None = None
+    largest = 0.0
+    for value in _trial_values(lower) if drive is None else [drive]:
+        assembled = _assembled(linkage, made, value, branch)
+        if assembled is None:
+            continue
+        pose, tangent, gauge, rank = on_curve(made, assembled)
+        if drive is not None or abs(gauge) > largest:
+            best, largest = _movable(made, pose, tangent, rank), abs(gauge)
+        if largest > _SINGULAR:
+            break
+    if best is None:
+        where = f"at {drive:.9g}" if drive is not None else f"at any of {_TRIALS} values of its drive"
+        raise LinkageError(f"the linkage cannot be assembled {where}; another drive value or a home may help")
+    return best
+
+
+def _movable(made: System, pose: Reals, tangent: Reals, rank: int) -> tuple[Reals, Reals]:
+    """Pose and tangent, if there is one way to move on."""
+    if rank == made.unknowns:
+        raise LinkageError("the linkage cannot move: its joints hold every link")
+    if rank < made.unknowns - 1:
+        raise LinkageError(
+            "the circuit cannot start in a singular position (a change point, or more than one freedom); "
+            "another drive value may help"
+        )
+    return pose, tangent
+
+
+def _trial_values(lower: Linkage) -> Iterator[float]:
+    """Drive values for a start, far apart at first, then closer and closer."""
+    if not lower.mechanism.drives:
+        raise LinkageError("a circuit starts from a home position or from a drive value; this linkage has neither")
+    reach = np.pi if lower.mechanism.drives[0].direction.startswith("R") else _REACH * lower.size
+    for k in range(_TRIALS):
+        part = sum(((k >> bit) & 1) / 2 ** (bit + 1) for bit in range(10))
+        yield reach * (2 * ((part + 0.637) % 1) - 1)
+
+
+def _assembled(linkage: Linkage, made: System, value: float, branch: str | Iterable[str] | None) -> Reals | None:
+    """The pose at a drive value, or None."""
+    try:
+        motion = move(linkage, [value], branch=branch)
+    except LinkageError as error:
+        if made.redundant and made.lower.home is None:
+            raise LinkageError(
+                f"{error} With a home (Linkage.drawn) its circuit can be followed all the same."
+            ) from None
+        raise
+    if not len(motion):
+        return None
+    rows = []
+    for link in made.bodies:
+        k = motion._link(link)
+        z = motion.places[0, 0, k] / made.lower.size
+        rows.append((z.real, z.imag, float(np.angle(motion.turns[0, k]))))
+    return np.array(rows).ravel()

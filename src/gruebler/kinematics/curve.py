@@ -1,0 +1,265 @@
+"""The equations of a whole linkage without its drives, and the curve of their solutions, followed from a start.
+
+docs/theory/circuits.md has the method, its tolerances and what it may miss.
+"""
+
+from __future__ import annotations
+
+from cmath import rect
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.linkages import Element, Line, Linkage
+
+if TYPE_CHECKING:
+    from gruebler._numeric.tracing import Conditions, Curve, Scratch
+
+__all__ = ["Change", "System", "Traced", "on_curve", "system", "trace_circuit"]
+
+Reals = NDArray[np.float64]
+
+_SHORT = 0.02  # a change point is passed by a step of at most this length
+_EXACT = 1e-12  # a change point is open by less; if by more, the linkage only passes near one
+_SMALL = 0.2  # below this gauge a redundantly constrained linkage is looked at for change points
+
+
+@dataclass(frozen=True, eq=False)
+class System:
+    """The closing conditions of all joints of a linkage with lower pairs.
+
+    The unknowns are x, y and angle of each link but the frame; lengths are in units of the linkage's size.
+    """
+
+    lower: Linkage
+    bodies: tuple[str, ...]
+    conditions: Conditions
+    room: Scratch
+    equations: int
+
+    @property
+    def unknowns(self) -> int:
+        """How many there are."""
+        return 3 * len(self.bodies)
+
+    @property
+    def redundant(self) -> bool:
+        """Whether there are more equations than a linkage with one freedom needs."""
+        return self.equations > self.unknowns - 1
+
+    def linearised(self, x: Reals) -> tuple[Reals, Reals]:
+        """Residual and Jacobian: (equations,) and (equations, unknowns)."""
+        from gruebler._numeric.tracing import jacobian
+
+        m = jacobian(self.conditions, x, self.room)
+        return self.room.residual[:m].copy(), self.room.rows[:m].copy()
+
+    def independent(self, x: Reals) -> NDArray[np.int64]:
+        """The numbers of equations on which the others depend at a pose on the curve."""
+        if not self.redundant:
+            return np.arange(self.equations)
+        from gruebler._numeric.tracing import settle
+
+        settle(self.conditions, x.copy(), np.ones(self.unknowns), self.room)
+        return np.sort(self.room.order[: self.unknowns - 1])
+
+
+class Change(NamedTuple):
+    """A change point: its pose, exactly, and the sample before it."""
+
+    pose: Reals
+    sample: int
+
+
+class Traced(NamedTuple):
+    """Samples of a curve, in order."""
+
+    arcs: Reals
+    poses: Reals
+    tangents: Reals
+    closed: bool
+    ended: str
+    """Empty if closed; ``long`` or ``singular``."""
+    changes: tuple[Change, ...]
+    start: float
+    """The length at which the start lies."""
+
+
+def system(lower: Linkage) -> System:
+    """The equations of a linkage with lower pairs; `LinkageError` if it has more than one freedom by count."""
+    from gruebler._numeric.closure import EQUATIONS, PIN, SLIDE
+    from gruebler._numeric.tracing import Conditions, scratch
+
+    chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
+    bodies = tuple(link for link in chain.links if link != frame)
+    kinds, owners, ends = [], [], []
+    for number, joint in enumerate(chain.joints):
+        first = joint.links[0]
+        for other in joint.links[1:]:
+            kinds.append(PIN if joint.pair.name == "revolute" else SLIDE)
+            for link in (first, other):
+                owners.append(-1 if link == frame else bodies.index(link))
+                ends.append(lower.elements[number, link])
+    conditions = Conditions(
+        np.array(kinds, np.int64),
+        np.array(owners, np.int64),
+        np.array([[complex(e.x, e.y) / size] for e in ends], np.complex128),
+        np.array([_direction(e) for e in ends], np.complex128),
+    )
+    equations = sum(EQUATIONS[kind] for kind in kinds)
+    if equations < 3 * len(bodies) - 1:
+        raise LinkageError(
+            f"a circuit is the motion of a linkage with one freedom, but this one has {3 * len(bodies) - equations}"
+        )
+    return System(lower, bodies, conditions, scratch(conditions), equations)
+
+
+def _direction(element: Element) -> complex:
+    return rect(1, element.angle) if isinstance(element, Line) else 1 + 0j
+
+
+def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:
+    """The nearest pose on the curve, tangent, gauge (`Curve`) and rank there; `LinkageError` if none is near.
+
+    The error is raised for a pose that is off by more than 0.05, in sizes and radians.
+    """
+    from gruebler._numeric.tracing import settle
+
+    pose = x.copy()
+    _, matrix = made.linearised(pose)
+    tangent = np.linalg.svd(matrix)[2][-1].copy()
+    arrived, miss, gauge, rank = settle(made.conditions, pose, tangent, made.room)
+    if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == made.unknowns):
+        raise LinkageError("the joints are not closed in the position from which the circuit is to start")
+    return pose, tangent, gauge, rank
+
+
+def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: float) -> Traced:
+    """The circuit through a pose, forwards until it closes; if it does not, backwards as well."""
+    ahead = _follow(made, pose, tangent, step, most)
+    if ahead.closed:
+        return ahead
+    back = _follow(made, pose, -tangent, step, most)
+    length, last = back.arcs[-1], len(back.arcs) - 1
+    changes = [Change(c.pose, last - 1 - c.sample) for c in reversed(back.changes)]
+    changes += [Change(c.pose, last + c.sample) for c in ahead.changes]
+    return Traced(
+        np.concatenate([length - back.arcs[:0:-1], length + ahead.arcs]),
+        np.concatenate([back.poses[:0:-1], ahead.poses]),
+        np.concatenate([-back.tangents[:0:-1], ahead.tangents]),
+        False,
+        "singular" if "singular" in (ahead.ended, back.ended) else "long",
+        tuple(changes),
+        float(length),
+    )
+
+
+def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: float) -> Traced:
+    from gruebler._numeric.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle, trace
+
+    curve = _room(1024, made.unknowns)
+    curve.poses[0], curve.tangents[0] = pose, tangent
+    curve.gauges[0] = settle(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
+    count, step, changes = 1, longest / 4, list[Change]()
+    while True:
+        status, count, step = trace(made.conditions, curve, count, step, longest, most, made.room)
+        if status == FULL:
+            curve = _larger(curve)
+        elif status == FLIP:
+            way = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
+            found = _change(made, curve.poses[count - 1], curve.poses[count]) if way <= _SHORT else None
+            if found is None:
+                step = way / 2
+                if step < SHORTEST:
+                    status = -1
+                    break
+                continue
+            changes.append(Change(found, count - 1))
+            count += 1
+            if _is_start(curve, count - 1):
+                status = CLOSED
+                break
+        else:
+            break
+    arcs, poses, tangents = (part[:count].copy() for part in curve[:3])
+    samples = Traced(arcs, poses, tangents, status == CLOSED, "", tuple(changes), 0.0)
+    if made.redundant:
+        samples = samples._replace(changes=_quiet_changes(made, samples, curve.gauges[:count]))
+    return samples._replace(ended="" if status == CLOSED else "long" if status == LONG else "singular")
+
+
+def _room(samples: int, unknowns: int) -> Curve:
+    from gruebler._numeric.tracing import Curve
+
+    shape = (samples, unknowns)
+    return Curve(np.zeros(samples), np.zeros(shape), np.zeros(shape), np.zeros(samples))
+
+
+def _larger(curve: Curve) -> Curve:
+    out = _room(2 * len(curve.arcs), curve.poses.shape[1])
+    for new, old in zip(out, curve, strict=True):
+        new[: len(old)] = old
+    return out
+
+
+def _is_start(curve: Curve, sample: int) -> bool:
+    gap = curve.poses[sample] - curve.poses[0]
+    gap[2::3] -= 2 * np.pi * np.round(gap[2::3] / (2 * np.pi))
+    return bool(sample > 1 and np.abs(gap).max() < 1e-9 and curve.tangents[sample] @ curve.tangents[0] > 0.9)
+
+
+def _change(made: System, one: Reals, two: Reals) -> Reals | None:
+    """The pose between two neighbouring samples in which the Jacobian loses its rank; None if it does not on the curve.
+
+    Newton's method on F(x) + beta psi = 0, J(x)^T psi = 0, |psi| = 1 for x, psi, beta; beta is 0 at a change point.
+    """
+    rows = made.independent(one)
+    x, n, p = (one + two) / 2, made.unknowns, len(rows)
+    beta = 0.0
+    psi = np.linalg.svd(made.linearised(x)[1][rows])[0][:, -1]
+    for _ in range(15):
+        residual, matrix = (part[rows] for part in made.linearised(x))
+        equations = np.concatenate([residual + beta * psi, matrix.T @ psi, [(psi @ psi - 1) / 2]])
+        system = np.zeros((n + p + 1, n + p + 1))
+        system[:p, :n], system[:p, n : n + p], system[:p, -1] = matrix, beta * np.eye(p), psi
+        system[p:-1, :n], system[p:-1, n : n + p] = _curvature(made, x, psi, rows), matrix.T
+        system[-1, n : n + p] = psi
+        try:
+            move = np.linalg.solve(system, equations)
+        except np.linalg.LinAlgError:
+            return None
+        x, psi, beta = x - move[:n], psi - move[n:-1], beta - move[-1]
+        if not np.abs(move).max() < 1:
+            return None
+        if np.abs(move).max() < 1e-12:
+            near = np.linalg.norm(x - (one + two) / 2) <= np.linalg.norm(two - one)
+            return x if near and abs(beta) < _EXACT else None
+    return None
+
+
+def _curvature(made: System, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
+    """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
+    out, h = np.empty((len(x), len(x))), 1e-5
+    for k in range(len(x)):
+        for sign in (1, -1):
+            moved = x.copy()
+            moved[k] += sign * h
+            side = made.linearised(moved)[1][rows].T @ psi
+            out[:, k] = side if sign == 1 else (out[:, k] - side) / (2 * h)
+    return out
+
+
+def _quiet_changes(made: System, samples: Traced, gauges: Reals) -> tuple[Change, ...]:
+    """Change points of a redundantly constrained linkage: there is no determinant; its shortest row has a minimum 0."""
+    out = []
+    for k in range(1, len(gauges) - 1):
+        if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
+            pose = _change(made, samples.poses[k - 1], samples.poses[k + 1])
+            if pose is None or np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[-2] > 1e-9:
+                continue
+            ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
+            out.append(Change(pose, k if ahead else k - 1))
+    return tuple(out)

@@ -1,0 +1,252 @@
+"""Events of a motion, found as roots: dead centres, change points, zeros of the transfer functions.
+
+The transfer functions are those of the geometry: the output over the drive, its first and its second derivative with
+respect to the drive. Definitions, method and errors: docs/theory/events.md.
+"""
+
+from __future__ import annotations
+
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.kinematics.course import Course
+from gruebler.kinematics.motion import Reals
+from gruebler.kinematics.outputs import Output
+from gruebler.kinematics.plan import Dyad
+from gruebler.kinematics.zeros import Zero, bracketed, zeros
+
+__all__ = [
+    "ChangePoint",
+    "Crossing",
+    "DeadCentre",
+    "change_points",
+    "crossings",
+    "dead_centres",
+    "drive_pivot",
+    "natural",
+    "output_turns",
+    "transfer_function",
+]
+
+_STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
+_EVEN = 1e-9  # the same for its derivatives
+_EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
+_AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
+_STEP = 0.02  # radians, or parts of the size
+
+
+class DeadCentre(NamedTuple):
+    """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
+
+    drive: float
+    """The drive's value; of full turns in 0 to the period."""
+    output: float
+    kind: str
+    """``maximum`` or ``minimum`` of the output, or ``flat``: it goes on in the same direction."""
+    flat: bool
+    """Whether the second derivative vanishes as well, so that the output dwells."""
+    side: str
+    """``inner`` or ``outer`` for the two extreme ones, else empty."""
+
+
+class Crossing(NamedTuple):
+    """A zero of a transfer function of order 0, 1 or 2, or of the next derivative."""
+
+    drive: float
+    order: int
+    value: float
+    """The transfer function of one order less: the extreme, if the order is 1 or more; for order 0 the slope."""
+    kind: str
+    """``maximum``, ``minimum`` or ``flat`` of that function; for order 0 ``rising``, ``falling`` or ``touching``."""
+
+
+class ChangePoint(NamedTuple):
+    """Where the assembly modes of a group meet and the motion goes on through."""
+
+    drive: float
+    links: tuple[str, ...]
+    form: str
+
+
+def transfer_function(course: Course, output: Output, drives: Reals, order: int = 0) -> Reals:
+    """The transfer function of order 0 to 3 at drive values: psi, psi', psi'', psi''' in radians or lengths; (n,)."""
+    return output.track(course.at(np.asarray(drives, np.float64), max(order, 1)), order)
+
+
+def natural(course: Course, output: Output) -> float:
+    """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
+    size = course.plan.lower.size
+    return (1.0 if output.turning else size) / (1.0 if course.turning_drive else size)
+
+
+def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...]:
+    """The zeros of a transfer function: of order 0; 1, the output's extremes; 2, those of its velocity; 3, of psi''.
+
+    Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
+    """
+    least = (_EVEN if order > 1 else _STILL) * natural(course, output)
+    if not course.turning_drive:
+        least /= course.plan.lower.size ** max(order - 1, 0)
+
+    def jet(drives: Reals) -> Reals:
+        motion = course.at(drives)
+        rows = [output.track(motion, k) for k in range(order, 4)]
+        if order == 0 and output.turning:
+            half = rows[0] / 2
+            sine, cosine = np.sin(half), np.cos(half)
+            rows = [2 * sine, rows[1] * cosine, rows[2] * cosine - rows[1] ** 2 * sine / 2]
+        return np.stack(rows[:3])
+
+    found = _inside(course, zeros(jet, course.grid, least))
+    before = _before(course, output, found, order)
+    words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
+    return tuple(
+        Crossing(course.span.wrapped(zero.at), order, float(value), words[2 if zero.multiplicity == 2 else zero.rises])
+        for zero, value in zip(found, before, strict=True)
+    )
+
+
+def _before(course: Course, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
+    if not found:
+        return np.empty(0)
+    return transfer_function(course, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
+
+
+def _inside(course: Course, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+    """The zeros in the order in which they are reported."""
+    return tuple(sorted(found, key=lambda zero: course.span.wrapped(zero.at)))
+
+
+def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
+    """All positions in which the output stops, with the extreme ones told apart as inner and outer.
+
+    A dead centre is a zero of psi'. The outer one is that in which the point that drives the output lies farther from
+    the pivot of the drive, be it the maximum or the minimum of the output. Where there is no such pivot or point, or
+    both lie as far, the maximum of an angle is the inner one, the maximum of a way the outer one. Error of the drive
+    value: some 1e-15 by the curvature psi'', relative to its usual size; of multiple zeros some 1e-12.
+    """
+
+    def jet(drives: Reals) -> Reals:
+        motion = course.at(drives)
+        return np.stack([output.track(motion, k) for k in (1, 2, 3)])
+
+    found = _inside(course, zeros(jet, course.grid, _STILL * natural(course, output)))
+    values = transfer_function(course, output, np.array([zero.at for zero in found])) if found else np.empty(0)
+    centres = [
+        DeadCentre(
+            course.span.wrapped(zero.at),
+            float(value),
+            "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
+            zero.multiplicity > 1,
+            "",
+        )
+        for zero, value in zip(found, values, strict=True)
+    ]
+    sides = _sides(course, output, centres, [zero.at for zero in found])
+    return tuple(centre._replace(side=side) for centre, side in zip(centres, sides, strict=True))
+
+
+def _sides(course: Course, output: Output, centres: list[DeadCentre], at: list[float]) -> list[str]:
+    sides = [""] * len(centres)
+    turning = [k for k, centre in enumerate(centres) if centre.kind != "flat"]
+    kinds = {centres[k].kind for k in turning}
+    if len(kinds) < 2 or _goes_round(course, output):
+        return sides
+    top = max(turning, key=lambda k: centres[k].output)
+    bottom = min(turning, key=lambda k: centres[k].output)
+    far = _distances(course, output, np.array([at[top], at[bottom]]))
+    if far is None or abs(far[0] - far[1]) < _EQUAL * course.plan.lower.size:
+        top_is_outer = not output.turning
+    else:
+        top_is_outer = bool(far[0] > far[1])
+    sides[top], sides[bottom] = ("outer", "inner") if top_is_outer else ("inner", "outer")
+    return sides
+
+
+def _goes_round(course: Course, output: Output) -> bool:
+    return bool(course.span.full and output.turning and output_turns(course, output))
+
+
+def output_turns(course: Course, output: Output) -> int:
+    """How many full turns an angle makes while everything repeats."""
+    if not (course.span.full and output.turning):
+        return 0
+    track = output.track(course.at(np.array([course.grid[0], course.grid[0] + course.span.width]), 0))
+    return round(float(track[1] - track[0]) / (2 * pi))
+
+
+def drive_pivot(course: Course) -> complex | None:
+    """Where a turning drive has its axis in the frame; None for any other drive."""
+    lower = course.plan.lower
+    first, _ = lower.reference(0)
+    if first != lower.mechanism.frame or not course.turning_drive:
+        return None
+    e = lower.elements[lower.mechanism.drives[0].joint, first]
+    return complex(e.x, e.y)
+
+
+def _distances(course: Course, output: Output, drives: Reals) -> Reals | None:
+    """How far the point that drives the output lies from the pivot of the drive."""
+    pivot, place = drive_pivot(course), _driving_point(course, output)
+    if pivot is None or place is None:
+        return None
+    motion = course.at(drives, 0)
+    k = course.plan.lower.mechanism.chain.index(place[0])
+    point = motion.places[0, :, k] + motion.turns[:, k] * place[1]
+    return np.asarray(np.abs(point - pivot))
+
+
+def _driving_point(course: Course, output: Output) -> tuple[str, complex] | None:
+    """The one pin by which the rest of its group takes hold of the output link."""
+    plan = course.plan
+    for group in plan.decomposition.groups:
+        mine = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
+        if not mine:
+            continue
+        inner = [(n, m) for n, m in group.joints if not m.outer and mine[0] in m.links]
+        if len(inner) != 1 or inner[0][1].pair.name != "revolute":
+            return None
+        number = inner[0][0]
+        body = (*group.bodies[mine[0]], *group.carried[mine[0]])
+        link = next(link for link in plan.lower.mechanism.chain.joints[number].links if link in body)
+        e = plan.lower.elements[number, link]
+        return link, complex(e.x, e.y)
+    return None
+
+
+def change_points(course: Course) -> tuple[ChangePoint, ...]:
+    """Where the motion goes through a position in which two assembly modes of a dyad meet.
+
+    The signed root of the dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
+    near by, so the zero is that of a polynomial of degree 7 through eight poses around it; error some 1e-12.
+    """
+    found = []
+    roots = course.at(course.grid, 0).roots
+    for dyad in (dyad for dyad in course.plan.dyads if dyad.branching):
+        mine = roots[:, dyad.number]
+        for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
+            found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
+    return tuple(sorted(found))
+
+
+def _change_point(course: Course, dyad: Dyad, cell: Reals) -> ChangePoint:
+    span = course.span
+    step = _STEP * (1 if course.turning_drive else course.plan.lower.size)
+
+    def root(drives: Reals) -> Reals:
+        return course.at(drives, 0).roots[:, dyad.number]
+
+    at = float(bracketed(root, cell[:1], cell[1:])[0])
+    for _ in range(2):
+        room = step if span.full else min(step, (at - span.low) / 5, (span.high - at) / 5)
+        places = at + _AROUND * room
+        y = root(places)
+        polynomial = np.polynomial.Polynomial.fit(_AROUND, y, 7)
+        near = [z.real for z in polynomial.roots() if abs(z.imag) < 1e-6 and abs(z.real) < 1]
+        if not near:
+            break
+        at += room * float(min(near, key=abs))
+    group = course.plan.decomposition.groups[dyad.group]
+    return ChangePoint(span.wrapped(at), group.links, group.form())

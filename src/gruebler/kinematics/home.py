@@ -1,0 +1,91 @@
+"""The position that a linkage remembers of its drawing, as a start for the solver."""
+
+from __future__ import annotations
+
+from cmath import rect
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.plan import Dyad, Plan
+from gruebler.linkages import Line
+
+__all__ = ["Home", "at_home", "check_home"]
+
+Reals = NDArray[np.float64]
+
+
+class Home(NamedTuple):
+    """Drive values, signs of dyads and unknowns of larger groups in the home position."""
+
+    drives: Reals
+    signs: Reals
+    unknowns: Reals
+
+
+def at_home(plan: Plan, near: Reals) -> Home:
+    """The home position; turning drives by whole turns as near as possible to given values."""
+    drives = np.array([_drive(plan, k) for k in range(len(plan.lower.mechanism.drives))])
+    for k, drive in enumerate(plan.lower.mechanism.drives):
+        if drive.direction.startswith("R"):
+            drives[k] += 2 * pi * round((near[k] - drives[k]) / (2 * pi))
+    signs = np.array([_sign(plan, dyad) for dyad in plan.dyads])
+    unknowns = [_against(plan, root, part.base) for part in plan.larger for root in part.roots]
+    return Home(drives, signs, np.array(unknowns).ravel())
+
+
+def check_home(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:
+    """`LinkageError` if a solved pose is far from the home position: then the joints are not closed there."""
+    assert plan.lower.home is not None
+    for k, link in enumerate(plan.lower.mechanism.chain.links):
+        home = plan.lower.home[link]
+        gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
+        if gap > 0.05:
+            raise LinkageError(f"home: the joints are not closed there; {link!r} would have to lie elsewhere")
+
+
+def _put(plan: Plan, element: int) -> complex:
+    assert plan.lower.home is not None
+    number, link = plan.keys[element]
+    e = plan.lower.elements[number, link]
+    return complex(*plan.lower.home[link].put(e.x, e.y))
+
+
+def _line(plan: Plan, element: int) -> complex:
+    assert plan.lower.home is not None
+    number, link = plan.keys[element]
+    e = plan.lower.elements[number, link]
+    return rect(1, plan.lower.home[link].angle + (e.angle if isinstance(e, Line) else 0))
+
+
+def _drive(plan: Plan, k: int) -> float:
+    assert plan.lower.home is not None
+    first, other = plan.lower.reference(k)
+    drive = plan.lower.mechanism.drives[k]
+    if drive.direction.startswith("R"):
+        return plan.lower.home[other].angle - plan.lower.home[first].angle
+    near, far = plan.keys.index((drive.joint, first)), plan.keys.index((drive.joint, other))
+    return float((_line(plan, near).conjugate() * (_put(plan, far) - _put(plan, near))).real)
+
+
+def _sign(plan: Plan, dyad: Dyad) -> float:
+    operation = next(o for o in plan.operations if 2 <= o[0] < 7 and o[9] == dyad.number)
+    outer, inner, other = operation[1], operation[3], operation[6]
+    if dyad.form == "RRR":
+        side = ((_put(plan, other) - _put(plan, outer)).conjugate() * (_put(plan, inner) - _put(plan, outer))).imag
+    elif dyad.form == "RRP":
+        side = (_line(plan, other).conjugate() * (_put(plan, inner) - _put(plan, outer))).real
+    elif dyad.form == "RPR":
+        side = (_line(plan, inner).conjugate() * (_put(plan, other) - _put(plan, outer))).real
+    else:
+        side = 1.0
+    return -1.0 if side < 0 else 1.0
+
+
+def _against(plan: Plan, link: str, base: str) -> tuple[float, float, float]:
+    assert plan.lower.home is not None
+    one, other = plan.lower.home[link], plan.lower.home[base]
+    return (*other.seen(one.x, one.y), one.angle - other.angle)

@@ -1,0 +1,252 @@
+"""Everything that is measured on a linkage with one drive, found by root finding: docs/theory/events.md.
+
+`Measures` (fields are stable):
+
+- ``linkage, output`` (`Output`: name, link, joint, turning), ``branch`` (labels at ``start``), ``start`` (drive value);
+- ``span`` (`Span`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
+- ``ends``: the output at both ends of a range that is no full turn, else None;
+- ``dead_centres`` (tuple of `DeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
+- ``inner, outer`` (`DeadCentre` or None), ``travel`` (stroke or swing, None if the output goes round),
+  ``output_turns`` (turns of the output per period);
+- ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back; None if not
+  defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed);
+- ``change_points`` (tuple of `ChangePoint`: drive, links, form);
+- ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
+- ``transmission`` (`Transmission`: extremes, smallest, largest, legs, good; None if undefined, then
+  ``transmission_note`` says why);
+- ``explain(lang)`` prose, ``to_json()`` plain data with angles in degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isfinite, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.course import Course, Span, follow
+from gruebler.kinematics.events import (
+    ChangePoint,
+    Crossing,
+    DeadCentre,
+    change_points,
+    crossings,
+    dead_centres,
+    natural,
+    output_turns,
+    transfer_function,
+)
+from gruebler.kinematics.outputs import Output, find_output
+from gruebler.kinematics.transmission import Transmission, measure_transmission
+from gruebler.linkages import Linkage
+from gruebler.linkages.extremes import StrokeTimes
+
+__all__ = ["Measures", "Transfer", "measures"]
+
+_UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
+_STILL = 1e-11
+
+
+class Transfer(NamedTuple):
+    """What the transfer functions of order 0, 1 and 2 do over the range."""
+
+    still: bool
+    """Whether the output does not move at all."""
+    uniform: bool
+    """Whether psi' is constant: a linear transfer function."""
+    ratio: float | None
+    """The transmission ratio i = omega in by omega out, with its sign, if it is constant."""
+    largest: float
+    """The largest psi' in the grid and at its extremes; grows without bound towards a limit of the drive."""
+    smallest: float
+    """The smallest (most negative) psi'."""
+    zeros: tuple[Crossing, ...]
+    """Zeros of the output itself."""
+    velocity: tuple[Crossing, ...]
+    """Extremes of psi': zeros of psi''."""
+    acceleration: tuple[Crossing, ...]
+    """Extremes of psi'': zeros of psi'''."""
+
+
+@dataclass(frozen=True)
+class Measures:
+    """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
+
+    linkage: Linkage
+    output: Output
+    branch: tuple[str, ...]
+    start: float
+    turning_drive: bool
+    span: Span
+    ends: tuple[float, float] | None
+    dead_centres: tuple[DeadCentre, ...]
+    output_turns: int
+    travel: float | None
+    change_points: tuple[ChangePoint, ...]
+    transfer: Transfer
+    transmission: Transmission | None
+    transmission_note: str
+    speed_rpm: float | None
+
+    @property
+    def inner(self) -> DeadCentre | None:
+        """The inner dead centre."""
+        return next((centre for centre in self.dead_centres if centre.side == "inner"), None)
+
+    @property
+    def outer(self) -> DeadCentre | None:
+        """The outer dead centre."""
+        return next((centre for centre in self.dead_centres if centre.side == "outer"), None)
+
+    @property
+    def phi_forward(self) -> float | None:
+        """The drive angle from the inner to the outer dead centre, in the positive sense."""
+        if self.inner is None or self.outer is None or not self.span.full:
+            return None
+        return (self.outer.drive - self.inner.drive) % self.span.period
+
+    @property
+    def phi_back(self) -> float | None:
+        """The drive angle from the outer to the inner dead centre, in the positive sense."""
+        return None if self.phi_forward is None else self.span.period - self.phi_forward
+
+    @property
+    def phi_max(self) -> float | None:
+        """The larger of the two."""
+        return None if self.phi_forward is None or self.phi_back is None else max(self.phi_forward, self.phi_back)
+
+    @property
+    def phi_min(self) -> float | None:
+        """The smaller of the two."""
+        return None if self.phi_forward is None or self.phi_back is None else min(self.phi_forward, self.phi_back)
+
+    @property
+    def delta_phi(self) -> float | None:
+        """By how much the larger is more than half the period."""
+        return None if self.phi_max is None or self.phi_min is None else (self.phi_max - self.phi_min) / 2
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The larger by the smaller: the ratio of times at constant speed."""
+        return None if self.phi_max is None or self.phi_min is None else self.phi_max / self.phi_min
+
+    @property
+    def times(self) -> StrokeTimes | None:
+        """How long both ways take at the speed given, in seconds; a negative speed turns the other way."""
+        if self.speed_rpm is None or self.phi_forward is None or self.phi_back is None:
+            return None
+        angles = (self.phi_forward, self.phi_back)
+        return StrokeTimes(
+            *(x / (2 * pi) * 60 / abs(self.speed_rpm) for x in angles[:: 1 if self.speed_rpm > 0 else -1])
+        )
+
+    def explain(self, lang: str = "en") -> str:
+        """The measures as lines of prose, in English (``en``) or German (``de``)."""
+        from gruebler.kinematics.measuring_prose import explain
+
+        return "\n".join(explain(self, lang))
+
+    def to_json(self) -> dict[str, Any]:
+        """The measures as plain data; angles in degrees, times in seconds."""
+        from gruebler.kinematics.measuring_prose import plain
+
+        return plain(self)
+
+
+def measures(
+    linkage: Linkage,
+    speed_rpm: float | None = None,
+    branch: str | Iterable[str] | None = None,
+    output: str | None = None,
+) -> Measures:
+    """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
+
+    Args:
+        linkage: a linkage whose drive fixes the motion.
+        speed_rpm: the drive's speed in turns a minute, for the times; not zero.
+        branch: as for `move`; without it that of the home position, else all ``+`` and 1. It is understood where the
+            motion is begun: `gruebler.kinematics.course.follow`.
+        output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
+
+    Cost: some 60 ms for a dyad, 0.2 s for a group of four links.
+
+    Raises `LinkageError` if there are more drives than one, it cannot be assembled, or a name or number is wrong.
+
+    >>> from gruebler.linkages import FourBar
+    >>> found = measures(FourBar(a=2, b=7, c=4.5, d=5.5).linkage(), speed_rpm=300)
+    >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
+    (1.357364, 0.115159, 1.205044)
+    """
+    looked_at = find_output(linkage, output)
+    speed = _speed(speed_rpm)
+    course = follow(linkage, branch)
+    if speed is not None and not course.turning_drive:
+        raise LinkageError("a speed in turns a minute is that of a turning drive; this linkage has a sliding one")
+    span = course.span
+    ends = None
+    if not span.full:
+        low, high = (course.end(looked_at.track, upper) for upper in (False, True))
+        ends = low, high
+    centres = dead_centres(course, looked_at)
+    turns = output_turns(course, looked_at)
+    try:
+        transmission, note = measure_transmission(course, looked_at), ""
+    except LinkageError as why:
+        transmission, note = None, str(why)
+    return Measures(
+        linkage,
+        looked_at,
+        course.start.branch,
+        float(course.start.drives[0, 0]),
+        course.turning_drive,
+        span,
+        ends,
+        centres,
+        turns,
+        None if turns else _travel(course, looked_at, centres, ends),
+        change_points(course),
+        _transfer(course, looked_at),
+        transmission,
+        note,
+        speed,
+    )
+
+
+def _speed(rpm: float | None) -> float | None:
+    if rpm is None:
+        return None
+    if isinstance(rpm, bool) or not isinstance(rpm, (int, float, np.number)) or not isfinite(rpm) or rpm == 0:
+        raise LinkageError(f"the speed is a number of turns a minute other than 0, not {rpm!r}")
+    return float(rpm)
+
+
+def _travel(course: Course, output: Output, centres: tuple[DeadCentre, ...], ends: tuple[float, float] | None) -> float:
+    values = [centre.output for centre in centres] + list(ends or ())
+    if not values:  # it goes nowhere, or its motion has no end: what the grid shows
+        values = list(transfer_function(course, output, course.grid))
+        return float(max(values) - min(values)) if max(values) - min(values) > _STILL else 0.0
+    return max(values) - min(values)
+
+
+def _transfer(course: Course, output: Output) -> Transfer:
+    track = transfer_function(course, output, course.grid, 1)
+    scale = natural(course, output)
+    usual = float(np.median(track))
+    still = float(np.quantile(np.abs(track), 0.9)) <= _STILL * scale
+    uniform = not still and float(np.quantile(np.abs(track - usual), 0.9)) <= _UNIFORM * abs(usual)
+    velocity = () if still or uniform else crossings(course, output, 2)
+    acceleration = () if still or uniform else crossings(course, output, 3)
+    values = [*track.tolist(), *(crossing.value for crossing in velocity)]
+    return Transfer(
+        still,
+        uniform,
+        1 / usual if uniform else None,
+        usual if uniform else max(values),
+        usual if uniform else min(values),
+        () if still else crossings(course, output, 0),
+        velocity,
+        acceleration,
+    )

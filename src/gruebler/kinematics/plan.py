@@ -1,0 +1,262 @@
+"""What the kernel has to do for a linkage: drives, groups in solving order, and which links go along with which."""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from math import radians
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gruebler.assur import Decomposition, Group, decompose
+from gruebler.errors import LinkageError
+from gruebler.linkages import Line, Linkage, with_lower_pairs
+
+if TYPE_CHECKING:
+    from gruebler._numeric.motion import Program
+
+__all__ = ["Dyad", "Larger", "Plan", "plan"]
+
+_TURN, _PUSH, _GROUP, _CARRY = 0, 1, 7, 8
+_DYADS = {("R", "R", "R"): 2, ("R", "R", "P"): 3, ("R", "P", "R"): 4, ("P", "R", "P"): 5, ("R", "P", "P"): 6}
+_FORMS = {number: "".join(form) for form, number in _DYADS.items()}
+_BRANCHING = (2, 3, 4)  # the dyads with two assembly modes
+_LONGEST_TURN = radians(5)
+_LONGEST_PUSH = 0.03  # of the linkage's size
+
+
+@dataclass(frozen=True)
+class Dyad:
+    """A dyad of the plan."""
+
+    group: int
+    """Its number in the decomposition."""
+    form: str
+    one: str
+    two: str
+    number: int
+    """Its number among the dyads."""
+
+    @property
+    def branching(self) -> bool:
+        """Whether it has two assembly modes."""
+        return self.form in ("RRR", "RRP", "RPR")
+
+
+@dataclass(frozen=True)
+class Larger:
+    """A group that is solved by Newton's method."""
+
+    group: int
+    roots: tuple[str, ...]
+    """The links that stand for its bodies."""
+    number: int
+    """Its number among the larger groups."""
+    base: str
+    """The link that stands for what it is found against."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The order of solving, in names and as arrays for the kernel."""
+
+    linkage: Linkage
+    """The linkage as it was given."""
+    lower: Linkage
+    """The same with turning and sliding joints only."""
+    decomposition: Decomposition
+    parts: tuple[Dyad | Larger, ...]
+    """Dyads and larger groups in solving order."""
+    operations: tuple[tuple[int, ...], ...]
+    conditions: tuple[tuple[tuple[int, int, int, int, int], ...], ...]
+    """For each larger group its closing conditions: kind, two elements, two bodies."""
+    keys: tuple[tuple[int, str], ...]
+    """The joint and link of each element by number."""
+
+    @property
+    def dyads(self) -> tuple[Dyad, ...]:
+        """The dyads in solving order."""
+        return tuple(part for part in self.parts if isinstance(part, Dyad))
+
+    @property
+    def larger(self) -> tuple[Larger, ...]:
+        """The larger groups in solving order."""
+        return tuple(part for part in self.parts if isinstance(part, Larger))
+
+    @cached_property
+    def program(self) -> Program:
+        """The arrays."""
+        from gruebler._numeric.motion import Program
+
+        chain = self.lower.mechanism.chain
+        points, lines = self.element_arrays(self.lower)
+        flat = [c for group in self.conditions for c in group]
+        roots = [root for part in self.larger for root in part.roots]
+        return Program(
+            _table(self.operations, 10),
+            np.array([chain.index(link) for _, link in self.keys], np.int64),
+            points,
+            lines,
+            _starts(len(group) for group in self.conditions),
+            np.array([c[0] for c in flat], np.int64),
+            np.array([side for c in flat for side in c[1:3]], np.int64),
+            np.array([owner for c in flat for owner in c[3:5]], np.int64),
+            _starts(len(part.roots) for part in self.larger),
+            np.array([chain.index(root) for root in roots], np.int64),
+            self.longest_steps,
+            self.lower.size,
+        )
+
+    @property
+    def longest_steps(self) -> np.ndarray:
+        """How far each drive may move between two checks."""
+        turning = [d.direction.startswith("R") for d in self.lower.mechanism.drives]
+        return np.array([_LONGEST_TURN if turns else _LONGEST_PUSH * self.lower.size for turns in turning])
+
+    def element_arrays(self, lower: Linkage) -> tuple[np.ndarray, np.ndarray]:
+        """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
+        elements = [lower.elements[key] for key in self.keys]
+        points = np.array([complex(e.x, e.y) for e in elements], np.complex128)
+        lines = np.array([rect(1, e.angle) if isinstance(e, Line) else 1 for e in elements], np.complex128)
+        return points, lines
+
+
+def _table(rows: Iterable[tuple[int, ...]], width: int) -> np.ndarray:
+    rows = list(rows)
+    out = np.full((len(rows), width), -1, np.int64)
+    for k, row in enumerate(rows):
+        out[k, : len(row)] = row
+    return out
+
+
+def _starts(lengths: Iterable[int]) -> np.ndarray:
+    return np.cumsum([0, *lengths]).astype(np.int64)
+
+
+def plan(linkage: Linkage) -> Plan:
+    """The plan of a linkage; `LinkageError` says what its drives leave free or hold twice."""
+    lower = with_lower_pairs(linkage)
+    parts = decompose(lower.mechanism)
+    if not parts.complete:
+        raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
+    return _Planner(linkage, lower, parts).made()
+
+
+class _Planner:
+    """Builds a plan; knows for each link the link against which it is placed so far."""
+
+    def __init__(self, linkage: Linkage, lower: Linkage, parts: Decomposition) -> None:
+        self.linkage, self.lower, self.decomposition = linkage, lower, parts
+        self.chain = lower.mechanism.chain
+        self.keys = tuple(sorted(lower.elements, key=lambda key: (key[0], self.chain.index(key[1]))))
+        self.number = {key: k for k, key in enumerate(self.keys)}
+        self.operations: list[tuple[int, ...]] = []
+        self.conditions: list[tuple[tuple[int, int, int, int, int], ...]] = []
+        self.parts: list[Dyad | Larger] = []
+        self.against: dict[str, str] = {}
+
+    def made(self) -> Plan:
+        frame = self.lower.mechanism.frame
+        self._drives(frame, (frame, *self.decomposition.driven))
+        for group in self.decomposition.groups:
+            for body in group.bodies:
+                self._drives(body[0], body)
+        for number, group in enumerate(self.decomposition.groups):
+            self._group(number, group)
+        return Plan(
+            self.linkage,
+            self.lower,
+            self.decomposition,
+            tuple(self.parts),
+            tuple(self.operations),
+            tuple(self.conditions),
+            self.keys,
+        )
+
+    def _drives(self, root: str, links: tuple[str, ...]) -> None:
+        """Place the links of a body against its root, drive by drive."""
+        self.against[root] = root
+        drives = self.lower.mechanism.drives
+        waiting = {k for k, drive in enumerate(drives) if set(drive.between) <= set(links)}
+        while waiting:
+            k = min(k for k in waiting if any(self.against.get(link) == root for link in drives[k].between))
+            waiting.remove(k)
+            first, other = self.lower.reference(k)
+            sign = 1
+            if self.against.get(first) != root:
+                first, other, sign = other, first, -1
+            kind = _TURN if drives[k].direction.startswith("R") else _PUSH
+            joint = drives[k].joint
+            self.operations.append((kind, k, self.number[joint, first], self.number[joint, other], sign))
+            self.against[other] = root
+
+    def _group(self, number: int, group: Group) -> None:
+        base = self.lower.mechanism.frame if self.lower.mechanism.frame in group.base else group.base[0]
+        roots = tuple(body[0] for body in group.bodies)
+        dyad = self._dyad(group, base)
+        if dyad is not None:
+            kind, elements, one, two = dyad
+            count = len([part for part in self.parts if isinstance(part, Dyad)])
+            index = self.chain.index
+            self.operations.append((kind, *elements, index(one), index(two), count))
+            self.parts.append(Dyad(number, _FORMS[kind], one, two, count))
+        else:
+            count = len(self.conditions)
+            self.operations.append((_GROUP, count))
+            self.conditions.append(self._conditions(group, base, roots))
+            self.parts.append(Larger(number, roots, count, base))
+        for root in roots:
+            for link in [link for link, at in self.against.items() if at == root and link != root]:
+                self.operations.append((_CARRY, self.chain.index(link), self.chain.index(root)))
+                self.against[link] = base
+            self.against[root] = base
+
+    def _element(self, joint: int, root: str) -> int:
+        """The element by which something placed against `root` carries a joint."""
+        link = next(link for link in self.chain.joints[joint].links if self.against.get(link) == root)
+        return self.number[joint, link]
+
+    def _dyad(self, group: Group, base: str) -> tuple[int, list[int], str, str] | None:
+        if (
+            len(group.bodies) != 2
+            or len(group.joints) != 3
+            or any(len(m.links) + m.outer != 2 for _, m in group.joints)
+        ):
+            return None
+        letter = {"revolute": "R", "prismatic": "P"}
+        outer: dict[int, tuple[int, str]] = {}
+        inner = (-1, "")
+        for joint, member in group.joints:
+            if member.outer:
+                outer[member.links[0]] = joint, letter[member.pair.name]
+            else:
+                inner = joint, letter[member.pair.name]
+        one, two = 0, 1
+        form = (outer[0][1], inner[1], outer[1][1])
+        if form not in _DYADS:
+            form, one, two = (form[2], form[1], form[0]), 1, 0
+        first, second = group.bodies[one][0], group.bodies[two][0]
+        elements = [
+            self._element(outer[one][0], base),
+            self._element(outer[one][0], first),
+            self._element(inner[0], first),
+            self._element(inner[0], second),
+            self._element(outer[two][0], second),
+            self._element(outer[two][0], base),
+        ]
+        return _DYADS[form], elements, first, second
+
+    def _conditions(
+        self, group: Group, base: str, roots: tuple[str, ...]
+    ) -> tuple[tuple[int, int, int, int, int], ...]:
+        out = []
+        for joint, member in group.joints:
+            kind = {"revolute": 0, "prismatic": 1}[member.pair.name]
+            sides = [(self._element(joint, base), -1)] if member.outer else []
+            sides += [(self._element(joint, roots[body]), body) for body in member.links]
+            for element, body in sides[1:]:
+                out.append((kind, sides[0][0], element, sides[0][1], body))
+        return tuple(out)

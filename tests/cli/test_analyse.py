@@ -1,0 +1,190 @@
+"""`gruebler analyse` as a user meets it: words, files, entries; measures, tables, refusals."""
+
+import csv
+import json
+import math
+
+import pytest
+
+from gruebler.cli import main
+from gruebler.linkages import FourBar
+from gruebler.linkages.files import write_linkage
+
+CRANK_ROCKER = "four-bar:25,70,40,70"
+
+
+def run(capsys, *arguments):
+    try:
+        status = main(("analyse", *arguments))
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def table(capsys, *arguments):
+    """Columns by header, from the JSON answer."""
+    status, out, err = run(capsys, *arguments, "--json")
+    assert (status, err) == (0, "")
+    document = json.loads(out)
+    columns = {
+        f"{c['name']} {c['unit']}".strip(): [row[k] for row in document["rows"]]
+        for k, c in enumerate(document["columns"])
+    }
+    return document, columns
+
+
+def test_a_four_bar_in_words(capsys):
+    status, out, err = run(capsys, CRANK_ROCKER, "--speed", "95.5")
+    assert (status, err) == (0, "")
+    assert "Roles: crank = crank, coupler = coupler, rocker = rocker." in out
+    assert "time ratio 1.12048348" in out
+    assert "Other assembly modes there: -." in out
+    rows = [line for line in out.splitlines() if line.split() and line.split()[0].isdigit()]
+    assert [int(row.split()[0]) for row in rows] == list(range(0, 361, 15))
+
+
+def test_german(capsys):
+    status, out, _ = run(capsys, "slidercrank", "--lang", "de", "--at", "55", "--speed", "60")
+    assert status == 0
+    assert "Rollen: crank = Kurbel, conrod = Koppel, slider = Schieber." in out
+    assert "Übertragungswinkel [°]" in out
+
+
+def test_the_velocities_of_the_reference(capsys):
+    # REFERENCE C: crank at 55 degrees, 10 radians a second
+    _, found = table(
+        capsys, CRANK_ROCKER, "--at", "55", "--speed", repr(10 * 30 / math.pi), "--point", "R(coupler-rocker)"
+    )
+    expected = {
+        "R(frame-crank) °": 55,
+        "rocker °": 72.42747938634542,
+        "ω rocker rad/s": 4.785205278035138,
+        "α rocker rad/s²": 45.135747093926994,
+        "rocker′": 0.4785205278035138,
+        "transmission angle °": 57.819218178233285,
+        "R(coupler-rocker) x mm": 82.07650800998915,
+        "R(coupler-rocker) vx mm/s": -182.47625729699473,
+        "R(coupler-rocker) ay mm/s²": -328.1041382170231,
+    }
+    assert {key: found[key][0] for key in expected} == pytest.approx(expected, rel=1e-9)
+    _, crossed = table(capsys, CRANK_ROCKER, "--at", "55", "--branch=-")
+    assert crossed["rocker °"] == pytest.approx([-112.82692058537805])
+
+
+def test_a_slider_crank_of_the_reference(capsys):
+    # exercise 15: a = 35, b = 100, e = 20 below; measures and the way from the outer dead centre
+    document, found = table(capsys, "slider-crank:35,100,-20", "--drive", "21.480375745856954:111.5:30")
+    assert found["slider mm"] == pytest.approx(
+        [127.0310869521984, 109.85858439843634, 88.95471958850746, 72.25122900078529][: len(found["slider mm"])]
+    )
+    measures = document["measures"]
+    assert {centre["side"]: centre["output"] for centre in measures["dead_centres"]} == pytest.approx(
+        {"inner": 61.84658438426491, "outer": 133.51029922818688}
+    )
+
+
+def test_files_entries_and_csv(capsys, tmp_path):
+    path, out = tmp_path / "mine.toml", tmp_path / "table.csv"
+    write_linkage(path, FourBar(25, 70, 40, 70).linkage({"K": (35, 10)}, unit="in"))
+    status, said, _ = run(capsys, str(path), "--point", "K", "--drive", "0:90:45", "-o", str(out))
+    assert status == 0
+    assert "Assembly mode" in said
+    assert "K x" not in said  # the table is in the file
+    header, *rows = list(csv.reader(out.read_text(encoding="utf-8").splitlines()))
+    assert header[:2] == ["R(frame-crank) [°]", "rocker [°]"]
+    assert "K vx [in/rad]" in header
+    assert [row[0] for row in rows] == ["0.0", "45.0", "90.0"]
+    _, found = table(capsys, "conchoid", "--point", "C", "--at", "60")
+    assert (found["C x mm"][0], found["C y mm"][0]) == pytest.approx((87.265956, -27.662798))
+
+
+def test_a_range_of_the_drive(capsys):
+    document, found = table(capsys, "four-bar:40,25,40,60")
+    assert max(found["R(frame-crank) °"]) < 78.2802397
+    assert document["complete"]
+    status, out, _ = run(capsys, "four-bar:40,25,40,60", "--drive", "0:90:15")
+    assert status == 1
+    assert "The motion ends at R(frame-crank) = 78.2802397°" in out
+    _, found = table(capsys, "loader", "--output", "bucket")
+    assert found["P(cylinder-piston) cm"][0] == 60
+    assert "bucket′ rad/cm" in found
+
+
+def test_what_cannot_be_assembled(capsys):
+    status, out, err = run(capsys, "four-bar:10,20,30,100")
+    assert (status, err) == (1, "")
+    assert "cannot be assembled" in out
+
+
+FIVE_BAR = {
+    "unit": "mm",
+    "joints": "R(0-1) R(1-2) R(2-3) R(3-4) R(0-4)",
+    "drives": ["R(0-1)", "R(0-4)"],
+    "places": {"R(0-1)": [0, 0], "R(1-2)": [-10, 40], "R(2-3)": [30, 80], "R(3-4)": [70, 40], "R(0-4)": [60, 0]},
+}
+
+
+def five_bar(tmp_path, **other):
+    path = tmp_path / "five.json"
+    path.write_text(json.dumps(FIVE_BAR | other), encoding="utf-8")
+    return str(path)
+
+
+def test_two_drives_give_poses(capsys, tmp_path):
+    path = five_bar(tmp_path)
+    document, found = table(capsys, path, "--drive", "90:120:10", "--drive", "80", "--point", "R(2-3)")
+    assert found["R(0-4) °"] == pytest.approx([80] * 4)
+    assert len(found["R(2-3) x mm"]) == 4
+    assert "measures" not in document
+    status, _, err = run(capsys, path)
+    assert status == 2
+    assert "2 drives: give --drive FROM:TO:STEP or --at once for each" in err
+
+
+def test_too_few_and_too_many_drives(capsys, tmp_path):
+    for drives, words in (
+        ([], "no joint is driven"),
+        (["R(0-1)"], "Mobility 2, drives 1"),
+        (["R(0-1)", "R(1-2)", "R(0-4)"], "Mobility 2, drives 3"),
+    ):
+        status, _, err = run(capsys, five_bar(tmp_path, drives=drives))
+        assert status == 2
+        assert words in err
+        assert err.count("\n") == 1
+
+
+REFUSED = [
+    (["four-bar:0,1,2,3"], "a must be positive, not 0"),
+    (["four-bar:nan,1,2,3"], "a must be a finite number"),
+    (["four-bar:1,2"], "four-bar: expected a,b,c,d, but found 2 numbers"),
+    (["four-bar:a,b,c,d"], "four-bar: expected numbers a,b,c,d"),
+    (["fourbar:1,2,3,4"], "did you mean 'four-bar'?"),
+    (["crankroker"], "did you mean crankrocker"),
+    (["quad"], "the catalog entry 'quad' has no dimensions; these have: "),
+    (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
+    (["none.toml"], "none.toml: cannot be read"),
+    (["/dev/null"], "a linkage is in a .toml or .json file"),
+    ([CRANK_ROCKER, "--output", "rokcer"], "did you mean 'rocker'?"),
+    ([CRANK_ROCKER, "--point", "K"], "there is no point 'K'"),
+    ([CRANK_ROCKER, "--branch", "++"], "a branch of this linkage is + or - for RRR {coupler, rocker}; found '++'"),
+    ([CRANK_ROCKER, "--drive", "0:360"], "expected FROM:TO:STEP such as 0:360:15, but found '0:360'"),
+    ([CRANK_ROCKER, "--drive", "0:360:0"], "a step other than 0"),
+    ([CRANK_ROCKER, "--drive", "0:nan:1"], "expected finite numbers"),
+    ([CRANK_ROCKER, "--drive", "0:10:-1"], "no angles lead from 0 to 10 by steps of -1"),
+    ([CRANK_ROCKER, "--drive", "0:1e8:0.001"], "more than 1,000,000 rows"),
+    ([CRANK_ROCKER, "--speed", "0"], "--speed: expected a number that is not 0"),
+    ([CRANK_ROCKER, "--speed", "nan"], "--speed: expected a number that is not 0"),
+    ([CRANK_ROCKER, "--at", "inf"], "--at: expected a finite number"),
+    ([CRANK_ROCKER, "--at", "1", "--at", "2"], "the linkage has 1 drive, but --at was given 2 times"),
+    ([CRANK_ROCKER, "--at", "1", "--drive", "0:9:1"], "--drive and --at do not go together"),
+    ([CRANK_ROCKER, "--at", "1", "-o", "/nonexistent/x.csv"], "/nonexistent/x.csv cannot be written"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "words"), REFUSED, ids=[" ".join(a)[:40] for a, _ in REFUSED])
+def test_refusals(capsys, arguments, words):
+    status, out, err = run(capsys, *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1

@@ -1,0 +1,273 @@
+"""Poses and rates of any linkage against closed forms, against differences, and against what must hold."""
+
+from math import atan2, pi
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics import degrees, move
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.mechanism import Mechanism
+
+lengths = st.floats(0.2, 5).map(lambda x: round(x, 3))
+branches = st.sampled_from("+-")
+
+
+def worst(found, wanted):
+    return np.max(np.abs(found - wanted)) / max(1, np.max(np.abs(wanted)))
+
+
+# --- closed forms as judges ------------------------------------------------------------------------
+
+
+def judged(linkage, closed, output, branch, tolerance):
+    """Every pose and rate of the general solver against the closed forms, where they are well conditioned."""
+    phi = degrees(0, 360, 5)
+    motion = move(linkage, phi, speed=3.0, acceleration=-2.0, jerk=5.0, branch=branch, order=3)
+    sign = 1 if branch == "+" else -1
+    rows = len(motion)
+    judge = closed.motion(phi[:rows], omega=3.0, alpha=-2.0, jerk=5.0, branch=sign)
+    assume(rows and np.abs(motion.roots).min() > 1e-3)  # closed forms keep their side behind a change point
+    sound = np.abs(motion.roots[:, 0]) > 0.05
+    assume(sound.any())
+    for order, name in enumerate(("value", "velocity", "acceleration", "jerk")):
+        found, wanted = output(motion, order)[sound], getattr(judge.output, name)[sound]
+        if order == 0:
+            found, wanted = np.exp(1j * found), np.exp(1j * wanted)
+        assert worst(found, wanted) < tolerance
+    assert motion.closure < 1e-12
+
+
+@settings(max_examples=40)
+@given(lengths, lengths, lengths, lengths, branches)
+def test_four_bars(a, b, c, d, branch):
+    four_bar = FourBar(a, b, c, d)
+    judged(four_bar.linkage(), four_bar, lambda m, k: m.angular("rocker", k), branch, 1e-8)
+
+
+@settings(max_examples=40)
+@given(lengths, lengths, st.floats(-1, 1).map(lambda x: round(x, 3)), branches)
+def test_slider_cranks(a, b, e, branch):
+    crank = SliderCrank(a, b, e)
+    judged(crank.linkage(), crank, lambda m, k: m.slide("P(frame-slider)", k), branch, 1e-8)
+
+
+@settings(max_examples=40)
+@given(lengths, lengths, st.floats(-1, 1).map(lambda x: round(x, 3)), branches)
+def test_inverted_slider_cranks(a, d, e, branch):
+    inverted = InvertedSliderCrank(a, d, e)
+    # the closed form looks from B0 to A, the block's line from A to B0
+    judged(inverted.linkage(), inverted, lambda m, k: m.angular("block", k) + (pi if k == 0 else 0), branch, 1e-8)
+
+
+# --- every dyad and larger groups ------------------------------------------------------------------
+
+DRAWN = {
+    "RRR": ("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)", [(0, 0), (1, 1), (5, 3), (6, 0)]),
+    "RRP": ("R(0-1) R(1-2) R(2-3) P(0-3); drive=R(0-1)", [(0, 0), (1, 1), (5, 0.5), (4, 0.4, 0.1)]),
+    "RPR": ("R(0-1) R(1-2) P(2-3) R(0-3); drive=R(0-1)", [(0, 0), (1, 1), (3, 1.5, 0.3), (6, 2)]),
+    "PRP": ("R(0-1) P(1-2) R(2-3) P(0-3); drive=R(0-1)", [(0, 0), (2, 1, 0.5), (4, 2), (4, 2.2, 1.4)]),
+    "RPP": ("R(0-1) R(1-2) P(2-3) P(0-3); drive=R(0-1)", [(0, 0), (1, 1), (3, 1.5, 1.3), (6, 2, 0.2)]),
+    "slot": ("R(0-1) R(1-2) G(0-2); drive=R(0-1)", [(0, 0), (1, 0.5), (4, 1, 0.1, "0")]),
+    "double slide": ("R(0-1) R(1-2) double_slide(0-2); drive=R(0-1)", [(0, 0), (1, 1), (2, 2, 0.4)]),
+    "two dyads": (
+        "R(0-1) R(1-2) R(2-3) R(0-3) R(2-4) R(4-5) P(0-5); drive=R(0-1)",
+        [(0, 0), (1, 1), (5, 3), (6, 0), (3, 4), (8, 5), (8, 5, -0.2)],
+    ),
+    "multiple joint": (
+        "R(0-1) R(1-2-3) R(2-4) P(0-4) R(3-5) P(0-5); drive=R(0-1)",
+        [(0, 0), (1, 0.5), (4, 4), (4, 4, pi / 4), (-4, 4), (-4, 4, 3 * pi / 4)],
+    ),
+    "3-RR": (
+        "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); drive=R(0-1)",
+        [(0, 0), (0.3, 0.2), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5)],
+    ),
+    "2-RR+RP": (
+        "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) P(4-h); drive=R(0-1)",
+        [(0, 0), (0.3, 0.2), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5, 1.0)],
+    ),
+    "cylinder": ("R(0-1) R(0-4) R(4-2) P(1-2); drive=P(1-2)", [(0, 0), (4, 0), (3, 2), (0, 0, atan2(2, 3))]),
+    "class IV": (
+        "R(0-1) R(1-2) R(2-3) R(3-4) R(4-5) R(2-5) R(0-4); drive=R(0-1)",
+        [(0, 0), (0.1, 0.05), (1, 2), (3, 3.5), (4, 1.5), (2, 0.8), (6, 3)],
+    ),
+}
+
+
+def drawn(name):
+    text, places = DRAWN[name]
+    mechanism = Mechanism.parse(text)
+    return Linkage.drawn(mechanism, dict(zip(mechanism.chain.joint_names(), places, strict=True)))
+
+
+def around_home(linkage, rows, step):
+    """A path through the home position."""
+    from gruebler.kinematics.home import at_home
+    from gruebler.kinematics.moving import planned
+
+    home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives))).drives
+    return home + step * np.arange(rows)[:, None]
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_home_is_on_the_motion_and_everything_stays_closed(name):
+    linkage = drawn(name)
+    motion = move(linkage, around_home(linkage, 200, 0.002))
+    assert motion.complete, motion.message()
+    assert motion.closure < 1e-12
+    for link, home in linkage.home.items():
+        k = motion.plan.lower.mechanism.chain.index(link)
+        assert abs(motion.places[0, 0, k] - complex(home.x, home.y)) < 1e-12 * linkage.size
+        assert abs(motion.turns[0, k] - np.exp(1j * home.angle)) < 1e-12
+
+
+WEIGHTS = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105, -1 / 280])
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_rates_are_derivatives(name):
+    """Central differences of eighth order, the drive moving at a speed that is not constant."""
+    linkage = drawn(name)
+    start = around_home(linkage, 1, 0.0)[0]
+    time = 1e-2 * np.arange(-8, 9)[:, None]
+    path = start + 0.7 * time - 0.2 * time**2 + 0.3 * time**3
+    motion = move(
+        linkage,
+        path,
+        speed=0.7 - 0.4 * time + 0.9 * time**2,
+        acceleration=-0.4 + 1.8 * time,
+        jerk=np.full_like(time, 1.8),
+        order=3,
+    )
+    middle = slice(4, -4)
+    for k in range(3):
+        for quantities, rates in (
+            (motion.places[k], motion.places[k + 1]),
+            (motion.rates[k - 1] if k else np.unwrap(np.angle(motion.turns), axis=0), motion.rates[k]),
+        ):
+            different = sum(w * quantities[n : len(quantities) - 8 + n] for n, w in enumerate(WEIGHTS)) / (
+                time[1, 0] - time[0, 0]
+            )
+            assert worst(different, rates[middle]) < 1e-7
+
+
+def test_a_parallelogram_stays_one_over_ten_turns():
+    for phi in (degrees(0, 3600, 1), degrees(0.5, 3600, 15), degrees(0, 3600, 90), degrees(-3600, 0, 7)):
+        motion = move(FourBar(1, 2, 1, 2).linkage(), phi, speed=1.0, order=3)
+        assert motion.complete
+        assert worst(motion.angle("rocker"), motion.angle("crank")) < 1e-7
+        assert np.abs(motion.angular("coupler")).max() < 1e-9
+        assert np.abs(motion.angular("rocker") - 1).max() < 1e-9
+        assert np.abs(motion.angular("rocker", 2)).max() < 1e-7
+        assert motion.closure < 1e-12
+
+
+def test_an_antiparallelogram_stays_one():
+    motion = move(FourBar(1, 2, 1, 2).linkage(), degrees(10, 730, 1), branch="-", order=1)
+    assert motion.complete
+    turned = motion.angle("rocker")
+    assert turned[-1] - turned[0] == pytest.approx(-4 * pi)
+
+
+def test_a_near_parallelogram_is_no_parallelogram():
+    """One part in a thousand off, the crank passes 180 degrees near a change point and keeps its mode."""
+    motion = move(FourBar(1, 2.001, 1.0005, 2).linkage(), degrees(90, 270, 1))
+    assert motion.complete
+    assert (motion.roots > 0).all()
+
+
+def test_the_end_of_a_range_is_found_exactly():
+    four_bar = FourBar(50, 70, 40, 70)
+    motion = move(four_bar.linkage(), degrees(60, 360, 1))
+    assert not motion.complete
+    assert motion.stop.reason == "limit"
+    assert motion.stop.drives[0] == pytest.approx(np.arccos((50**2 + 70**2 - 110**2) / (2 * 50 * 70)), abs=1e-12)
+    assert motion.stop.links == ("coupler", "rocker")
+    assert len(motion) == 73
+    assert "132.177419° the group" not in motion.message()
+    assert "132.177419°" in motion.message()
+    assert "nicht mehr zusammenbauen" in motion.message("de")
+
+
+def test_a_class_three_group_ends_inside_without_a_jump():
+    linkage = Linkage.drawn(
+        Mechanism.parse(DRAWN["3-RR"][0]),
+        dict(enumerate([(0, 0), (0.5, 0.3), *DRAWN["3-RR"][1][2:]])),
+    )
+    motion = move(linkage, degrees(30, 200, 1), order=0)
+    assert motion.stop.form == "3-RR"
+    assert motion.stop.drives[0] == pytest.approx(np.radians(97.5252475), abs=1e-8)
+    fine = move(linkage, degrees(97, 97.6, 0.001))
+    assert fine.stop.drives[0] == pytest.approx(motion.stop.drives[0], abs=1e-9)
+    assert np.abs(np.diff(motion.angle("h"))).max() < 0.1
+
+
+def test_two_drives_draw_a_straight_line():
+    five = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); drive=R(0-1); drive=R(0-4)")
+    linkage = Linkage.drawn(five, {0: (0, 0), 1: (-1, 2), 2: (1.5, 4), 3: (4, 2), 4: (3, 0)}, {"K": ("2", 1.5, 4)})
+    time = np.linspace(0, 1, 101)
+    home = [linkage.home["1"].angle, linkage.home["4"].angle]
+    path = np.array(home) + np.outer(time, [0.3, -0.2])
+    motion = move(linkage, path, speed=[0.3, -0.2], order=2)
+    assert motion.complete
+    velocity = motion.point("K", 1)
+    moved = np.trapezoid(velocity, time, axis=0)
+    assert moved == pytest.approx(motion.point("K")[-1] - motion.point("K")[0], rel=1e-4)
+
+
+def test_a_cylinder_pushes_at_its_own_speed():
+    linkage = drawn("cylinder")
+    motion = move(linkage, np.linspace(3.2, 5, 50), speed=2.0, order=3)
+    assert worst(motion.slide("P(1-2)"), motion.drives[:, 0]) < 1e-13
+    assert worst(motion.slide("P(1-2)", 1), 2.0) < 1e-12
+    assert np.abs(motion.slide("P(1-2)", 2)).max() < 1e-11
+
+
+# --- wrong calls and honest failures ---------------------------------------------------------------
+
+
+def test_a_start_that_cannot_be_assembled_is_said():
+    motion = move(FourBar(1, 1, 1, 10).linkage(), 0.0)
+    assert (len(motion), motion.stop.reason) == (0, "start")
+    assert "cannot be assembled" in motion.message()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named", "said"),
+    [
+        (([[0, 1]],), {}, "has 1 drive, but found rows of 2"),
+        (([0, float("nan")],), {}, "row 1"),
+        (("crank",), {}, "are numbers"),
+        (([],), {}, "no rows"),
+        (([0, 1],), {"order": 4}, "order is 0, 1, 2 or 3"),
+        (([0, 1],), {"speed": float("inf")}, "speed: expected finite"),
+        (([0, 1],), {"branch": "++"}, "a branch of this linkage is"),
+        (([0, 1],), {"branch": "2"}, "expected \\+ or -"),
+    ],
+)
+def test_wrong_calls_say_what_is_expected(arguments, named, said):
+    with pytest.raises(LinkageError, match=said):
+        move(FourBar(1, 2, 2, 2).linkage(), *arguments, **named)
+
+
+@pytest.mark.parametrize(("drives", "said"), [("", "free"), ("; drive=R(0-1); drive=R(0-3)", "more")])
+def test_drives_that_do_not_fix_the_motion(drives, said):
+    quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)" + drives)
+    linkage = Linkage.drawn(quad, {0: (0, 0), 1: (0, 1), 2: (3, 2), 3: (3, 0)})
+    with pytest.raises(LinkageError, match="cannot be moved by its drives"):
+        move(linkage, np.zeros((1, len(quad.drives))))
+
+
+def test_unknown_names_are_answered_with_the_nearest():
+    motion = move(FourBar(1, 2, 2, 2).linkage({"K": (1, 1)}), [0.5], order=1)
+    with pytest.raises(LinkageError, match="did you mean 'rocker'"):
+        motion.angle("roker")
+    with pytest.raises(LinkageError, match="known are K, R"):
+        motion.point("L")
+    with pytest.raises(LinkageError, match="solved up to order 1"):
+        motion.point("K", 2)
+    with pytest.raises(LinkageError, match="no sliding joint"):
+        motion.slide("R(frame-crank)")
