@@ -28,6 +28,7 @@ __all__ = [
     "closing_rates",
     "factor",
     "newton",
+    "settle",
     "solve_factored",
 ]
 
@@ -268,3 +269,46 @@ def newton(
         if moved < 1e-9 * size:
             return step + 1, determinant
     return -1, 0.0
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def settle(
+    kinds: Ints,
+    values: Reals,
+    owners: Ints,
+    points: Complexes,
+    lines: Complexes,
+    unknowns: Reals,
+    size: float,
+    residual: Reals,
+    jacobian: Reals,
+    normal: Reals,
+    pivots: Ints,
+) -> None:
+    """Close a group near a singular position and leave what its Jacobian does not hold as it is.
+
+    Damped Gauss-Newton steps: directions with a singular value below 1e-6 of the largest hardly change.
+    """
+    n = len(unknowns)
+    for _ in range(4):
+        closing(kinds, values, owners, points, lines, unknowns, size, residual, jacobian)
+        trace = 0.0
+        for i in range(n):
+            if i % 3 == 2:
+                for k in range(n):
+                    jacobian[k, i] /= size
+            for k in range(n):
+                trace += jacobian[k, i] ** 2
+        for i in range(n):
+            for m in range(n):
+                normal[i, m] = 1e-12 * trace if i == m else 0.0
+                for k in range(n):
+                    normal[i, m] += jacobian[k, i] * jacobian[k, m]
+        for i in range(n):
+            jacobian[0, i] = jacobian[0, i] * residual[0]
+            for k in range(1, n):
+                jacobian[0, i] += jacobian[k, i] * residual[k]
+        factor(normal, n, pivots)
+        solve_factored(normal, n, pivots, jacobian[0])
+        for i in range(n):
+            unknowns[i] -= jacobian[0, i] / (size if i % 3 == 2 else 1.0)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.planar_jets import turned
 
-__all__ = ["PRP", "RPP", "RPR", "RRP", "RRR", "dyad_place", "dyad_rates", "dyad_square"]
+__all__ = ["PRP", "RPP", "RPR", "RRP", "RRR", "dyad_place", "dyad_rates", "dyad_square", "meeting"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -66,7 +66,16 @@ def _offset(points: Complexes, lines: Complexes) -> float:
     """RPR: how far the second outer joint lies left of the first, seen along the slide."""
     first = lines[2].conjugate() * (points[1, 0] - points[2, 0])
     second = lines[3].conjugate() * (points[4, 0] - points[3, 0])
-    return second.imag - first.imag
+    offset: float = second.imag - first.imag
+    return offset
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def meeting(points: Complexes, size: float) -> bool:
+    """Whether the outer joints meet, so that their line has no direction."""
+    way = points[5, 0] - points[0, 0]
+    near: bool = _dot(way, way) <= 1e-26 * size * size
+    return near
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -86,10 +95,10 @@ def dyad_place(
         way = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
         d, l1, l2 = _dot(way, way), _dot(first, first), _dot(second, second)
-        if d > 1e-28 * size * size:
+        if not meeting(points, size):
             arm = way * complex((d + l1 - l2) / (2 * d), root * sqrt(l1 * l2) / d)
             turns[one] = arm * complex(first.real / l1, -first.imag / l1)
-        else:  # the outer joints meet: any direction closes, so it stays as it is
+        else:  # any direction closes: the one that the body has already
             arm = turns[one] * first
         turns[two] = (arm - way) * complex(second.real / l2, -second.imag / l2)
     elif kind == RRP:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -117,31 +117,22 @@ def run_rows(
     program: Program, made: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
 ) -> Rows:
     """Run the kernel."""
-    from gruebler._numeric.motion import run
+    from gruebler._numeric.motion import Poses, run
 
     rows, links = len(path), len(made.lower.mechanism.chain.links)
-    places = np.empty((order + 1, rows, links), np.complex128)
-    turns = np.empty((rows, links), np.complex128)
-    rates = np.empty((order, rows, links))
-    whole = np.empty((rows, links), np.int64)
-    roots, found = np.empty((rows, len(signs))), np.empty((rows, len(unknowns)))
+    poses = Poses(
+        np.empty((order + 1, links, rows), np.complex128),
+        np.empty((links, rows), np.complex128),
+        np.empty((order, links, rows)),
+        np.zeros((links, rows), np.int32),
+        np.empty((len(signs), rows)),
+        np.empty((len(unknowns), rows)),
+    )
     if speeds is None:
         speeds = np.zeros((order, *path.shape))
-    status, count, at, fault = run(
-        program, path, speeds, order, signs, unknowns, places, turns, rates, whole, roots, found
-    )
-    return Rows(
-        status,
-        count,
-        at,
-        fault,
-        places[:, :count],
-        turns[:count],
-        rates[:, :count],
-        whole[:count],
-        roots[:count],
-        found[:count],
-    )
+    status, count, at, fault = run(program, path, speeds, signs, unknowns, poses)
+    found: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
+    return Rows(status, count, at, fault, *found)
 
 
 def _path(made: Plan, drives: ArrayLike) -> Reals:

@@ -1,0 +1,184 @@
+"""What the kernels that move a linkage share: the program, the memory of the last poses, scratch arrays."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "APART",
+    "APPROACH",
+    "CARRY",
+    "DONE",
+    "FLAT",
+    "GOOD",
+    "GROUP",
+    "LEAST",
+    "LIMIT",
+    "LOST",
+    "MEET",
+    "NEAR",
+    "PUSH",
+    "SINGULAR",
+    "START",
+    "TURN",
+    "Memory",
+    "Poses",
+    "Program",
+    "Scratch",
+    "new_memory",
+    "new_scratch",
+]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+
+TURN, PUSH = 0, 1  # then the dyads, 2 to 6
+GROUP, CARRY = 7, 8
+
+DONE, LIMIT, SINGULAR, START = range(4)
+"""How a run ended: at its last row; where a dyad cannot be assembled any more; where a larger group cannot be followed;
+or at its first row already."""
+
+GOOD, APPROACH, APART, LOST, MEET = range(5)
+"""What a trial pose is: to be trusted; near a zero of a dyad's root; without a dyad that closes; with a larger group
+that is not where it should be; with outer joints of a dyad that meet, its direction still unknown."""
+FLAT = 1e-12  # a squared root below this is zero: an exact change point
+NEAR = 1e-3  # below this root a change point is looked for
+LEAST = 1e-14  # the smallest step, in rows
+
+
+class Program(NamedTuple):
+    """What a linkage is to the kernel."""
+
+    operations: Ints
+    """(operations, 10) whole numbers: what to do, then its arguments."""
+    links: Ints
+    """(elements,) the link of each joint element."""
+    points: Complexes
+    """(elements,) complex: the element's point in its link."""
+    lines: Complexes
+    """(elements,) complex of modulus 1: the element's direction in its link."""
+    conditions: Ints
+    """(groups + 1,) where the closing conditions of each larger group start."""
+    kinds: Ints
+    """(conditions,) their kinds."""
+    sides: Ints
+    """(2 conditions,) their elements."""
+    owners: Ints
+    """(2 conditions,) the body of the group that carries the element, -1 for what is known."""
+    bodies: Ints
+    """(groups + 1,) where the bodies of each larger group start."""
+    roots: Ints
+    """(bodies,) the link that stands for the body."""
+    most: Reals
+    """(drives,) the longest step of each drive."""
+    size: float
+    """A length of the order of the linkage."""
+
+
+class Poses(NamedTuple):
+    """What is written, a column for each row of the path."""
+
+    places: Complexes
+    """(order + 1, links, rows)"""
+    turns: Complexes
+    """(links, rows)"""
+    rates: Reals
+    """(order, links, rows)"""
+    whole: NDArray[np.int32]
+    """(links, rows) whole turns since the first row, for angles without jumps; 0 beforehand"""
+    roots: Reals
+    """(dyads, rows) signed roots"""
+    unknowns: Reals
+    """(3 bodies of larger groups, rows)"""
+
+
+class Memory(NamedTuple):
+    """What the last poses were, newest first; index 3 is the trial."""
+
+    at: Reals  # (4,) their places on the path
+    filled: Ints  # (1,) how many there are
+    roots: Reals  # (4, dyads) signed roots
+    unknowns: Reals  # (4, 3 bodies)
+    determinants: Reals  # (4, groups)
+    signs: Reals  # (dyads,) the sign that holds from here on
+    change: Reals  # (dyads,) where the root goes through zero, NaN if that is not known
+    after: Reals  # (dyads,) the sign behind that
+    met: Reals  # (dyads,) the place on the path where the outer joints meet
+    direction: Complexes  # (dyads,) the turn of the first body there
+    singular: Ints  # (1,) 1 + the group whose singular place is jumped; -1 - the group that is placed at it; else 0
+    which: Ints  # (1,) the dyad or group that spoils the trial
+
+
+class Scratch(NamedTuple):
+    places: Complexes
+    turns: Complexes
+    rates: Reals
+    points: Complexes
+    lines: Complexes
+    spins: Reals
+    group_points: Complexes
+    group_lines: Complexes
+    group_spins: Reals
+    residual: Reals
+    jacobian: Reals
+    normal: Reals
+    pivots: Ints
+    values: Reals
+    body_places: Complexes
+    body_turns: Complexes
+    body_rates: Reals
+    drives: Reals
+    gap: Complexes
+    foretold: Reals
+    before: Complexes
+    turned: Ints
+
+
+def new_memory(dyads: int, bodies: int, groups: int) -> Memory:
+    return Memory(
+        np.zeros(4),
+        np.zeros(1, np.int64),
+        np.zeros((4, dyads)),
+        np.zeros((4, 3 * bodies)),
+        np.zeros((4, groups)),
+        np.ones(dyads),
+        np.full(dyads, np.nan),
+        np.ones(dyads),
+        np.full(dyads, np.nan),
+        np.ones(dyads, np.complex128),
+        np.zeros(1, np.int64),
+        np.zeros(1, np.int64),
+    )
+
+
+def new_scratch(links: int, conditions: int, bodies: int, drives: int) -> Scratch:
+    c, b = max(conditions, 1), max(bodies, 1)
+    return Scratch(
+        np.zeros((links, 4), np.complex128),
+        np.ones(links, np.complex128),
+        np.zeros((links, 3)),
+        np.zeros((6, 4), np.complex128),
+        np.zeros(6, np.complex128),
+        np.zeros((6, 3)),
+        np.zeros((2 * c, 4), np.complex128),
+        np.zeros(2 * c, np.complex128),
+        np.zeros((2 * c, 3)),
+        np.zeros(3 * b + 2),
+        np.zeros((3 * b + 2, 3 * b)),
+        np.zeros((3 * b, 3 * b)),
+        np.zeros(3 * b + 2, np.int64),
+        np.zeros((c, 3)),
+        np.zeros((b, 4), np.complex128),
+        np.ones(b, np.complex128),
+        np.zeros((b, 3)),
+        np.zeros((4, drives)),
+        np.zeros(4, np.complex128),
+        np.zeros(3 * b),
+        np.ones(links, np.complex128),
+        np.zeros(links, np.int64),
+    )

@@ -1,0 +1,320 @@
+"""Many rows of a motion at once: what drives and dyads place.
+
+A sweep does for a block of rows what a walk does for one, operation by operation, in loops without branches. It makes
+no decisions: it tells how many of its rows may be trusted, by the same checks as the walk, and the walk goes on from
+there. docs/theory/kinematics.md has the equations.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import njit
+from gruebler._numeric.dyads import RPR, RRP, RRR
+from gruebler._numeric.program import NEAR, TURN, Poses, Program
+from gruebler._numeric.registers import (
+    LANES,
+    PAIR,
+    ROOT,
+    A,
+    B,
+    D,
+    E,
+    P,
+    Q,
+    T,
+    U,
+    V,
+    W,
+    circle,
+    load,
+    point,
+    put,
+    rotate,
+)
+
+__all__ = ["steady", "sweep", "swept_links"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def swept_links(program: Program) -> int:
+    """The links that a sweep places, as bits; 0 if it cannot.
+
+    It can if there are only turning drives between placed links, and dyads of two links: RRR, RPR, RRP on the frame.
+    """
+    if len(program.kinds) > 0:
+        return 0
+    for link in program.links:
+        if link > 62:
+            return 0
+    placed = 0
+    for operation in program.operations:
+        kind = operation[0]
+        if kind == TURN:
+            placed |= 1 << program.links[operation[3]]
+            continue
+        if kind not in (RRR, RRP, RPR):
+            return 0
+        one, two = operation[7], operation[8]
+        for slot in range(4):
+            if program.links[operation[2 + slot]] != (one if slot < 2 else two):
+                return 0
+        if kind == RRP and placed & (1 << program.links[operation[6]]):
+            return 0
+        placed |= (1 << one) | (1 << two)
+    return placed
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _drive(
+    order: int, link: int, sign: float, drives: Reals, speeds: Reals, d: int, turns: Complexes, rates: Reals, x: Reals
+) -> None:
+    """The turn and the rates of a link driven against another."""
+    for i in range(len(drives)):
+        x[E + i] = sign * drives[i, d]
+    circle(x)
+    load(turns[link], x, E)
+    for i in range(LANES):
+        c, s = x[A + i], x[A + LANES + i]
+        a, b = x[E + i], x[E + LANES + i]
+        x[T + i] = a * c - b * s
+        x[T + LANES + i] = a * s + b * c
+    for k in range(order):
+        for i in range(len(drives)):
+            x[V + k * LANES + i] = rates[k, link, i] + sign * speeds[k, i, d]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> None:
+    """Turns and rates of both bodies from P and Q; `first` and `second` are their vectors from outer to inner joint."""
+    l1, l2 = first.real**2 + first.imag**2, second.real**2 + second.imag**2
+    area, scale = sign * sqrt(l1) * sqrt(l2), 1 / l1 / l2
+    for i in range(LANES):
+        dx, dy = x[Q + i] - x[P + i], x[Q + LANES + i] - x[P + LANES + i]
+        d = dx * dx + dy * dy
+        m = (d + l1 - l2) / 2
+        root = sqrt((l1 * d - m * m) * scale)
+        x[ROOT + i] = sign * root
+        along, across = m / d, area * root / d
+        x[A + i] = ax = dx * along - dy * across
+        x[A + LANES + i] = ay = dx * across + dy * along
+        x[B + i] = ax - dx
+        x[B + LANES + i] = ay - dy
+    rotate(x, A, first.conjugate() / l1, T)
+    rotate(x, B, second.conjugate() / l2, U)
+    if order >= 1:
+        for i in range(LANES):
+            ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
+            x[D + i] = d = 1 / (ax * by - ay * bx)
+            tx, ty = x[Q + PAIR + i] - x[P + PAIR + i], x[Q + PAIR + LANES + i] - x[P + PAIR + LANES + i]
+            x[V + i] = (tx * bx + ty * by) * d
+            x[W + i] = (tx * ax + ty * ay) * d
+    if order >= 2:
+        for i in range(LANES):
+            ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
+            v, w, d = x[V + i] ** 2, x[W + i] ** 2, x[D + i]
+            tx = x[Q + 2 * PAIR + i] - x[P + 2 * PAIR + i] + v * ax - w * bx
+            ty = x[Q + 2 * PAIR + LANES + i] - x[P + 2 * PAIR + LANES + i] + v * ay - w * by
+            x[V + LANES + i] = (tx * bx + ty * by) * d
+            x[W + LANES + i] = (tx * ax + ty * ay) * d
+    if order >= 3:
+        for i in range(LANES):
+            ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
+            v, w, d = x[V + i], x[W + i], x[D + i]
+            v1, w1, v2, w2 = v**3, w**3, 3 * v * x[V + LANES + i], 3 * w * x[W + LANES + i]
+            tx = x[Q + 3 * PAIR + i] - x[P + 3 * PAIR + i] + v2 * ax - w2 * bx - v1 * ay + w1 * by
+            ty = x[Q + 3 * PAIR + LANES + i] - x[P + 3 * PAIR + LANES + i]
+            ty += v2 * ay - w2 * by + v1 * ax - w1 * bx
+            x[V + 2 * LANES + i] = (tx * bx + ty * by) * d
+            x[W + 2 * LANES + i] = (tx * ax + ty * ay) * d
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _rpr(order: int, sign: float, lines: tuple[complex, complex], off: float, size: float, x: Reals) -> None:
+    """Both bodies turn with the slide: Q - P = slide * (way + i off)."""
+    for i in range(LANES):
+        dx, dy = x[Q + i] - x[P + i], x[Q + LANES + i] - x[P + LANES + i]
+        d = dx * dx + dy * dy
+        way = sign * sqrt(d - off * off)
+        x[ROOT + i], x[D + i] = way / size, 1 / way
+        x[A + i], x[A + LANES + i] = (dx * way + dy * off) / d, (dy * way - dx * off) / d
+    rotate(x, A, lines[0].conjugate(), T)
+    rotate(x, A, lines[1].conjugate(), U)
+    for k in range(order):
+        for i in range(LANES):
+            dx = x[Q + (k + 1) * PAIR + i] - x[P + (k + 1) * PAIR + i]
+            dy = x[Q + (k + 1) * PAIR + LANES + i] - x[P + (k + 1) * PAIR + LANES + i]
+            along, across = x[A + i] * dx + x[A + LANES + i] * dy, x[A + i] * dy - x[A + LANES + i] * dx
+            x[E + i], x[E + LANES + i] = along, across
+        for i in range(LANES):
+            along, across, d = x[E + i], x[E + LANES + i], x[D + i]
+            if k == 0:
+                w = across * d
+                x[V + i], x[B + i] = w, along + w * off
+            elif k == 1:
+                w, way1 = x[V + i], x[B + i]
+                a = (across + w * w * off - 2 * w * way1) * d
+                x[V + LANES + i], x[B + LANES + i] = a, along + a * off + w * w / d
+            else:
+                w, a, way1, way2 = x[V + i], x[V + LANES + i], x[B + i], x[B + LANES + i]
+                x[V + 2 * LANES + i] = (across + 3 * (w * a * off - a * way1 - w * way2)) * d + w**3
+        for i in range(LANES):
+            x[W + k * LANES + i] = x[V + k * LANES + i]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _rrp(order: int, sign: float, line: complex, first: complex, second: complex, turn: complex, x: Reals) -> None:
+    """The second body slides along a line of the frame; Q is moved along to its point."""
+    length = sqrt(first.real**2 + first.imag**2)
+    u, v = line.real, line.imag
+    for i in range(LANES):
+        rx, ry = x[Q + i] + second.real - x[P + i], x[Q + LANES + i] + second.imag - x[P + LANES + i]
+        across = (u * ry - v * rx) / length
+        root = sign * sqrt(1 - across * across)
+        way = root * length - u * rx - v * ry
+        x[ROOT + i], x[D + i] = root, 1 / (root * length)
+        x[A + i], x[A + LANES + i] = rx + way * u, ry + way * v
+        x[Q + i] += way * u
+        x[Q + LANES + i] += way * v
+        x[U + i], x[U + LANES + i] = turn.real, turn.imag
+    rotate(x, A, first.conjugate() / (length * length), T)
+    for k in range(order):
+        for i in range(LANES):
+            px, py = x[P + (k + 1) * PAIR + i], x[P + (k + 1) * PAIR + LANES + i]
+            x[E + i], x[E + LANES + i] = u * px + v * py, u * py - v * px
+        for i in range(LANES):
+            ax, ay = x[A + i], x[A + LANES + i]
+            d, along, across = x[D + i], u * ax + v * ay, u * ay - v * ax
+            w, a, spin, push = x[V + i], x[V + LANES + i], x[E + LANES + i], x[E + i]
+            if k == 0:
+                spin = -spin * d
+                push -= spin * across
+            elif k == 1:
+                spin = (w * w * across - spin) * d
+                push -= spin * across + w * w * along
+            else:
+                spin = (3 * w * a * across - spin) * d + w**3
+                push -= (spin - w**3) * across + 3 * w * a * along
+            x[V + k * LANES + i], x[W + k * LANES + i] = spin, 0
+            x[Q + (k + 1) * PAIR + i] += push * u
+            x[Q + (k + 1) * PAIR + LANES + i] += push * v
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _dyad(order: int, operation: Ints, program: Program, sign: float, x: Reals) -> None:
+    p = program.points
+    q1, q2, q3, q4 = p[operation[2]], p[operation[3]], p[operation[4]], p[operation[5]]
+    lines = program.lines
+    if operation[0] == RRR:
+        _rrr(order, sign, q2 - q1, q3 - q4, x)
+    elif operation[0] == RPR:
+        one, two = lines[operation[3]], lines[operation[4]]
+        off = (two.conjugate() * (q4 - q3)).imag - (one.conjugate() * (q1 - q2)).imag
+        _rpr(order, sign, (one, two), off, program.size, x)
+    else:
+        line = lines[operation[6]]
+        turn = line * lines[operation[5]].conjugate()
+        _rrp(order, sign, line, q2 - q1, turn * (q3 - q4), turn, x)
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _trusted(roots: Reals, row: int, end: int) -> int:
+    """The first row from `row` on whose root is small, or whose change is too large."""
+    for r in range(row, end):
+        root, now = abs(roots[r]), abs(roots[r - 1])
+        if not root > max(NEAR, 0.25 * now) or (r > 1 and 2 * now - abs(roots[r - 2]) < 0.5 * now):
+            return r
+    return end
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def steady(path: Reals, row: int) -> bool:
+    """Whether the drives go on to a row as they came, not back and not much faster: then the past foretells."""
+    if row < 2:
+        return False
+    moved = False
+    for d in range(path.shape[1]):
+        way, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
+        if way * past < 0 or abs(way) > 1.5 * abs(past):
+            return False
+        moved |= way != 0
+    return moved
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _near(path: Reals, most: Reals, row: int, end: int) -> int:
+    """The first row from `row` on that is too far from the one before, or not in line."""
+    for r in range(row, end):
+        if not steady(path, r):
+            return r
+        for d in range(len(most)):
+            if not abs(path[r, d] - path[r - 1, d]) <= most[d]:
+                return r
+    return end
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _count_turns(turns: Complexes, whole: NDArray[np.int32], row: int, end: int) -> None:
+    """Whole turns: the negative x axis is crossed upwards or downwards. They are 0 already."""
+    crossed = 0
+    for r in range(row, end):
+        now, last = turns[r], turns[r - 1]
+        crossed += int((now.imag < 0) != (last.imag < 0)) & int(now.real + last.real < 0)
+    count = whole[row - 1]
+    if crossed == 0:
+        if count != 0:
+            for r in range(row, end):
+                whole[r] = count
+        return
+    for r in range(row, end):
+        now, last = turns[r], turns[r - 1]
+        if (now.imag < 0) != (last.imag < 0) and last.real * abs(now.imag) + now.real * abs(last.imag) < 0:
+            count += 1 if now.imag < 0 else -1
+        whole[r] = count
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def sweep(
+    program: Program, path: Reals, speeds: Reals, signs: Reals, row: int, placed: int, poses: Poses, x: Reals
+) -> int:
+    """Place everything at up to `LANES` rows from `row` on; returns the first row that is not to be trusted.
+
+    The row before is known, links that are not in `placed` rest. Rows from the returned one on mean nothing.
+    """
+    end = _near(path, program.most, row, min(row + LANES, len(path)))
+    if end == row:
+        return row
+    at = slice(row, end)
+    order, roots = len(poses.rates), poses.roots
+    mine, turned, spun = poses.places[:, :, at], poses.turns[:, at], poses.rates[:, :, at]
+    good = end
+    for operation in program.operations:
+        if operation[0] == TURN:
+            near, other = operation[2], operation[3]
+            link, far, d, sign = program.links[near], program.links[other], operation[1], operation[4]
+            point(order, link, program.points[near], not placed >> link & 1, mine, turned, spun, x, P)
+            _drive(order, link, float(sign), path[at], speeds[:, at], d, turned, spun, x)
+            put(order, far, program.points[other], True, mine, turned, spun, x)
+            continue
+        for slot, to in ((0, P), (5, Q)):
+            e = operation[1 + slot]
+            link = program.links[e]
+            point(order, link, program.points[e], not placed >> link & 1, mine, turned, spun, x, to)
+        number = operation[9]
+        _dyad(order, operation, program, signs[number], x)
+        for r in range(row, end):
+            roots[number, r] = x[ROOT + r - row]
+        good = _trusted(roots[number], row, good)
+        put(order, operation[7], program.points[operation[2]], True, mine, turned, spun, x)
+        put(order, operation[8], program.points[operation[5]], False, mine, turned, spun, x)
+    for link in range(len(poses.turns)):
+        if placed >> link & 1:
+            _count_turns(poses.turns[link], poses.whole[link], row, good)
+    return good
