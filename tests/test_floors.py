@@ -21,7 +21,7 @@ FLOORS = [
     {"enumeration", "mechanism"},
     {"assur", "inversion", "linkages", "gears", "cams", "geneva"},
     {"transformation", "specialisation", "kinematics"},
-    {"drawing", "realisation", "catalog"},
+    {"drawing", "geometry", "realisation", "catalog"},
     {"cli"},
 ]
 ENTRANCES = {"", "__main__"}  # the front door looks into every room, lazily; python -m opens the command line

@@ -40,15 +40,18 @@ if TYPE_CHECKING:
         circuit,
         degrees,
         drive_range,
+        four_bars,
         measures,
         motion_roles,
         move,
+        move_many,
         rotatability,
     )
     from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, read_linkage, write_linkage
     from gruebler.mechanism import Mechanism, check_drives
     from gruebler.mobility import counted, generic_mobility, mobility_report
     from gruebler.pairs import PAIRS, Alphabet, Pair, Space, pair
+    from gruebler.realisation import Realisation, realise
     from gruebler.specialisation import Requirements, joint_types, variants
     from gruebler.transformation import derive, extend
 
@@ -76,6 +79,7 @@ __all__ = [
     "NotationError",
     "Pair",
     "PairError",
+    "Realisation",
     "Requirements",
     "SliderCrank",
     "Space",
@@ -96,6 +100,7 @@ __all__ = [
     "driven_mechanisms",
     "extend",
     "find_isomorphism",
+    "four_bars",
     "gallery_html",
     "generic_mobility",
     "inversions",
@@ -105,9 +110,11 @@ __all__ = [
     "mobility_report",
     "motion_roles",
     "move",
+    "move_many",
     "pair",
     "read_linkage",
     "read_train",
+    "realise",
     "rotatability",
     "symmetry",
     "variants",
@@ -132,15 +139,18 @@ _ROOMS = {
         "circuit",
         "degrees",
         "drive_range",
+        "four_bars",
         "measures",
         "motion_roles",
         "move",
+        "move_many",
         "rotatability",
     ),
     "linkages": ("FourBar", "InvertedSliderCrank", "Linkage", "SliderCrank", "read_linkage", "write_linkage"),
     "mechanism": ("Mechanism", "check_drives"),
     "mobility": ("counted", "generic_mobility", "mobility_report"),
     "pairs": ("PAIRS", "Alphabet", "Pair", "Space", "pair"),
+    "realisation": ("Realisation", "realise"),
     "specialisation": ("Requirements", "joint_types", "variants"),
     "transformation": ("derive", "extend"),
 }

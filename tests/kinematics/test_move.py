@@ -192,6 +192,32 @@ def test_the_end_of_a_range_is_found_exactly():
     assert "nicht mehr zusammenbauen" in motion.message("de")
 
 
+@pytest.mark.parametrize("lengths", [(40, 70, 25, 70), (40, 25, 40, 60), (1, 1, 1, 2), (2, 0.2, 0.2, 2), (2, 2, 2, 5)])
+@pytest.mark.parametrize("branch", "+-")
+def test_paths_that_pass_a_limit_end_there(lengths, branch):
+    """Once an endless loop: the limit was found again and again from ever nearer."""
+    four_bar = FourBar(*lengths)
+    for path in (degrees(0, 360, 5), degrees(40, 400, 1), np.linspace(0, 2 * pi, 7)):
+        motion = move(four_bar.linkage(), path, branch=branch)
+        if motion.complete or motion.stop.reason == "start":
+            continue
+        edges = [edge for arc in four_bar.limits for edge in arc]
+        assert min(abs(np.exp(1j * motion.stop.drives[0]) - np.exp(1j * edge)) for edge in edges) < 1e-9
+
+
+def test_a_class_three_group_over_a_full_turn():
+    """Three legs that do not meet in a point, a crank that is short against them."""
+    mechanism = Mechanism.parse(DRAWN["3-RR"][0])
+    linkage = Linkage.drawn(
+        mechanism, dict(enumerate([(0, 0), (0.2, 0.132), (1, 3), (5, 0), (3.5, 3), (-2, 4), (2, 4.5)]))
+    )
+    motion = move(linkage, degrees(0, 360, 1) + linkage.home["1"].angle, order=2)
+    assert motion.complete, motion.message()
+    assert motion.closure < 1e-12
+    assert np.abs(motion.places[:, -1] - motion.places[:, 0]).max() < 1e-9
+    assert np.abs(np.diff(motion.angle("h"))).max() < 0.05
+
+
 def test_a_class_three_group_ends_inside_without_a_jump():
     linkage = Linkage.drawn(
         Mechanism.parse(DRAWN["3-RR"][0]),

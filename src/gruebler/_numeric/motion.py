@@ -278,6 +278,8 @@ def _walk_to(
             if at >= fault:
                 fault = np.inf
             step = min(2 * step, longest) if fault == np.inf else (fault - at) / 2
+            if step < LEAST * (1 + abs(at)) and at < row:
+                return LIMIT, at, step, fault, memory.which[0]
             continue
         number = memory.which[0]
         if verdict == APPROACH and abs(memory.roots[0, number]) < NEAR and fault == np.inf:

@@ -15,6 +15,7 @@ def add_linkage_commands(commands: _Commands) -> None:
     """Add them to the parser of all commands."""
     _add_analyse(commands)
     _add_grashof(commands)
+    _add_realise(commands)
     _add_gears(commands)
     _add_cam(commands)
     _add_geneva(commands)
@@ -77,6 +78,24 @@ def _add_grashof(commands: _Commands) -> None:
     )
     grashof.add_argument("--json", action="store_true", help="one object; with --free its items")
     _finish(grashof, "grashof")
+
+
+def _add_realise(commands: _Commands) -> None:
+    realise = commands.add_parser(
+        "realise",
+        help="find dimensions with which a mechanism moves",
+        description="Dimensions with which the mechanism assembles and its drives turn fully, or move over a wide "
+        "range. Without a drive: turning joints at the frame if possible.",
+        epilog="Exit status: 0 found, 1 none found or nothing to be moved, 2 wrong usage or unreadable input.",
+    )
+    realise.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    realise.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
+    realise.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
+    realise.add_argument("--seed", type=int, default=0, metavar="S", help="of the random numbers (default: 0)")
+    realise.add_argument("--tries", type=int, default=1500, metavar="N", help="drawings a search tries (default: 1500)")
+    realise.add_argument("-o", "--output", type=Path, metavar="FILE", help="a .toml or .json file for the linkage")
+    realise.add_argument("--json", action="store_true", help="an object with the linkage, ranges and quality")
+    _finish(realise, "realise")
 
 
 def _add_gears(commands: _Commands) -> None:

@@ -6,6 +6,15 @@ strokes, times, transmission angles; `rotatability` and `motion_roles` who turns
 may err: docs/theory/kinematics.md, circuits.md, events.md, assembly-modes.md.
 """
 
+from gruebler.kinematics.batch import (
+    Designs,
+    Motions,
+    designs,
+    four_bars,
+    inverted_slider_cranks,
+    move_many,
+    slider_cranks,
+)
 from gruebler.kinematics.branches import all_branches
 from gruebler.kinematics.circuits import ChangePoint, Circuit, Extreme, Stretch, circuit
 from gruebler.kinematics.course import follow
@@ -20,10 +29,12 @@ from gruebler.kinematics.turning import DriveRange, Rotatability, drive_range, m
 __all__ = [
     "ChangePoint",
     "Circuit",
+    "Designs",
     "DriveRange",
     "Extreme",
     "Measures",
     "Motion",
+    "Motions",
     "Poses",
     "Rotatability",
     "Stop",
@@ -32,12 +43,17 @@ __all__ = [
     "assembly_modes",
     "circuit",
     "degrees",
+    "designs",
     "deviation_angle",
     "drive_range",
     "follow",
+    "four_bars",
+    "inverted_slider_cranks",
     "measures",
     "motion_roles",
     "move",
+    "move_many",
     "rotatability",
+    "slider_cranks",
     "transmission_angle",
 ]

@@ -53,7 +53,7 @@ class Motion:
     """(rows, links): cosine + i sine of the angles."""
     rates: Reals
     """(order, rows, links): angular velocities, accelerations, jerks."""
-    whole: NDArray[np.int64]
+    whole: NDArray[np.int32]
     """(rows, links): whole turns to add to the angle's principal value."""
     roots: Reals
     """(rows, dyads): the signed number of each dyad that is 0 where its assembly modes meet."""

@@ -1,0 +1,59 @@
+"""`gruebler realise`: dimensions for a mechanism, found by a search."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+
+from gruebler.cli.inputs import mechanism_of
+from gruebler.linkages.files import to_json, to_toml, write_linkage
+from gruebler.realisation import Realisation, realise
+
+__all__ = ["run"]
+
+_WRITTEN = {"en": "Written: {path}", "de": "Geschrieben: {path}"}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Find dimensions and print or write them. Status 1: none were found."""
+    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
+    found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
+    if found.linkage is not None and arguments.output is not None:
+        write_linkage(arguments.output, found.linkage)
+    if arguments.json:
+        print(json.dumps(_document(found, arguments.lang), ensure_ascii=False, indent=2))
+        return 0 if found.found else 1
+    print(found.message(arguments.lang))
+    if found.linkage is not None:
+        if arguments.output is None:
+            print("\n" + to_toml(found.linkage).rstrip())
+        else:
+            print(_WRITTEN[arguments.lang].format(path=arguments.output))
+    return 0 if found.found else 1
+
+
+def _document(found: Realisation, lang: str) -> dict[str, object]:
+    out: dict[str, object] = {
+        "found": found.found,
+        "mechanism": found.mechanism.text(),
+        "message": found.message(lang),
+        "seed": found.seed,
+        "tries": found.tries,
+    }
+    if found.linkage is not None:
+        out |= {
+            "full": found.full,
+            "quality": found.quality,
+            "drives": [
+                {"joint": name, ("range_deg" if turns else "range"): [math.degrees(v) for v in ends] if turns else ends}
+                for name, ends, turns in zip(
+                    found.mechanism.drive_names(),
+                    found.ranges,
+                    [drive.direction.startswith("R") for drive in found.mechanism.drives],
+                    strict=True,
+                )
+            ],
+            "linkage": to_json(found.linkage),
+        }
+    return out

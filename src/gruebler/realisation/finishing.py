@@ -1,0 +1,139 @@
+"""From a drawing to a linkage: laid straight, scaled, rounded to sensible numbers, and moved once more to be sure."""
+
+from __future__ import annotations
+
+from math import atan2, degrees, radians
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.home import at_home
+from gruebler.kinematics.motion import Motion
+from gruebler.kinematics.moving import move, planned
+from gruebler.linkages import Line, Linkage
+from gruebler.realisation.measures import conditioning
+from gruebler.realisation.sketch import Sketch, places
+from gruebler.realisation.trial import FLOOR, Trial, closes, range_path
+
+__all__ = ["Finished", "finished", "judged"]
+
+Reals = NDArray[np.float64]
+Ranges = tuple[tuple[float, float], ...]
+
+_SIZE = 100.0
+_GRADES = ((1.0, 5.0), (0.5, 1.0), (0.1, 0.5), (0.01, 0.1), (1e-3, 1e-2))  # unit of lengths, of degrees
+_LOSS = 0.9  # of the quality that rounding may cost
+_OPEN = 1e-12
+
+
+class Finished(NamedTuple):
+    """A linkage of rounded sizes, where its drives move, and how well."""
+
+    linkage: Linkage
+    ranges: Ranges
+    quality: float
+
+
+def finished(sketch: Sketch, drawing: Reals, trial: Trial, unit: str) -> Finished | None:
+    """The linkage of the coarsest rounding that moves as the drawing does, if there is one."""
+    straight = _straight(sketch, drawing)
+    scale = sketch.size(straight) / sketch.size(drawing)
+    drawn = Linkage.drawn(sketch.mechanism, places(sketch.mechanism, sketch.slots, straight), unit=unit)
+    asked = max(FLOOR, _LOSS * _moved(drawn, trial, scale, 0.0)[1])
+    for length, angle in _GRADES:
+        linkage = _home_rounded(_rounded(drawn, length, radians(angle)), length)
+        if linkage is None:
+            continue
+        ranges, quality = _moved(linkage, trial, scale, length)
+        if quality >= asked:
+            return Finished(linkage, ranges, quality)
+    return None
+
+
+def _moved(linkage: Linkage, trial: Trial, scale: float, length: float) -> tuple[Ranges, float]:
+    """The ranges of a linkage and the smallest measure in them; 0 if it does not move through them."""
+    ranges = _ranges(linkage, trial, scale, length)
+    motion = move(linkage, range_path(ranges, full=trial.full, rows=361))
+    quality = judged(motion, full=trial.full)
+    return ranges, quality if quality and motion.closure < _OPEN else 0.0
+
+
+def judged(motion: Motion, *, full: bool) -> float:
+    """The smallest measure of a motion; 0 if it does not reach its end, or, going round, does not close."""
+    plan = motion.plan
+    if not motion.complete or (full and not closes(motion.places[0], motion.turns, plan.lower.size)):
+        return 0.0
+    return float(conditioning(plan, plan.program, motion.places[0], motion.turns, motion.roots).min())
+
+
+def _straight(sketch: Sketch, drawing: Reals) -> Reals:
+    """The frame's driven (else first) joint at the origin, its slide or its farthest pin along the x axis; scaled."""
+    mechanism, slides = sketch.mechanism, sketch.slides
+    mine = [k for k, joint in enumerate(mechanism.chain.joints) if mechanism.frame in joint.links]
+    driven = [drive.joint for drive in mechanism.drives if drive.joint in mine]
+    pins = [k for k in [*driven, *mine] if k not in slides] or mine
+    origin = drawing[pins[0], :2]
+    along = next((float(drawing[k, 2]) for k in mine if k in slides), None)
+    if along is None:
+        gaps = drawing[mine, :2] - origin
+        far = gaps[int(np.argmax(np.hypot(gaps[:, 0], gaps[:, 1])))]
+        along = atan2(far[1], far[0])
+    out = drawing.copy()
+    turn = np.exp(-1j * along) * _SIZE / sketch.size(drawing)
+    z = ((drawing[:, 0] - origin[0]) + 1j * (drawing[:, 1] - origin[1])) * turn
+    out[:, 0], out[:, 1], out[:, 2] = z.real, z.imag, drawing[:, 2] - along
+    return out
+
+
+def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
+    """Every element rounded in the coordinates of its link."""
+    elements: dict[str, dict[str | int, object]] = {link: {} for link in linkage.mechanism.chain.links}
+    for (number, link), e in linkage.elements.items():
+        x, y = _grid(e.x, length), _grid(e.y, length)
+        turn = [radians(_grid(degrees(e.angle) % 360, degrees(angle)) % 360)] if isinstance(e, Line) else []
+        elements[link][number] = (x, y, *turn)
+    assert linkage.home is not None
+    return Linkage(linkage.mechanism, elements, unit=linkage.unit, home=linkage.home)
+
+
+def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
+    """The linkage with a home position of sensible drive values that is closed; None if it cannot be assembled."""
+    home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives)))
+    turning = [drive.direction.startswith("R") for drive in linkage.mechanism.drives]
+    values: list[float] = [
+        radians(round(degrees(value))) if turns else _grid(value, length)
+        for value, turns in zip(home.drives, turning, strict=True)
+    ]
+    try:
+        motion = move(linkage, np.array([home.drives, values]))
+    except LinkageError:  # rounding has moved the joints too far apart
+        return None
+    if not motion.complete:
+        return None
+    links = linkage.mechanism.chain.links
+    at = {
+        link: (*(_grid(v, 1e-9) for v in (z.real, z.imag)), radians(_grid(degrees(motion.angle(link)[-1]), 1e-7)))
+        for link, z in zip(links, motion.places[0, -1], strict=False)
+    }
+    return linkage._changed(home=at)
+
+
+def _ranges(linkage: Linkage, trial: Trial, scale: float, length: float) -> Ranges:
+    """The ranges of a drawing as values of the linkage's drives, their ends rounded inwards if a unit is given."""
+    home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives)))
+    out = []
+    for value, (low, high), drive in zip(home.drives, trial.ranges, linkage.mechanism.drives, strict=True):
+        turning = drive.direction.startswith("R")
+        unit, factor = (radians(1) if length else 0.0, 1.0) if turning else (length, scale)
+        start, end = value + factor * low, value + factor * high
+        if unit and not trial.full:
+            start, end = np.ceil(start / unit) * unit, np.floor(end / unit) * unit
+        out.append((float(start), float(end)))
+    return tuple(out)
+
+
+def _grid(value: float, unit: float) -> float:
+    """The nearest multiple of a unit, written shortly."""
+    return round(round(value / unit) * unit, 9) + 0.0

@@ -1,0 +1,78 @@
+"""How far the poses of a linkage are from singular ones: a number for each row, 0 where assembly modes meet.
+
+For a dyad it is the sine of its transmission angle, or what stands for it; for a larger group the smallest singular
+value of its closing conditions (docs/theory/realisation.md).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.kinematics.plan import Plan
+
+if TYPE_CHECKING:
+    from gruebler._numeric.motion import Program
+
+__all__ = ["conditioning"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_ARM = 0.3  # the length by which angles are multiplied, in parts of the size
+_SCALE = 2.0  # a larger group: singular value to sine
+_SHORT = 1 / 3  # RPR: ways below this part of the size count as short
+_PIN = 0
+
+
+def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complexes, roots: Reals) -> Reals:
+    """The smallest measure of all groups in each row, 0 to 1; (rows,).
+
+    Args:
+        plan: the order of solving.
+        program: its arrays, with the dimensions.
+        places: (rows, links) origins, as x + iy.
+        turns: (rows, links) cosine + i sine of the angles.
+        roots: (rows, dyads) as `Motion.roots`.
+    """
+    worst = np.ones(len(turns))
+    for dyad in plan.dyads:
+        mine = np.abs(roots[:, dyad.number])
+        worst = np.minimum(worst, mine / _SHORT if dyad.form == "RPR" else mine)
+    if plan.conditions:
+        points = places[:, program.links] + turns[:, program.links] * program.points
+        lines = turns[:, program.links] * program.lines
+        for conditions, group in zip(plan.conditions, plan.larger, strict=True):
+            matrix = _closing(conditions, len(group.roots), points, lines, _ARM * program.size)
+            worst = np.minimum(worst, _SCALE * np.linalg.svd(matrix, compute_uv=False)[:, -1])
+    return worst
+
+
+def _closing(
+    conditions: tuple[tuple[int, int, int, int, int], ...], bodies: int, points: Complexes, lines: Complexes, arm: float
+) -> Reals:
+    """The derivative of the closing conditions by the motion of the bodies: (rows, 3 bodies, 3 bodies).
+
+    A body moves by the velocity of the mean of its joints and by its angular velocity times `arm`.
+    """
+    sides = [(body, element) for _, a, b, one, other in conditions for body, element in ((one, a), (other, b))]
+    centres = [np.mean([points[:, e] for body, e in sides if body == k], axis=0) for k in range(bodies)]
+    out = np.zeros((len(points), 3 * bodies, 3 * bodies))
+    row = 0
+    for kind, a, b, one, other in conditions:
+        for body, sign in ((one, -1.0), (other, 1.0)):
+            if body < 0:
+                continue
+            lever = (points[:, a if kind != _PIN else b] - centres[body]) * 1j / arm
+            if kind == _PIN:
+                out[:, row, 3 * body] = out[:, row + 1, 3 * body + 1] = sign
+                out[:, row, 3 * body + 2], out[:, row + 1, 3 * body + 2] = sign * lever.real, sign * lever.imag
+                continue
+            normal = 1j * lines[:, a]
+            out[:, row, 3 * body], out[:, row, 3 * body + 1] = sign * normal.real, sign * normal.imag
+            out[:, row, 3 * body + 2] = sign * (normal.conjugate() * lever).real
+            out[:, row + 1, 3 * body + 2] = sign
+        row += 2
+    return out

@@ -1,0 +1,85 @@
+"""What a search for dimensions brings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.linkages import Linkage
+from gruebler.mechanism import Mechanism
+from gruebler.realisation.trial import range_path
+
+__all__ = ["Realisation"]
+
+_TEXT = {
+    "en": {
+        "full": "{drive} turns fully.",
+        "turning": "{drive} turns from {low:.0f}° to {high:.0f}°.",
+        "sliding": "{drive} moves from {low:.6g} to {high:.6g} {unit}.",
+        "quality": "Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).",
+        "tries": "Tried: {tries} drawings (seed {seed}).",
+        "none": "No dimensions were found with which the drives move it: {tries} drawings tried (seed {seed}).",
+    },
+    "de": {
+        "full": "{drive} läuft um.",
+        "turning": "{drive} schwingt von {low:.0f}° bis {high:.0f}°.",
+        "sliding": "{drive} schiebt von {low:.6g} bis {high:.6g} {unit}.",
+        "quality": "Kleinste Maßzahl der Güte {quality:.2f} (1 ist das Beste, 0 singulär).",
+        "tries": "Versucht: {tries} Zeichnungen (Startwert {seed}).",
+        "none": "Keine Abmessungen gefunden, mit denen die Antriebe es bewegen: {tries} Zeichnungen versucht "
+        "(Startwert {seed}).",
+    },
+}
+
+
+@dataclass(frozen=True)
+class Realisation:
+    """Dimensions of a mechanism and how its drives move it, or why there are none."""
+
+    mechanism: Mechanism
+    linkage: Linkage | None
+    """None if none was found."""
+    ranges: tuple[tuple[float, float], ...]
+    """From where to where each drive moves: radians, or the linkage's unit; all drives at once within the ranges."""
+    full: bool
+    """Whether every drive turns fully; the range is then one turn."""
+    quality: float
+    """The smallest measure of conditioning in the range: 1 is best, 0 singular."""
+    tries: int
+    """How many drawings were tried."""
+    seed: int
+    reasons: tuple[str, str] = ("", "")
+    """Why nothing was sought, in English and German; empty if it was."""
+
+    @property
+    def found(self) -> bool:
+        """Whether there is a linkage."""
+        return self.linkage is not None
+
+    def path(self, rows: int = 361) -> NDArray[np.float64]:
+        """Drive values through the ranges, for `move`: (rows, drives); several drives wind at different speeds."""
+        if self.linkage is None:
+            raise LinkageError("there is no motion: no dimensions were found")
+        return range_path(self.ranges, full=self.full, rows=rows)
+
+    def message(self, lang: str = "en") -> str:
+        """What was found, in English (``en``) or German (``de``)."""
+        text = _TEXT["de" if lang == "de" else "en"]
+        if any(self.reasons):
+            return self.reasons[lang == "de"]
+        if self.linkage is None:
+            return text["none"].format(tries=self.tries, seed=self.seed)
+        said = []
+        names = self.mechanism.drive_names()
+        for name, drive, (low, high) in zip(names, self.mechanism.drives, self.ranges, strict=True):
+            turning = drive.direction.startswith("R")
+            key = "full" if self.full else "turning" if turning else "sliding"
+            ends = (degrees(low), degrees(high)) if turning else (low, high)
+            said.append(text[key].format(drive=name, low=ends[0], high=ends[1], unit=self.linkage.unit))
+        said.append(text["quality"].format(quality=self.quality))
+        said.append(text["tries"].format(tries=self.tries, seed=self.seed))
+        return " ".join(said)
