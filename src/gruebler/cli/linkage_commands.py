@@ -19,6 +19,8 @@ def add_linkage_commands(commands: _Commands) -> None:
     _add_gears(commands)
     _add_cam(commands)
     _add_geneva(commands)
+    _add_cognates(commands)
+    _add_straight(commands)
     _add_draw(commands)
     _add_gallery(commands)
 
@@ -158,6 +160,46 @@ def _add_geneva(commands: _Commands) -> None:
     geneva.add_argument("--step", type=float, metavar="DEG", help="a table of the driver's turn in such steps")
     geneva.add_argument("--json", action="store_true", help="as JSON")
     _finish(geneva, "geneva")
+
+
+def _add_cognates(commands: _Commands) -> None:
+    cognates = commands.add_parser(
+        "cognates",
+        help="the other linkages that trace the same coupler curve (Roberts, Chebyshev)",
+        description="The three cognates of a four-bar with a coupler point, or the two of a slider-crank: lengths, "
+        "coupler point, where they stand (A0 = 0, B0 on the x axis), which links turn with which.",
+        epilog="Example: gruebler cognates 25,70,40,70 45,40; gruebler cognates slider-crank:25,70,10 35,40. "
+        "A point with a negative U is written after two dashes: gruebler cognates 25,70,40,70 -- -10,40",
+    )
+    _add_coupler_point(cognates)
+    cognates.add_argument("--at", type=float, metavar="DEG", help="crank angle of the pose that is told (home pose)")
+    cognates.add_argument("--json", action="store_true", help="as JSON, with the pins of the pose")
+    _finish(cognates, "cognates")
+
+
+def _add_straight(commands: _Commands) -> None:
+    straight = commands.add_parser(
+        "straight",
+        help="how straight a coupler curve is: relative deviation, longest piece in a band",
+        description="The piece of a coupler curve symmetric about a crank angle that has a given relative deviation "
+        "Q_G = deviation/length; the longest piece in a band; or length and band of a given piece.",
+        epilog="Example: gruebler straight 20,50,50,40 100,0 --window 90 270 --direction 0; "
+        "gruebler straight 20,50,50,40 100,0 --band 0.2. Exit status: 0, 1 no such piece, 2 wrong usage.",
+    )
+    _add_coupler_point(straight)
+    straight.add_argument("--ratio", type=float, metavar="Q", help="the window about --centre with this Q_G")
+    straight.add_argument("--band", type=float, metavar="WIDTH", help="the longest piece in a band of this width")
+    straight.add_argument("--window", type=float, nargs=2, metavar=("FROM", "TO"), help="the piece between two angles")
+    straight.add_argument("--centre", type=float, default=180.0, metavar="DEG", help="crank angle (default: 180)")
+    straight.add_argument("--direction", type=float, metavar="DEG", help="of the line (default: tangent, best line)")
+    straight.add_argument("--json", action="store_true", help="as JSON")
+    _finish(straight, "straight")
+
+
+def _add_coupler_point(command: argparse.ArgumentParser) -> None:
+    command.add_argument("lengths", metavar="A,B,C,D", help="a four-bar; or slider-crank:A,B[,E]")
+    command.add_argument("point", metavar="U,V", help="the coupler point: U along the coupler, V to its left")
+    command.add_argument("--branch", type=int, choices=(1, -1), default=1, help="assembly branch (default: 1)")
 
 
 def _add_draw(commands: _Commands) -> None:

@@ -1,0 +1,48 @@
+"""Lengths and a coupler point as a user writes them: 25,70,40,70 45,40."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from gruebler.errors import GrueblerError, nearest
+from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+
+__all__ = ["coupler_point", "numbers", "sizes"]
+
+_KINDS: dict[str, tuple[Callable[..., FourBar | SliderCrank | InvertedSliderCrank], str, tuple[int, ...]]] = {
+    "four-bar": (FourBar, "A,B,C,D", (4,)),
+    "slider-crank": (SliderCrank, "A,B[,E]", (2, 3)),
+    "inverted-slider-crank": (InvertedSliderCrank, "A,D[,E]", (2, 3)),
+}
+
+
+def sizes(word: str) -> FourBar | SliderCrank | InvertedSliderCrank:
+    """The linkage of four lengths, or of a kind and its lengths.
+
+    >>> sizes("25,70,40,70"), sizes("slider-crank:25,70")
+    (FourBar(a=25.0, b=70.0, c=40.0, d=70.0), SliderCrank(a=25.0, b=70.0, e=0.0))
+    """
+    kind, colon, lengths = word.rpartition(":")
+    if colon and kind not in _KINDS:
+        raise GrueblerError(f"{word!r}: expected one of {', '.join(_KINDS)} before the colon{nearest(kind, _KINDS)}")
+    make, names, counts = _KINDS[kind or "four-bar"]
+    given = numbers(lengths, names)
+    if len(given) not in counts:
+        raise GrueblerError(f"expected the lengths {names}, but found {len(given)} numbers in {lengths!r}")
+    return make(*given)
+
+
+def coupler_point(text: str) -> tuple[float, float]:
+    """The coupler point U,V."""
+    given = numbers(text, "U,V")
+    if len(given) != 2:
+        raise GrueblerError(f"expected the coupler point U,V, but found {len(given)} numbers in {text!r}")
+    return given[0], given[1]
+
+
+def numbers(text: str, names: str) -> list[float]:
+    """Numbers between commas."""
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise GrueblerError(f"expected numbers {names}, but found {text!r}") from None

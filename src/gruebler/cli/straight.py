@@ -1,0 +1,85 @@
+"""`gruebler straight`: how straight a coupler curve is."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+
+from gruebler.cli.coupler_inputs import coupler_point, sizes
+from gruebler.errors import GrueblerError
+from gruebler.geometry.straight import Piece, coupler_path, longest_piece, piece, piece_of_ratio
+
+__all__ = ["run"]
+
+_WORDS = {
+    "en": {
+        "angles": "crank angle",
+        "window": "{start:.6f}° to {end:.6f}° ({width:.6f}°)",
+        "length": "length along the line",
+        "band": "band across the line",
+        "ratio": "relative deviation Q_G",
+        "direction": "direction of the line",
+        "none": "Every window up to a full turn about {centre:g}° is straighter than Q_G = {ratio:g}.",
+    },
+    "de": {
+        "angles": "Kurbelwinkel",
+        "window": "{start:.6f}° bis {end:.6f}° ({width:.6f}°)",
+        "length": "Länge längs der Geraden",
+        "band": "Band quer zur Geraden",
+        "ratio": "bezogene Geradführungsabweichung Q_G",
+        "direction": "Richtung der Geraden",
+        "none": "Jedes Fenster bis zu einer vollen Umdrehung um {centre:g}° ist gerader als Q_G = {ratio:g}.",
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """The piece asked for; status 1 if there is none."""
+    words = _WORDS[arguments.lang]
+    found = _found(arguments)
+    if found is None:
+        print(words["none"].format(centre=arguments.centre, ratio=arguments.ratio))
+        return 1
+    start, end = math.degrees(found.start), math.degrees(found.end)
+    if arguments.json:
+        document = {
+            "start_deg": start,
+            "end_deg": end,
+            "length": found.length,
+            "band": found.band,
+            "ratio": found.ratio if found.length else None,
+            "direction_deg": math.degrees(found.direction),
+        }
+        print(json.dumps(document, ensure_ascii=False, indent=2))
+        return 0
+    rows = (
+        ("angles", words["window"].format(start=start, end=end, width=end - start)),
+        ("length", f"{found.length:.9g}"),
+        ("band", f"{found.band:.6g}"),
+        ("ratio", f"{found.ratio:.6g}"),
+        ("direction", f"{math.degrees(found.direction):.6f}°"),
+    )
+    for key, value in rows:
+        print(f"{words[key]}: {value}")
+    return 0
+
+
+def _found(arguments: argparse.Namespace) -> Piece | None:
+    size = sizes(arguments.lengths)
+    path = coupler_path(size, *coupler_point(arguments.point), branch=arguments.branch)
+    direction = None if arguments.direction is None else math.radians(arguments.direction)
+    if sum(given is not None for given in (arguments.ratio, arguments.band, arguments.window)) != 1:
+        raise GrueblerError("ask for one of --ratio Q, --band WIDTH and --window FROM TO")
+    if arguments.ratio is not None:
+        return piece_of_ratio(path, math.radians(arguments.centre), arguments.ratio, direction)
+    if arguments.window is not None:
+        start, end = (math.radians(angle) for angle in arguments.window)
+        return piece(path, start, end, direction)
+    if direction is not None:
+        raise GrueblerError("--direction does not go with --band: the line of the longest piece is found")
+    if not size.limits:
+        raise GrueblerError(f"{arguments.lengths} cannot be assembled in any position")
+    begin = math.radians(arguments.centre) - math.pi
+    ranges = [(begin, begin + 2 * math.pi) if arc.full else (arc.start, arc.end) for arc in size.limits]
+    return max((longest_piece(path, *ends, arguments.band) for ends in ranges), key=lambda found: found.length)

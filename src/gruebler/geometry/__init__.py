@@ -1,0 +1,45 @@
+"""The geometry of motion: poles, curvature, cognates, coupler curves, straight lines.
+
+`poles` and `centrodes`, `inflection_circle` and `path_curvature` take any `Motion`; `cognates`, `slider_cognates` and
+`parallel_motion` find other linkages for one coupler curve, `coupler_sextic` its equation; `piece`, `longest_piece`
+and `piece_of_ratio` tell how straight a path is. Definitions, theorems and errors: docs/theory/geometry.md.
+"""
+
+from gruebler.geometry.curvature import InflectionCircle, PathCurvature, inflection_circle, path_curvature
+from gruebler.geometry.instant_centres import Centrodes, Poles, centrodes, poles
+from gruebler.geometry.roberts import (
+    Cognate,
+    CognateSizes,
+    cognate_sizes,
+    cognates,
+    parallel_motion,
+    slider_cognates,
+)
+from gruebler.geometry.sextic import CouplerSextic, coupler_sextic
+from gruebler.geometry.straight import Path, Piece, coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
+
+__all__ = [
+    "Centrodes",
+    "Cognate",
+    "CognateSizes",
+    "CouplerSextic",
+    "InflectionCircle",
+    "Path",
+    "PathCurvature",
+    "Piece",
+    "Poles",
+    "centrodes",
+    "cognate_sizes",
+    "cognates",
+    "coupler_path",
+    "coupler_sextic",
+    "inflection_circle",
+    "linkage_path",
+    "longest_piece",
+    "parallel_motion",
+    "path_curvature",
+    "piece",
+    "piece_of_ratio",
+    "poles",
+    "slider_cognates",
+]

@@ -1,0 +1,109 @@
+"""The motion of one link as another link sees it."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError, nearest
+from gruebler.kinematics import Motion
+
+__all__ = ["Relative", "against", "link_numbers", "resting_and_translating"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+
+_FAR = 1e10  # sizes of the linkage: poles further off have lost ten of their digits, and are told as directions
+_STILL = 1e-12  # velocities below this part of the largest in the row are roundings
+_BINOMIAL = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1))
+_ORDERS = ("positions", "velocities", "accelerations", "jerks")
+
+
+class Relative(NamedTuple):
+    """Places of a link in the coordinates of another one, with time derivatives; points are x + iy."""
+
+    places: Complexes
+    """(order + 1, rows): the link's origin and its derivatives."""
+    turn: Complexes
+    """(rows,): cosine + i sine of the link's angle."""
+    rates: Reals
+    """(order, rows): angular velocity, acceleration, jerk."""
+    size: float
+    """A length of the order of the linkage."""
+    swiftest: Reals
+    """(rows,): the largest velocity of the two links, of their origins or of points one size away."""
+
+    def point(self, arm: complex, order: int = 0) -> Complexes:
+        """A point of the link, or a derivative; (rows,)."""
+        return np.asarray(self.places[order] + _turning(self.rates, order) * self.turn * arm)
+
+    @property
+    def pole(self) -> Complexes:
+        """The instant centre; NaN where it lies at infinity (further than 1e10 sizes of the linkage) or is no point."""
+        velocity, rate = self.places[1], self.rates[0]
+        resting, far = resting_and_translating(np.abs(velocity), np.abs(rate) * self.size, self.swiftest)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(np.where(resting | far, np.nan, self.places[0] + 1j * velocity / rate))
+
+
+def against(motion: Motion, link: str, reference: str | None = None, order: int = 1) -> Relative:
+    """How a link moves against another one (without a name: the frame), up to an order of derivatives.
+
+    >>> from gruebler.kinematics import move
+    >>> from gruebler.linkages import FourBar
+    >>> seen = against(move(FourBar(25, 70, 40, 70).linkage(), [0.0, 0.1], speed=10), "frame", "crank")
+    >>> seen.rates[0].tolist()
+    [-10.0, -10.0]
+    """
+    if motion.order < order:
+        raise LinkageError(
+            f"this needs {_ORDERS[order]}, but the motion was solved up to order {motion.order}: "
+            f"ask move(..., speed=..., order={order})"
+        )
+    fixed = motion.linkage.mechanism.frame if reference is None else reference
+    m, r = link_numbers(motion, [link, fixed])
+    if m == r:
+        raise LinkageError(f"a link does not move against itself: {link!r} is given twice")
+    back = np.conj(motion.turns[:, r])
+    gaps = motion.places[:, :, m] - motion.places[:, :, r]
+    turning = [np.conj(_turning(motion.rates[:, :, r], k)) for k in range(order + 1)]
+    places = [
+        back * sum(times * turning[k - j] * gaps[j] for j, times in enumerate(_BINOMIAL[k])) for k in range(order + 1)
+    ]
+    rates = motion.rates[:order, :, m] - motion.rates[:order, :, r]
+    size, both = motion.linkage.size, [m, r]
+    swiftest = np.maximum(np.abs(motion.places[1][:, both]), np.abs(motion.rates[0][:, both]) * size).max(axis=1)
+    return Relative(np.array(places), motion.turns[:, m] * back, rates, size, swiftest)
+
+
+def link_numbers(motion: Motion, links: list[str]) -> list[int]:
+    """The columns of links in the arrays of a motion."""
+    known = motion.plan.lower.mechanism.chain.links
+    for link in links:
+        if link not in known:
+            names = motion.linkage.mechanism.chain.links
+            raise LinkageError(
+                f"there is no link {link!r}{nearest(str(link), names)}; the links are {', '.join(names)}"
+            )
+    return [known.index(link) for link in links]
+
+
+def resting_and_translating(speed: Reals, turning: Reals, swiftest: Reals) -> tuple[Flags, Flags]:
+    """Which relative velocities of links are roundings only, and which are translations; all in length per time."""
+    resting = np.maximum(speed, turning) <= _STILL * swiftest
+    return resting, ~resting & (turning * _FAR <= speed)
+
+
+def _turning(rates: Reals, order: int) -> Complexes:
+    """A derivative of e^{i theta} by its value."""
+    if order == 0:
+        return np.ones(rates.shape[1], np.complex128)
+    w = rates[0]
+    if order == 1:
+        return np.asarray(1j * w)
+    if order == 2:
+        return np.asarray(1j * rates[1] - w**2)
+    return np.asarray(1j * (rates[2] - w**3) - 3 * w * rates[1])

@@ -1,0 +1,148 @@
+"""Straight-line quality."""
+
+import math
+
+import numpy as np
+import pytest
+
+from gruebler.errors import LinkageError
+from gruebler.geometry import coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
+from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+
+LENKER = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)
+CONCHOID = coupler_path(InvertedSliderCrank(30, 50), 90, 0)
+LAMBDA = coupler_path(FourBar(20, 50, 50, 40), 100, 0)
+
+# Q_G, window in degrees, its beginning, L/l1 of the isosceles crank-rocker.
+QG_TABLE = [
+    (1e-06, 29.41365915, 165.293170425, 0.834615432),
+    (1e-05, 46.656141647, 156.671929176, 1.314814296),
+    (0.0001, 74.089500889, 142.955249556, 2.050372978),
+    (0.0005, 102.488237713, 128.755881143, 2.753253004),
+    (0.001, 117.905805725, 121.047097137, 3.099352087),
+    (0.002, 135.669166983, 112.165416509, 3.457838562),
+    (0.003, 147.28144515, 106.359277425, 3.664443871),
+    (0.004, 156.115155231, 101.942422385, 3.804739226),
+    (0.005, 163.32477378, 98.33761311, 3.907352348),
+    (0.006, 169.455607921, 95.27219604, 3.985561965),
+    (0.008, 179.581961783, 90.209019108, 4.095101238),
+    (0.01, 187.827377087, 86.086311456, 4.164803775),
+]
+
+
+@pytest.mark.parametrize(("ratio", "window", "start", "length"), QG_TABLE)
+def test_relative_deviation(ratio, window, start, length):
+    found = piece_of_ratio(LENKER, math.pi, ratio)
+    assert abs(math.degrees(found.end - found.start) - window) < 2e-7
+    assert abs(math.degrees(found.start) - start) < 1e-7
+    assert abs(found.length - length) < 5e-9
+    assert math.isclose(found.ratio, ratio, rel_tol=1e-7)
+    assert abs(math.degrees(found.direction) - 15.79316904826399) < 1e-9
+
+
+def test_window_given():
+    """163.3 degrees: L = 3.907, Dy = 0.0195."""
+    half = math.radians(163.3 / 2)
+    found = piece(LENKER, math.pi - half, math.pi + half, direction=math.radians(15.79316904826399))
+    assert abs(found.length - 3.907019046) < 1e-9
+    assert abs(found.band - 0.019520446675) < 1e-11
+    assert abs(found.ratio - 0.004996250708) < 1e-11
+
+
+def test_lambda_linkage():
+    """1 : 2 : 2.5 with 20 mm: crank angles 90 to 270 degrees, a line of 80 mm within 0.195."""
+    found = piece(LAMBDA, math.pi / 2, 3 * math.pi / 2, direction=0)
+    assert abs(found.length - 80) < 1e-9
+    assert abs(found.band - 0.195075) < 1e-6
+    assert abs(found.ratio - 0.002438) < 5e-7
+    narrow = piece(LAMBDA, math.pi / 2, 3 * math.pi / 2)
+    assert abs(narrow.band - found.band) < 1e-5
+    for band, length in ((0.01, 7.210260387), (0.05, 16.713497735), (0.1, 25.003512870), (0.2, 88.813674830)):
+        start, _ = {0.01: (172.255, 0), 0.05: (162.055, 0), 0.1: (153.165, 0), 0.2: (75.375, 0)}[band]
+        window = piece(LAMBDA, math.radians(start), math.radians(360 - start), direction=0)
+        assert abs(window.length - length) < 1e-8
+        assert window.band < band
+
+
+def test_conchoid_linkage():
+    """E17: three pieces of the conchoid, against the lines that belong to them."""
+    for start, end, band, length, direction in (
+        (66.25, 100.75, 0.09885786797, 16.797010527, 130.81807283763575),
+        (57.25, 120.75, 0.4977666221, 29.240327460, 132.0407538768386),
+        (51.5, 138.75, 0.9939175008, 37.480926940, 133.29337555286986),
+    ):
+        found = piece(CONCHOID, *np.radians([start, end]), direction=np.radians(direction))
+        assert abs(found.length - length) < 1e-9
+        assert abs(found.band - band) < 2e-5  # the figures are extremes of samples
+        assert piece(CONCHOID, *np.radians([start, end])).band <= found.band + 1e-6
+        longest = longest_piece(CONCHOID, 0, 2 * math.pi, band + 1e-9, samples=721)
+        assert longest.length > found.length - 0.2
+
+
+def test_an_exact_line():
+    """Slider-crank a = b: the point opposite to the slider moves on the y axis."""
+    exact = coupler_path(SliderCrank(3, 3), -3, 0)
+    found = piece(exact, 0.2, 1.4)
+    assert found.band < 1e-14
+    assert abs(found.length - 6 * (math.sin(1.4) - math.sin(0.2))) < 1e-12
+    assert abs(found.direction - math.pi / 2) < 1e-12
+    assert longest_piece(exact, 0.2, 1.4, 1e-9, samples=50).length == pytest.approx(found.length)
+
+
+def test_oracle_every_window():
+    """The longest piece, against all pairs of ends and many directions of the line."""
+    samples, band = 41, 1.0
+    parameters = np.linspace(0.3, 3.5, samples)
+    points = CONCHOID(parameters)
+    best = 0.0
+    for angle in np.linspace(0, math.pi, 1801):
+        seen = points * np.exp(-1j * angle)
+        for i in range(samples):
+            across = np.maximum.accumulate(seen.imag[i:]) - np.minimum.accumulate(seen.imag[i:])
+            last = i + int(np.searchsorted(across, band, side="right")) - 1
+            best = max(best, float(np.ptp(seen.real[i : last + 1])))
+    found = longest_piece(CONCHOID, 0.3, 3.5, band, samples=samples)
+    assert found.band <= band
+    assert found.length == pytest.approx(best, rel=1e-3)
+
+
+def test_any_linkage_by_moving_it():
+    linkage = FourBar(20, 50, 50, 40).linkage({"C": (100, 0)})
+    values = np.linspace(1.5, 4.5, 40).reshape(2, 20)
+    assert np.allclose(linkage_path(linkage, "C", branch="+")(values), LAMBDA(values))
+    with pytest.raises(LinkageError):
+        piece(linkage_path(FourBar(30, 20, 20, 60).linkage({"C": (5, 5)}), "C"), 0.0, 3.0)
+
+
+def test_an_ordinary_point():
+    """Where the path bends, a window of the wanted ratio is small and still has it."""
+    for ratio in (1e-2, 1e-3, 1e-4):
+        found = piece_of_ratio(CONCHOID, 3.0, ratio)
+        assert math.isclose(found.ratio, ratio, rel_tol=1e-5)
+
+
+def test_a_mirrored_path_is_as_straight():
+    def mirrored(phi):
+        return np.conj(LENKER(phi)) * np.exp(0.4j) + 3
+
+    found, other = (piece_of_ratio(path, math.pi, 0.003) for path in (LENKER, mirrored))
+    assert other.length == pytest.approx(found.length, rel=1e-9)
+    assert other.band == pytest.approx(found.band, rel=1e-8)
+
+
+def test_what_cannot_be():
+    assert piece_of_ratio(coupler_path(SliderCrank(3, 3), -3, 0), 0.8, 0.01, widest=1.0) is None
+    with pytest.raises(LinkageError, match="no point at the parameter"):
+        piece(coupler_path(FourBar(60, 30, 30, 70), 5, 5), 0, 3)
+    with pytest.raises(LinkageError, match="ratio must be positive"):
+        piece_of_ratio(LENKER, math.pi, 0)
+    with pytest.raises(LinkageError, match="bends too much for a relative deviation of 1e-12"):
+        piece_of_ratio(CONCHOID, 3.0, 1e-12)
+    with pytest.raises(LinkageError, match="one point for each parameter"):
+        piece(lambda at: at[:2], 0, 1)
+    with pytest.raises(LinkageError, match="band must be positive"):
+        longest_piece(LENKER, 0, 1, -1)
+    with pytest.raises(LinkageError, match="samples must be a whole number"):
+        piece(LENKER, 0, 1, samples=2)
+    with pytest.raises(LinkageError, match="start must be a finite number"):
+        piece(LENKER, math.nan, 1)
