@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from gruebler.cams import Cam, CamError
     from gruebler.chain import Chain, Joint
     from gruebler.drawing import draw, gallery_html
+    from gruebler.drawing.animation import animated_svg
+    from gruebler.drawing.linkage_picture import draw_linkage
     from gruebler.enumeration import chains, count_chains
     from gruebler.errors import CatalogError, ChainError, GrueblerError, LinkageError, NotationError, PairError
     from gruebler.gears import GearError, Train, read_train
@@ -96,6 +98,7 @@ __all__ = [
     "SliderCrank",
     "Space",
     "Train",
+    "animated_svg",
     "assur_groups",
     "centrodes",
     "chains",
@@ -111,6 +114,7 @@ __all__ = [
     "degrees",
     "derive",
     "draw",
+    "draw_linkage",
     "drive_range",
     "driven_mechanisms",
     "extend",
@@ -148,6 +152,8 @@ _ROOMS = {
     "cams": ("Cam", "CamError"),
     "chain": ("Chain", "Joint"),
     "drawing": ("draw", "gallery_html"),
+    "drawing.animation": ("animated_svg",),
+    "drawing.linkage_picture": ("draw_linkage",),
     "enumeration": ("chains", "count_chains"),
     "errors": ("CatalogError", "ChainError", "GrueblerError", "LinkageError", "NotationError", "PairError"),
     "gears": ("GearError", "Train", "read_train"),
@@ -192,6 +198,10 @@ _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 
 
 def _picture(thing: Any) -> str:
+    if hasattr(thing, "elements"):  # a linkage
+        from gruebler.drawing.linkage_picture import draw_linkage
+
+        return str(draw_linkage(thing, labels=True).svg())
     from gruebler.drawing import draw
 
     return str(draw(thing, labels=True).svg())

@@ -1,21 +1,30 @@
-"""`gruebler draw`: the structure picture of a chain or mechanism, its graph, contracted graph or loops."""
+"""`gruebler draw`: the structure picture of a chain or mechanism, its graph, contracted graph or loops; or a linkage.
+
+What has sizes is drawn to scale: files, lengths such as four-bar:25,70,40,70, and entries of the catalog when a pose, a
+curve or something else of the motion is asked for.
+"""
 
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 from gruebler.catalog import Entry, entries
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text, mechanism_of
+from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.drawing import Figure, draw, draw_contracted, draw_graph, draw_loops
 from gruebler.drawing.files import picture_bytes, suffix_of
 from gruebler.enumeration.checkpoint import whole_file
+from gruebler.errors import GrueblerError
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["german", "run", "subject", "written"]
+__all__ = ["entry_of", "german", "run", "sized", "subject", "written"]
 
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
@@ -24,24 +33,99 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
 }
 
 
+_OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "branch": None, "of": None}
+"""Options that only linkages have."""
+
+
 def run(arguments: argparse.Namespace) -> int:
-    """Draw one chain or mechanism into a file, or as SVG on standard output."""
+    """Draw one chain, mechanism or linkage into a file, or as SVG on standard output."""
     suffix = "svg" if arguments.output is None else suffix_of(arguments.output)
-    thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive)
-    record = None if is_text(arguments.chain) else entries().get(arguments.chain)
-    name = "" if record is None else record.name.said(arguments.lang)
-    view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
-    if view is None:
-        figure = draw(
-            thing, labels=arguments.labels, lang=arguments.lang, name=name, names=german(record, arguments.lang)
-        )
-    else:
-        figure = view(thing, lang=arguments.lang, name=name)
+    figure = _figure(arguments)
     if arguments.output is None:
         sys.stdout.write(figure.svg())
     else:
         written(arguments.output, picture_bytes(figure, suffix))
     return 0
+
+
+def _figure(arguments: argparse.Namespace) -> Figure:
+    moving = {key: getattr(arguments, key, none) for key, none in _OF_MOTION.items()}
+    view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
+    asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
+    if view is not None and asked:
+        raise GrueblerError(f"graphs and loops show no sizes: they do not go together with {asked[0]}")
+    has_sizes = _has_sizes(arguments.chain)
+    if view is None and (has_sizes or asked):
+        return _to_scale(arguments, moving)
+    record = entry_of(arguments.chain)
+    name = "" if record is None else record.name.said(arguments.lang)
+    if has_sizes:
+        thing: Chain | Mechanism = linkage_of(arguments.chain)[0].mechanism
+    else:
+        thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive)
+    if view is not None:
+        return view(thing, lang=arguments.lang, name=name)
+    return draw(thing, labels=arguments.labels, lang=arguments.lang, name=name, names=german(record, arguments.lang))
+
+
+def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figure:
+    from gruebler.drawing.linkage_picture import draw_linkage
+
+    for option in ("space", "frame", "drive"):
+        if getattr(arguments, option):
+            raise GrueblerError(f"a linkage with sizes has its own frame and drives: it is drawn without --{option}")
+    linkage, between = sized(arguments.chain)
+    record = entry_of(arguments.chain)
+    return draw_linkage(
+        linkage,
+        _pose(linkage, moving["pose"]),
+        branch=moving["branch"],
+        between=between,
+        curves=moving["curve"],
+        show=moving["show"],
+        output=moving["of"],
+        labels=arguments.labels,
+        lang=arguments.lang,
+        name="" if record is None else record.name.said(arguments.lang),
+        names=german(record, arguments.lang),
+    )
+
+
+def sized(word: str) -> tuple[Linkage, tuple[float, float] | None]:
+    """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
+    linkage, shown = linkage_of(word)
+    drives = linkage.mechanism.drives
+    if shown is None or not drives or not drives[0].direction.startswith("R"):
+        return linkage, shown
+    return linkage, (math.radians(shown[0]), math.radians(shown[1]))
+
+
+def _has_sizes(word: str) -> bool:
+    """Whether a word stands for a linkage without being asked: a file, or lengths."""
+    if is_text(word) or word in entries():
+        return False
+    return ":" in word or Path(word).suffix.lower() in (".toml", ".json") or Path(word).is_file()
+
+
+def _pose(linkage: Linkage, text: str | None) -> list[float] | None:
+    """Drive values, in radians where the drive turns; None for the linkage's own pose."""
+    if not text:
+        return None
+    drives = linkage.mechanism.drives
+    try:
+        values = [float(part) for part in text.split(",")]
+    except ValueError:
+        values = []
+    if len(values) != len(drives) or not all(math.isfinite(value) and abs(value) < 1e9 for value in values):
+        many = "one number" if len(drives) == 1 else f"{len(drives)} numbers with commas"
+        raise GrueblerError(f"--pose: expected {many}, degrees where a drive turns, but found {text!r}")
+    turning = [drive.direction.startswith("R") for drive in drives]
+    return [math.radians(value) if turns else value for value, turns in zip(values, turning, strict=True)]
+
+
+def entry_of(word: str) -> Entry | None:
+    """The catalog entry of that name, if there is one."""
+    return None if is_text(word) else entries().get(word)
 
 
 def german(record: Entry | None, lang: str) -> Mapping[str, str]:

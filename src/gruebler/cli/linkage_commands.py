@@ -22,6 +22,7 @@ def add_linkage_commands(commands: _Commands) -> None:
     _add_cognates(commands)
     _add_straight(commands)
     _add_draw(commands)
+    _add_animate(commands)
     _add_gallery(commands)
 
 
@@ -207,10 +208,34 @@ def _add_draw(commands: _Commands) -> None:
         "draw",
         help="draw a chain or a mechanism",
         description="The structure picture of a chain or mechanism: links as bodies, joints by their signs, the frame "
-        "hatched, drives as arrows.",
+        "hatched, drives as arrows. With --pose, --curve or --show, or of a linkage: to scale.",
         epilog="Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
-    draw.add_argument("chain", metavar="CHAIN|ID", help="a text, a code, g6:CODE or the id of a catalog entry")
+    draw.add_argument(
+        "chain",
+        metavar="CHAIN|ID|FILE",
+        help="a text, a code, g6:CODE, the id of a catalog entry, the file of a linkage, or lengths such as "
+        "four-bar:25,70,40,70",
+    )
+    draw.add_argument(
+        "--pose",
+        nargs="?",
+        const="",
+        metavar="VALUE[,VALUE]",
+        help="to scale, at this drive value (degrees, or a way; --pose=-30,20 for several drives); alone: a good pose",
+    )
+    draw.add_argument(
+        "--curve", action="append", default=[], metavar="POINT", help="the path of a point or joint; repeatable"
+    )
+    draw.add_argument(
+        "--show",
+        action="append",
+        default=[],
+        choices=("dead-centres", "transmission", "velocities", "poles", "scale"),
+        help="also show this; repeatable",
+    )
+    draw.add_argument("--of", metavar="LINK", help="the output whose dead centres and transmission angle are shown")
+    draw.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
     draw.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
     draw.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
     draw.add_argument("--frame", metavar="LINK", help="the link that stands still")
@@ -221,6 +246,27 @@ def _add_draw(commands: _Commands) -> None:
     view.add_argument("--contracted", action="store_true", help="the contracted graph instead")
     view.add_argument("--loops", action="store_true", help="mark the independent loops")
     _finish(draw, "draw")
+
+
+def _add_animate(commands: _Commands) -> None:
+    animate = commands.add_parser(
+        "animate",
+        help="a linkage that moves by itself, as SVG",
+        description="A full turn of the drive, or to and fro where it has limits, over and over; SVG, no script.",
+        epilog="Example: gruebler animate wiper -o wiper.svg --seconds 3. Without -o the SVG goes to standard output.",
+    )
+    animate.add_argument(
+        "linkage", metavar="FILE|ID", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    animate.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg")
+    animate.add_argument(
+        "--curve", action="append", default=[], metavar="POINT", help="the path of a point or joint; repeatable"
+    )
+    animate.add_argument(
+        "--seconds", type=float, default=4.0, metavar="S", help="for a turn, or for there and back (default: 4)"
+    )
+    animate.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +-")
+    _finish(animate, "animate")
 
 
 def _add_gallery(commands: _Commands) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-__all__ = ["Arc", "Circle", "Figure", "Lines", "Point", "Shape", "Text", "figure_of", "text_width"]
+__all__ = ["Arc", "Circle", "Figure", "Lines", "Point", "Shape", "Text", "bounds", "figure_of", "text_width"]
 
 
 class Point(NamedTuple):
@@ -118,11 +118,17 @@ class Figure:
 def figure_of(shapes: Iterable[Shape], title: str, description: str, margin: float = 10.0) -> Figure:
     """The figure that just holds the shapes."""
     all_shapes = tuple(shapes)
-    corners = [corner for shape in all_shapes for corner in _corners(shape)]
+    corner, size = bounds(all_shapes, margin)
+    moved = tuple(_moved(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
+    return Figure(moved, size.x, size.y, title, description)
+
+
+def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]:
+    """The upper left corner of shapes with a margin around them, and their width and height."""
+    corners = [corner for shape in shapes for corner in _corners(shape)]
     left, top = (min(axis) - margin for axis in zip(*corners, strict=True))
     right, bottom = (max(axis) + margin for axis in zip(*corners, strict=True))
-    moved = tuple(_moved(shape, Point(-left, -top)) for shape in all_shapes)
-    return Figure(moved, right - left, bottom - top, title, description)
+    return Point(left, top), Point(right - left, bottom - top)
 
 
 def text_width(words: str, size: float = 13.0) -> float:

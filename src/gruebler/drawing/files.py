@@ -17,7 +17,7 @@ def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
     """The kind of file that a name asks for; `GrueblerError` if it is none of those known."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in known:
-        endings = ", ".join(f".{one}" for one in known[:-1]) + f" or .{known[-1]}"
+        endings = " or ".join(filter(None, (", ".join(f".{one}" for one in known[:-1]), f".{known[-1]}")))
         raise GrueblerError(f"{str(path)!r} does not say what kind of picture it is: end it with {endings}")
     return suffix
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text, text_width
 from gruebler.drawing.styles import BAR, STYLES
 
-__all__ = ["labelled", "legend", "short_names"]
+__all__ = ["Room", "labelled", "legend", "noted", "short_names"]
 
 _HALF = 7.0  # half the height of a text
 _ENOUGH = 7.0  # pixels around a text; more is no better
@@ -34,14 +34,26 @@ def labelled(
     """
     called = {link: (names or {}).get(link, link) for link in outlines}
     points = [point for outline in outlines.values() for point in outline]
-    drawn = [*_obstacles(shapes)]
-    found = _placed(outlines, closed, _Room(drawn, points), called)
+    drawn = [*obstacles(shapes)]
+    found = _placed(outlines, closed, Room(drawn, points), called)
     if found is not None:
         return [*shapes, *found]
     numbers = {link: str(k) for k, link in enumerate(outlines, 1)}
-    found = _placed(outlines, closed, _Room(drawn, points), numbers)
+    found = _placed(outlines, closed, Room(drawn, points), numbers)
     assert found is not None  # numbers are short
     return [*shapes, *found, *legend({called[link]: number for link, number in numbers.items()}, points)]
+
+
+def noted(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Text:
+    """A text near a point, where the shapes leave most room for it; above and to the right if nothing is in the way."""
+    room, wide = Room([*obstacles(shapes)], [at]), text_width(words, STYLES[style].size)
+    places = [
+        Point(at.x + (off + wide / 2) * math.cos(turn), at.y - (off + _HALF) * math.sin(turn))
+        for off in (8.0, 14.0, 22.0, 32.0)
+        for turn in (math.pi * k / 8 for k in (2, 6, 14, 10, 0, 8, 4, 12, 1, 3, 5, 7, 9, 11, 13, 15))
+    ]
+    best = max(range(len(places)), key=lambda k: (min(room.free(places[k], wide), _LEAST), -k))
+    return Text(places[best], words, style)
 
 
 def short_names(links: Sequence[str]) -> dict[str, str]:
@@ -52,7 +64,7 @@ def short_names(links: Sequence[str]) -> dict[str, str]:
 
 
 def _placed(
-    outlines: Mapping[str, Sequence[Point]], closed: Mapping[str, bool], room: _Room, names: Mapping[str, str]
+    outlines: Mapping[str, Sequence[Point]], closed: Mapping[str, bool], room: Room, names: Mapping[str, str]
 ) -> list[Shape] | None:
     """A text for every link, the longest first; None if a long one would touch something."""
     texts: list[Shape] = []
@@ -88,8 +100,8 @@ def _core(at: Point, wide: float) -> Segment:
 
 
 @dataclass
-class _Room:
-    """What is drawn already: segments with half their width, points that make up the figure, and texts."""
+class Room:
+    """Where there is room for a text: segments drawn, with half their width, points of the figure, and texts."""
 
     drawn: list[tuple[Segment, float]]
     points: list[Point]
@@ -111,7 +123,7 @@ class _Room:
         return _OUTSIDE * min(1.2, at.minus(middle).length / max(most, 1.0))
 
 
-def _obstacles(shapes: Sequence[Shape]) -> Iterator[tuple[Segment, float]]:
+def obstacles(shapes: Sequence[Shape]) -> Iterator[tuple[Segment, float]]:
     for shape in shapes:
         match shape:
             case Lines(parts, style, closed) if not style.startswith("halo"):
@@ -121,6 +133,8 @@ def _obstacles(shapes: Sequence[Shape]) -> Iterator[tuple[Segment, float]]:
                     yield from (((a, b), half) for a, b in pairwise(ends))
             case Circle(at, radius) | Arc(at, radius):
                 yield (at, at), radius
+            case Text(at, words, style, "middle"):
+                yield _core(at, text_width(words, STYLES[style].size)), _HALF
 
 
 def _gap(level: Segment, other: Segment) -> float:

@@ -1,19 +1,24 @@
 """How shapes look: colours by role, for light and dark ground, and one row for each style.
 
-Links are told apart by outline and hatching, never by colour alone; the one accent (drives, loops) is the vermilion of
-the palette of Okabe and Ito (2008), which all kinds of colour vision tell from grey.
+Links are told apart by outline and hatching, never by colour alone; the accent (drives, loops) and the colour of motion
+(curves, velocities) are the vermilion and the blue of the palette of Okabe and Ito (2008), which all kinds of colour
+vision tell from grey and from each other.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["BAR", "COLOURS", "LINE", "STYLES", "Style"]
+__all__ = ["BAR", "COLOURS", "LINE", "ROD", "SLOT", "STYLES", "Style"]
 
 BAR = 9.0
 """Width of a link."""
 LINE = 1.4
 """Width of an outline."""
+SLOT = 14.8
+"""Width of a slot, for a pin."""
+ROD = 5.0
+"""Width of the rod of a cylinder."""
 
 # role: on light ground, on dark ground
 COLOURS = {
@@ -23,6 +28,7 @@ COLOURS = {
     "frame": ("#f3efe4", "#2f2d27"),
     "faint": ("#8a929c", "#868e99"),
     "accent": ("#d55e00", "#ff8c3a"),
+    "motion": ("#0072b2", "#56b4e9"),
 }
 
 
@@ -61,4 +67,18 @@ STYLES = {
     "letter": Style(fill="ink", size=11),
     "mark": Style(fill="accent", size=13),
     "note": Style(fill="faint", size=12),
+    "outline-wide": Style(stroke="ink", width=SLOT + 9 + 2 * LINE),
+    "body-wide": Style(stroke="body", width=SLOT + 9),
+    "outline-rod": Style(stroke="ink", width=ROD + 2 * LINE),
+    "body-rod": Style(stroke="body", width=ROD),
+    "slot-rim": Style(stroke="ink", width=SLOT + 2 * LINE),
+    "slot": Style(stroke="paper", width=SLOT),
+    "ghost": Style(stroke="faint", width=1.3),
+    "ghost-pin": Style(fill="paper", stroke="faint", width=1.2),
+    "curve": Style(stroke="motion", width=1.8),
+    "curve-rest": Style(stroke="faint", width=1.2),
+    "velocity": Style(stroke="motion", width=1.8),
+    "velocity-head": Style(fill="motion"),
+    "measure": Style(stroke="ink", width=1.1),
+    "value": Style(fill="ink", size=12),
 }

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from xml.sax.saxutils import escape
 
 from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text
 from gruebler.drawing.styles import COLOURS, STYLES, Style
 
-__all__ = ["style_sheet", "svg"]
+__all__ = ["document", "element", "number", "style_sheet", "svg"]
 
 _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *range(55296, 57344)))
 
@@ -20,16 +21,22 @@ def svg(figure: Figure, *, styled: bool = True) -> str:
     >>> svg(figure_of([Circle(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]
     '<title>one &lt; two</title><desc>a circle</desc>'
     """
-    width, height = _number(figure.width), _number(figure.height)
-    used = sorted({"ground", *(shape.style for shape in figure.shapes)}, key=list(STYLES).index)
+    used = [shape.style for shape in figure.shapes]
+    return document(figure, used if styled else None, map(element, figure.shapes))
+
+
+def document(page: Figure, used: Iterable[str] | None, lines: Iterable[str]) -> str:
+    """A page of the size of a figure, with its title and description, around elements that use these styles."""
+    width, height = number(page.width), number(page.height)
+    styles = None if used is None else sorted({"ground", *used}, key=list(STYLES).index)
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" class="gr" role="img" width="{width}" height="{height}" '
             f'viewBox="0 0 {width} {height}">',
-            f"<title>{_plain(figure.title)}</title><desc>{_plain(figure.description)}</desc>",
-            *([f"<style>{style_sheet(used)}</style>"] if styled else []),
+            f"<title>{_plain(page.title)}</title><desc>{_plain(page.description)}</desc>",
+            *([] if styles is None else [f"<style>{style_sheet(styles)}</style>"]),
             f'<rect class="gr-ground" width="{width}" height="{height}" rx="6"/>',
-            *map(_element, figure.shapes),
+            *lines,
             "</svg>\n",
         ]
     )
@@ -55,19 +62,20 @@ def _declarations(style: Style, ground: int) -> str:
     return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])
 
 
-def _element(shape: Shape) -> str:
+def element(shape: Shape) -> str:
+    """A shape as an element of SVG."""
     match shape:
         case Lines(parts, style, closed):
             return f'<path class="gr-{style}" d="{"".join(_line(part, closed) for part in parts)}"/>'
         case Circle(at, radius, style):
-            return f'<circle class="gr-{style}" cx="{_number(at.x)}" cy="{_number(at.y)}" r="{_number(radius)}"/>'
+            return f'<circle class="gr-{style}" cx="{number(at.x)}" cy="{number(at.y)}" r="{number(radius)}"/>'
         case Arc(_, radius, _, extent, style):
-            size = _number(radius)
+            size = number(radius)
             flags = f"{int(abs(extent) > math.pi)} {int(extent > 0)}"
             ends = _pair(shape.place(0)), _pair(shape.place(1))
             return f'<path class="gr-{style}" d="M{ends[0]}A{size} {size} 0 {flags} {ends[1]}"/>'
         case Text(at, words, style, anchor):
-            where = f'x="{_number(at.x)}" y="{_number(at.y + 0.35 * STYLES[style].size)}"'
+            where = f'x="{number(at.x)}" y="{number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
             return f'<text class="gr-{style}" {where}{anchored}>{_plain(words)}</text>'
 
@@ -77,10 +85,10 @@ def _line(points: tuple[Point, ...], closed: bool) -> str:
 
 
 def _pair(point: Point) -> str:
-    return f"{_number(point.x)} {_number(point.y)}"
+    return f"{number(point.x)} {number(point.y)}"
 
 
-def _number(value: float) -> str:
+def number(value: float) -> str:
     """Tenths of a pixel; no minus zero."""
     return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
 

@@ -246,12 +246,12 @@ def straight_drive(at: Point, axis: Point, side: Point) -> list[Shape]:
     return arrow(middle.plus(axis, -17.0), middle.plus(axis, 13.0))
 
 
-def arrow(tail: Point, tip: Point) -> list[Shape]:
-    """A straight arrow."""
-    return [Lines(((tail, tip),), "drive"), _head(tip, tip.minus(tail).unit)]
+def arrow(tail: Point, tip: Point, line: str = "drive", head: str = "head") -> list[Shape]:
+    """A straight arrow; its head goes on for 7 pixels beyond the tip of the line."""
+    return [Lines(((tail, tip),), line), _head(tip, tip.minus(tail).unit, head)]
 
 
-def _head(at: Point, forward: Point) -> Lines:
+def _head(at: Point, forward: Point, style: str = "head") -> Lines:
     side = forward.across
     back = at.plus(forward, -1.5)
-    return Lines(((at.plus(forward, 7.0), back.plus(side, 4.6), back.plus(side, -4.6)),), "head", closed=True)
+    return Lines(((at.plus(forward, 7.0), back.plus(side, 4.6), back.plus(side, -4.6)),), style, closed=True)

@@ -8,6 +8,7 @@ from math import hypot, pi
 from types import MappingProxyType
 from typing import Any
 
+from gruebler import views
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import Element, Line, Named, Pin, Place, fitting, read_element
 from gruebler.mechanism import Mechanism
@@ -252,6 +253,10 @@ class Linkage:
 
     def __hash__(self) -> int:
         return hash(self._key())
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return views.picture(self) if views.picture else None
 
     def __repr__(self) -> str:
         return f"<linkage {self.mechanism.text()}>"

@@ -1,0 +1,185 @@
+"""A linkage on the stage: one pose, the way of its drive through all others, and the scale that shows them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.figure import Point
+from gruebler.errors import LinkageError
+from gruebler.kinematics import Motion, move
+from gruebler.kinematics.course import Course, follow
+from gruebler.kinematics.home import at_home
+from gruebler.kinematics.moving import planned
+from gruebler.linkages import Linkage, Named, Pin
+
+__all__ = ["Stage", "staged"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_PIXELS = 380.0  # for the longer side of all that the pins reach
+_SHORTEST = 34.0  # pixels between two pins of one link, as long as the picture does not become huge
+_LARGEST = 2.2  # times the usual size
+_ROWS = 72  # poses of a turn, or of a range
+_INSIDE = 1e-6  # of the range: how far from a limit the last pose lies
+_ENDLESS = 1.5  # sizes on both sides of the start of a slide without limits
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What pictures and animations of a linkage need to know of its motion."""
+
+    lower: Linkage
+    """The linkage with turning and sliding joints only; links that it had before keep their names."""
+    course: Course | None
+    """The whole motion; None with several drives."""
+    pose: Motion
+    """One row, with rates for a drive of speed 1 where there is one drive."""
+    path: Motion
+    """Rows through the range of the drive, evenly in time; the pose alone with several drives."""
+    scale: float
+    """Pixels to a unit of length."""
+
+    @property
+    def linkage(self) -> Linkage:
+        """As it was given."""
+        return self.pose.linkage
+
+    @property
+    def goes_round(self) -> bool:
+        """Whether the path is a closed one: after its last row comes its first."""
+        drives = self.path.drives[:, 0]
+        return self.course is not None and _is_whole(self.course, drives)
+
+    def local(self, z: complex) -> Point:
+        """A point of a link in pixels, in coordinates of the link."""
+        return Point(self.scale * z.real, -self.scale * z.imag)
+
+    def place(self, point: Named) -> Point:
+        """Where a point lies in the pose, in pixels."""
+        return self.local(complex(self.pose.complex_point(point)[0]))
+
+    @property
+    def reach(self) -> tuple[Point, Point]:
+        """The upper left and the lower right corner of what joints and named points reach on the path, in pixels."""
+        z = self.scale * _reached(self.lower, self.path)
+        low, high = z.real.min() + 1j * z.imag.min(), z.real.max() + 1j * z.imag.max()
+        return Point(float(low.real), -float(high.imag)), Point(float(high.real), -float(low.imag))
+
+    def driven(self) -> Course:
+        """The course; `LinkageError` with several drives."""
+        if self.course is None:
+            count = len(self.linkage.mechanism.drives)
+            raise LinkageError(f"this is drawn for linkages with one drive only; this one has {count}")
+        return self.course
+
+
+def _is_whole(course: Course, drives: Reals) -> bool:
+    """Whether drive values go through all turns after which everything repeats."""
+    return bool(drives[-1] - drives[0] > course.span.period * (1 - 1e-9))
+
+
+def staged(
+    linkage: Linkage,
+    drive: float | Sequence[float] | None = None,
+    *,
+    branch: str | Iterable[str] | None = None,
+    between: tuple[float, float] | None = None,
+) -> Stage:
+    """Follow a linkage through its range, or between two drive values, and stop it in a pose.
+
+    Without a drive value the pose is the home; else a third of the way to a half turn; else the middle of the range.
+
+    Raises `LinkageError` for a linkage without a drive, or a pose that it cannot reach.
+    """
+    if not isinstance(linkage, Linkage):
+        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    if not linkage.mechanism.drives:
+        names = linkage.mechanism.chain.joint_names()
+        raise LinkageError(f"no joint is driven, so there is no pose; name a drive, such as {names[0]}")
+    plan = planned(linkage)
+    try:
+        given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
+    except (TypeError, ValueError):
+        raise LinkageError(f"drive values are numbers, but found {drive!r}") from None
+    if len(linkage.mechanism.drives) == 1:
+        course = follow(linkage, branch)
+        path = course.at(_rows(course, between), 0)
+        pose = course.at(np.array([_value(course, given, path.drives[:, 0])]), 2)
+        return Stage(plan.lower, course, pose, path, _scale(plan.lower, path))
+    if given is None:
+        zeros = np.zeros(len(linkage.mechanism.drives))
+        given = zeros if plan.lower.home is None else at_home(plan, zeros).drives
+    pose = move(linkage, given.reshape(1, -1), branch=branch)
+    if not len(pose):
+        raise LinkageError(pose.message())
+    return Stage(plan.lower, None, pose, pose, _scale(plan.lower, pose))
+
+
+def _rows(course: Course, between: tuple[float, float] | None) -> Reals:
+    """Drive values: even ones of full turns, else slow at both ends."""
+    span = course.span
+    low, high = span.low, span.high
+    if between is None and span.full:
+        return np.linspace(low, high, _ROWS * span.turns + 1)
+    if not course.turning_drive:
+        middle, room = float(course.start.drives[0, 0]), _ENDLESS * course.plan.lower.size
+        low = low if span.stops[0] is not None else max(low, middle - room)
+        high = high if span.stops[1] is not None else min(high, middle + room)
+    low, high = low + _INSIDE * (high - low), high - _INSIDE * (high - low)
+    if between is not None:
+        turn = 2 * math.pi if course.turning_drive and not span.full else math.inf
+        shift = turn * round((low + high - sum(between)) / 2 / turn) if turn < math.inf else 0.0
+        asked = between[0] + shift, between[1] + shift
+        low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
+    if not high > low:
+        raise LinkageError(f"{_range(course)}; nothing of it lies between the two values asked for")
+    return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2
+
+
+def _value(course: Course, given: Reals | None, rows: Reals) -> float:
+    """The drive value of the pose."""
+    if given is None:
+        start = float(course.start.drives[0, 0])
+        if course.plan.lower.home is not None and rows[0] <= start <= rows[-1]:
+            return start
+        return math.pi / 3 if _is_whole(course, rows) else float(rows[len(rows) // 2])
+    if given.shape != (1,) or not np.isfinite(given).all():
+        raise LinkageError(f"expected one finite drive value, but found {given.tolist()}")
+    value, span = float(given[0]), course.span
+    if course.turning_drive and not span.full:
+        value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
+    if not span.full and not span.low <= value <= span.high:
+        raise LinkageError(f"{_range(course)}; there is no pose at {_said(course, float(given[0]))}")
+    return value
+
+
+def _range(course: Course) -> str:
+    return f"the drive goes from {_said(course, course.span.low)} to {_said(course, course.span.high)} on this branch"
+
+
+def _said(course: Course, value: float) -> str:
+    return f"{math.degrees(value):.6g} degrees" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
+
+
+def _reached(lower: Linkage, path: Motion) -> Complexes:
+    """Where all joints and named points are on the path, one after another."""
+    places = [Named(link, e.x, e.y) for (_, link), e in lower.elements.items()]
+    return np.concatenate([path.complex_point(place) for place in (*places, *lower.points.values())])
+
+
+def _scale(lower: Linkage, path: Motion) -> float:
+    """Pixels to a unit, so that all poses fit and short links stay longer than their pins are thick."""
+    links, z = lower.mechanism.chain.links, _reached(lower, path)
+    extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
+    usual = _PIXELS / extent
+    pins = {link: {e for (_, own), e in lower.elements.items() if own == link and isinstance(e, Pin)} for link in links}
+    pins.pop(lower.mechanism.frame)
+    sides = [math.dist(a, b) for mine in pins.values() for a, b in combinations(sorted(mine), 2)]
+    return min(max(usual, _SHORTEST / min(sides, default=math.inf)), _LARGEST * usual)
