@@ -26,6 +26,7 @@ from gruebler.linkages.files import to_json
 
 if TYPE_CHECKING:
     from gruebler.kinematics.measuring import Measures
+    from gruebler.mechanism import Role
 
 __all__ = ["run"]
 
@@ -201,7 +202,11 @@ def _tell(
 
         written(arguments.csv, as_csv(made).encode("utf-8"))
     if arguments.json:
-        print(json.dumps(_document(linkage, found, motion, made), ensure_ascii=False, indent=2, allow_nan=False))
+        print(
+            json.dumps(
+                _document(linkage, found, motion, made, arguments.lang), ensure_ascii=False, indent=2, allow_nan=False
+            )
+        )
     else:
         if found is not None:
             _say(linkage, found, _WORDS[arguments.lang], arguments.lang)
@@ -213,12 +218,10 @@ def _tell(
 
 
 def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
-    from gruebler.kinematics.turning import motion_roles
-
     print(found.explain(lang))
-    roles = motion_roles(linkage, branch=found.branch)
-    moving = (f"{link} = {role.said(lang)}" for link, role in roles.items() if link != linkage.mechanism.frame)
-    print(words["roles"].format(roles=", ".join(moving)))
+    if roles := _roles(linkage, found):
+        moving = (f"{link} = {role.said(lang)}" for link, role in roles.items() if link != linkage.mechanism.frame)
+        print(words["roles"].format(roles=", ".join(moving)))
     if found.branch:
         print(words["branch"].format(branch=_label(found.branch)))
         if others := _others(linkage, found):
@@ -226,14 +229,28 @@ def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) ->
     print()
 
 
-def _document(linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column]) -> dict[str, Any]:
+def _roles(linkage: Linkage, found: Measures) -> dict[str, Role] | None:
+    """What each link turns out to be; None where the measures begin in a place that no circuit can start from."""
+    from gruebler.kinematics.turning import motion_roles
+
+    try:
+        return motion_roles(linkage, branch=found.branch)
+    except LinkageError:
+        return None
+
+
+def _document(
+    linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], lang: str
+) -> dict[str, Any]:
     document: dict[str, Any] = {"linkage": to_json(linkage)}
     if found is not None:
         document |= {"measures": found.to_json(), "other_branches": _others(linkage, found)}
+        roles = _roles(linkage, found)
+        document["roles"] = None if roles is None else {link: str(role) for link, role in roles.items()}
     rows = zip(*(column.values for column in made), strict=True)
     return document | {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],
         "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
         "complete": motion.complete,
-        "message": motion.message(),
+        "message": motion.message(lang),
     }

@@ -60,6 +60,8 @@ class Motion:
     unknowns: Reals
     """(rows, 3 bodies of larger groups)."""
     stop: Stop | None
+    unbounded: tuple[int, ...] = ()
+    """Rows at a limit of the drive, where links would have to move infinitely fast: their rates are NaN."""
 
     def __len__(self) -> int:
         return len(self.drives)
@@ -75,7 +77,7 @@ class Motion:
         return len(self.rates)
 
     def message(self, lang: str = "en") -> str:
-        """Where and why it stopped; empty if it did not."""
+        """Where and why it stopped, and in which rows rates are not finite; else empty."""
         from gruebler.kinematics.prose import stopped
 
         return stopped(self, lang)

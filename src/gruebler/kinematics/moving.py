@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -22,7 +23,9 @@ if TYPE_CHECKING:
 __all__ = ["Rows", "degrees", "mend_rates", "motion_of", "move", "planned", "run_rows"]
 
 Reals = NDArray[np.float64]
+Ints = NDArray[np.int64]
 _REASONS = {1: "limit", 2: "singular", 3: "start"}
+_AT_CHANGE = 1e-4  # below this root a path that turns back is taken to turn back in a change point
 _SINGULAR = 1e-5  # below this root the linear equations of the rates lose too many digits
 _STEP = 0.04  # radians (or part of the size): how far from a change point rates are taken to find those at it
 
@@ -107,11 +110,94 @@ def move(
         signs, unknowns = _start(made, path[0], branch)
     except Unassembled as found:
         return _never(made, path, upto, found)
-    rows = run_rows(made.program, made, path, speeds, upto, signs, unknowns)
+    kept, again = _without_rests(path)
+    rows = _there_and_back(made, path[kept], speeds[:, kept], upto, signs, unknowns)
+    if len(kept) < len(path):
+        rows = _with_rests(rows, kept, again, made, path, speeds, upto)
     motion = motion_of(made, path, rows)
     if upto:
-        mend_rates(made, motion, path, speeds, signs)
+        motion = replace(motion, unbounded=mend_rates(made, motion, path, speeds, signs))
     return motion
+
+
+def _without_rests(path: Reals) -> tuple[Ints, Ints]:
+    """The rows that differ from the one before, and for each row which of these it repeats."""
+    moves = np.concatenate([[True], (np.diff(path, axis=0) != 0).any(axis=1)])
+    return np.flatnonzero(moves), np.cumsum(moves) - 1
+
+
+def _with_rests(rows: Rows, kept: Ints, again: Ints, made: Plan, path: Reals, speeds: Reals, order: int) -> Rows:
+    """The rows of a path whose rests were left out; rates there are solved with the speeds that are given for them."""
+    count = int(np.searchsorted(again, rows.reached))
+    pick = again[:count]
+    places, rates = rows.places[:, pick], rows.rates[:, pick]
+    for row in np.setdiff1d(np.arange(count), kept) if order else ():
+        one = run_rows(
+            made.program,
+            made,
+            path[row : row + 1],
+            np.ascontiguousarray(speeds[:, row : row + 1]),
+            order,
+            np.where(rows.roots[again[row]] < 0, -1.0, 1.0),
+            rows.unknowns[again[row]].copy(),
+        )
+        if one.reached:
+            places[1:, row], rates[:, row] = one.places[1:, 0], one.rates[:, 0]
+    at = rows.at if rows.status == 0 else float(kept[min(int(rows.at), len(kept) - 1)]) + rows.at % 1
+    return rows._replace(
+        reached=count,
+        at=at,
+        places=places,
+        turns=rows.turns[pick],
+        rates=rates,
+        whole=rows.whole[pick],
+        roots=rows.roots[pick],
+        unknowns=rows.unknowns[pick],
+    )
+
+
+def _there_and_back(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> Rows:
+    """Run the kernel; where one drive turns back in a change point, go on from before it, so that the path is retraced.
+
+    In a change point a dyad's sign is that of the way onward; for the way back it is the one before.
+    """
+    rows = run_rows(made.program, made, path, np.ascontiguousarray(speeds), order, signs, unknowns)
+    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    if path.shape[1] > 1 or not branching or len(path) < 3:
+        return rows
+    steps = np.diff(path[:, 0])
+    for corner in (1 + np.flatnonzero(steps[1:] * steps[:-1] < 0)).tolist():
+        if corner >= rows.reached or np.abs(rows.roots[corner, branching]).min() > _AT_CHANGE:
+            continue
+        before = corner - 1
+        while (
+            before > 0
+            and steps[before - 1] * steps[corner - 1] > 0
+            and (np.abs(rows.roots[before, branching]).min() < _AT_CHANGE)
+        ):
+            before -= 1
+        rest = np.concatenate([path[before : before + 1], path[corner + 1 :]])
+        rates = np.concatenate([speeds[:, before : before + 1], speeds[:, corner + 1 :]], axis=1)
+        state = np.where(rows.roots[before] < 0, -1.0, 1.0)
+        back = run_rows(made.program, made, rest, rates, order, state, rows.unknowns[before].copy())
+        rows = _joined(rows, corner + 1, back, rows.whole[before])
+    return rows
+
+
+def _joined(rows: Rows, count: int, back: Rows, whole: NDArray[np.int32]) -> Rows:
+    """The first rows, then what another run found behind its first row."""
+    return Rows(
+        back.status,
+        count + back.reached - 1,
+        count - 1 + back.at,
+        back.fault,
+        np.concatenate([rows.places[:, :count], back.places[:, 1:]], axis=1),
+        np.concatenate([rows.turns[:count], back.turns[1:]]),
+        np.concatenate([rows.rates[:, :count], back.rates[:, 1:]], axis=1),
+        np.concatenate([rows.whole[:count], back.whole[1:] + whole]),
+        np.concatenate([rows.roots[:count], back.roots[1:]]),
+        np.concatenate([rows.unknowns[:count], back.unknowns[1:]]),
+    )
 
 
 def run_rows(
@@ -232,19 +318,25 @@ def _stop(made: Plan, at: float, drives: Reals, part: Dyad | Larger, reason: str
     return Stop(at, tuple(float(v) for v in drives), group.links, group.form(), reason)
 
 
-def mend_rates(made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals) -> None:
+def mend_rates(made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals) -> tuple[int, ...]:
     """Put the limits of the rates where the linkage passes an exact change point: the linear equations fail there.
 
     Along a branch the rates are analytic in the drive. They are found at eight places around the row and interpolated
     by a polynomial of degree 7: relative error of the order of 1e-12 for motions that are smooth over 0.16 radians.
+    Returns the rows without finite limits (the drive stands at its limit); their rates are NaN.
     """
     branching = [dyad.number for dyad in made.dyads if dyad.branching]
     small = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) < _SINGULAR
     broken = ~np.isfinite(motion.rates).all(axis=(0, 2))
+    unbounded = []
     for row in np.flatnonzero(small | broken):
         found = _limit(made, motion, path, speeds, signs, int(row))
         if found is not None:
             motion.places[1:, row], motion.rates[:, row] = found
+        else:
+            motion.places[1:, row] = motion.rates[:, row] = np.nan
+            unbounded.append(int(row))
+    return tuple(unbounded)
 
 
 def _limit(
@@ -252,11 +344,16 @@ def _limit(
 ) -> tuple[NDArray[np.complex128], Reals] | None:
     way = speeds[0, row].copy()
     scale = np.array([1.0 if d.direction.startswith("R") else made.lower.size for d in made.lower.mechanism.drives])
+    if not way.any():  # at rest: any direction does
+        way = scale.copy()
     length = float(np.abs(way / scale).max())
-    if not length:
-        return None
-    neighbour = row + 1 if row + 1 < len(motion) else row - 1
-    if 0 <= neighbour < len(motion):
+    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    sound = (np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _SINGULAR) & (path != path[row]).any(axis=1)[
+        : len(motion)
+    ]
+    behind, before = np.flatnonzero(sound[row + 1 :]), np.flatnonzero(sound[:row])
+    neighbour = row + 1 + int(behind[0]) if len(behind) else int(before[-1]) if len(before) else -1
+    if neighbour >= 0:
         towards = path[neighbour] - path[row]
         state, unknowns = np.where(motion.roots[neighbour] < 0, -1.0, 1.0), motion.unknowns[neighbour]
         side = -1.0 if float((towards / scale) @ (way / scale)) < 0 else 1.0
@@ -264,7 +361,7 @@ def _limit(
         state, unknowns, side = signs, motion.unknowns[row], 1.0
     offsets = side * np.array([4, 3, 2, 1, -1, -2, -3, -4.0])
     around = path[row] + offsets[:, None] * _STEP * way / length
-    beside = path[neighbour : neighbour + 1] if 0 <= neighbour < len(motion) else around[:1]
+    beside = path[neighbour : neighbour + 1] if neighbour >= 0 else around[:1]
     around = np.concatenate([beside, around])
     still = np.repeat(speeds[:, row : row + 1], len(around), axis=1)
     rows = run_rows(made.program, made, around, still, len(speeds), state, unknowns)

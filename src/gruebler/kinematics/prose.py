@@ -11,6 +11,11 @@ if TYPE_CHECKING:
 __all__ = ["drive_text", "stopped"]
 
 _SAID = {
+    ("unbounded", "en"): "At {drives} the drive stands at its limit: there are no finite rates.",
+    (
+        "unbounded",
+        "de",
+    ): "Bei {drives} steht der Antrieb in seiner Grenzlage: endliche Geschwindigkeiten gibt es dort nicht.",
     ("limit", "en"): "The motion ends at {drives}: there {form} {{{links}}} can no longer be assembled.",
     ("limit", "de"): "Die Bewegung endet bei {drives}: dort lässt sich {form} {{{links}}} nicht mehr zusammenbauen.",
     ("singular", "en"): "The motion ends at {drives}: there two assembly modes of {form} {{{links}}} meet.",
@@ -22,11 +27,15 @@ _SAID = {
 
 def stopped(motion: Motion, lang: str) -> str:
     """See `Motion.message`."""
-    stop = motion.stop
-    if stop is None:
-        return ""
-    text = _SAID[stop.reason, "de" if lang == "de" else "en"]
-    return text.format(drives=drive_text(motion, stop.drives), form=stop.form, links=", ".join(stop.links))
+    stop, said = motion.stop, "de" if lang == "de" else "en"
+    out = []
+    if motion.unbounded:
+        first = tuple(float(v) for v in motion.drives[motion.unbounded[0]])
+        out.append(_SAID["unbounded", said].format(drives=drive_text(motion, first)))
+    if stop is not None:
+        links = ", ".join(stop.links)
+        out.append(_SAID[stop.reason, said].format(drives=drive_text(motion, stop.drives), form=stop.form, links=links))
+    return " ".join(out)
 
 
 def drive_text(motion: Motion, values: tuple[float, ...]) -> str:
