@@ -283,6 +283,25 @@ def test_a_cylinder_pushes_at_its_own_speed():
     assert np.abs(motion.slide("P(1-2)", 2)).max() < 1e-11
 
 
+@pytest.mark.parametrize("path", [np.linspace(50, -200, 100), np.linspace(50, -200, 1001), [50.0, -50.0]])
+def test_a_cylinder_does_not_pass_a_narrow_gap(path):
+    """The pivots are 60 apart, the lever is 59.97 long: below a way of 0.03 there is no triangle."""
+    mechanism = Mechanism.parse("R(0-1) P(1-2) R(2-3) R(0-3); drive=P(1-2)")
+    linkage = Linkage(
+        mechanism,
+        {
+            "0": {0: (0, 0), 3: (60, 0)},
+            "1": {0: (0, 0), 1: (0, 0, 0)},
+            "2": {1: (0, 0, 0), 2: (0, 0)},
+            "3": {2: (59.97, 0), 3: (0, 0)},
+        },
+    )
+    motion = move(linkage, path, speed=-1.0)
+    assert motion.stop.drives[0] == pytest.approx(0.03, abs=1e-10)
+    assert motion.stop.reason == "limit"
+    assert motion.closure < 1e-12
+
+
 # --- wrong calls and honest failures ---------------------------------------------------------------
 
 

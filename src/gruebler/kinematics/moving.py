@@ -25,7 +25,7 @@ __all__ = ["Rows", "degrees", "mend_rates", "motion_of", "move", "planned", "run
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
 _REASONS = {1: "limit", 2: "singular", 3: "start"}
-_AT_CHANGE = 1e-4  # below this root a path that turns back is taken to turn back in a change point
+_AT_CHANGE = 1e-7  # below this root a path that turns back is taken to turn back in a change point
 _SINGULAR = 1e-5  # below this root the linear equations of the rates lose too many digits
 _STEP = 0.04  # radians (or part of the size): how far from a change point rates are taken to find those at it
 
@@ -110,14 +110,24 @@ def move(
         signs, unknowns = _start(made, path[0], branch)
     except Unassembled as found:
         return _never(made, path, upto, found)
-    kept, again = _without_rests(path)
-    rows = _there_and_back(made, path[kept], speeds[:, kept], upto, signs, unknowns)
-    if len(kept) < len(path):
+    rows = run_rows(made.program, made, path, speeds, upto, signs, unknowns)
+    if _lingers(made, path, rows.roots):
+        kept, again = _without_rests(path)
+        rows = _there_and_back(made, path[kept], speeds[:, kept], upto, signs, unknowns)
         rows = _with_rests(rows, kept, again, made, path, speeds, upto)
     motion = motion_of(made, path, rows)
     if upto:
         motion = replace(motion, unbounded=mend_rates(made, motion, path, speeds, signs))
     return motion
+
+
+def _lingers(made: Plan, path: Reals, roots: Reals) -> bool:
+    """Whether the path rests or turns back in a change point of a dyad."""
+    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    steps = np.diff(path, axis=0)
+    turns = (steps[1:] * steps[:-1] <= 0).all(axis=1)
+    at_change = np.flatnonzero(np.abs(roots[:, branching]).min(axis=1, initial=1.0) < _AT_CHANGE)
+    return any(0 < row <= len(turns) and turns[row - 1] for row in at_change.tolist())
 
 
 def _without_rests(path: Reals) -> tuple[Ints, Ints]:
@@ -203,7 +213,10 @@ def _joined(rows: Rows, count: int, back: Rows, whole: NDArray[np.int32]) -> Row
 def run_rows(
     program: Program, made: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
 ) -> Rows:
-    """Run the kernel."""
+    """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`."""
+    extra = _passed(made, path)
+    if len(extra):
+        return _with_extra_rows(program, made, path, speeds, order, signs, unknowns, extra)
     from gruebler._numeric.motion import Poses, run
 
     rows, links = len(path), len(made.lower.mechanism.chain.links)
@@ -220,6 +233,57 @@ def run_rows(
     status, count, at, fault = run(program, path, speeds, signs, unknowns, poses)
     found: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
     return Rows(status, count, at, fault, *found)
+
+
+def _passed(made: Plan, path: Reals) -> Reals:
+    """The places on the path, in rows, where a driven slide passes its `Plan.shortest` between two rows."""
+    places = []
+    for k, value in made.shortest if len(path) > 1 else ():
+        before, behind = path[:-1, k] - value, path[1:, k] - value
+        rows = np.flatnonzero(before * behind < 0)
+        places.append(rows + before[rows] / (before[rows] - behind[rows]))
+    return np.unique(np.concatenate(places)) if places else np.empty(0)
+
+
+def _with_extra_rows(
+    program: Program,
+    made: Plan,
+    path: Reals,
+    speeds: Reals | None,
+    order: int,
+    signs: Reals,
+    unknowns: Reals,
+    extra: Reals,
+) -> Rows:
+    at = np.concatenate([np.arange(len(path), dtype=np.float64), extra])
+    by_place = np.argsort(at, kind="stable")
+    at, asked = at[by_place], by_place < len(path)
+    row, part = np.minimum(at.astype(int), len(path) - 2), at - np.minimum(at.astype(int), len(path) - 2)
+    filled = path[row] + part[:, None] * (path[row + 1] - path[row])
+    filled[asked] = path
+    for k, value in made.shortest:  # exactly there, so that it is not passed once more
+        near = ~asked & (np.abs(filled[:, k] - value) < 1e-9 * made.lower.size)
+        filled[near, k] = value
+    fast = None
+    if speeds is not None:
+        fast = np.zeros((order, *filled.shape))
+        fast[:, asked] = speeds[:order]
+    rows = run_rows(program, made, filled, fast, order, signs, unknowns)
+    pick = np.flatnonzero(asked[: rows.reached])
+    low = min(int(rows.at), len(at) - 1)
+    high = min(low + 1, len(at) - 1)
+    return Rows(
+        rows.status,
+        len(pick),
+        float(at[low] + (rows.at - low) * (at[high] - at[low])),
+        rows.fault,
+        rows.places[:, pick],
+        rows.turns[pick],
+        rows.rates[:, pick],
+        rows.whole[pick],
+        rows.roots[pick],
+        rows.unknowns[pick],
+    )
 
 
 def _path(made: Plan, drives: ArrayLike) -> Reals:

@@ -116,6 +116,31 @@ class Plan:
         turning = [d.direction.startswith("R") for d in self.lower.mechanism.drives]
         return np.array([_LONGEST_TURN if turns else _LONGEST_PUSH * self.lower.size for turns in turning])
 
+    @cached_property
+    def shortest(self) -> tuple[tuple[int, float], ...]:
+        """Drive values where a driven slide brings the two joints of its body nearest: number of the drive, way.
+
+        There a dyad may be impossible for so short a way that steps would pass it unseen.
+        """
+        program = self.program
+        out = []
+        for _, k, near, far, sign in (o for o in self.operations if o[0] == _PUSH):
+            line = program.lines[near]
+            turn = line * np.conj(program.lines[far])
+            for operation in self.operations:
+                for one, other in (operation[2:4], operation[4:6]) if operation[0] == _DYADS["R", "R", "R"] else ():
+                    if {program.links[one], program.links[other]} != {program.links[near], program.links[far]}:
+                        continue
+                    if program.links[one] != program.links[near]:
+                        one, other = other, one  # noqa: PLW2901
+                    gap = (
+                        program.points[near]
+                        + turn * (program.points[other] - program.points[far])
+                        - program.points[one]
+                    )
+                    out.append((k, float(-sign * (np.conj(line) * gap).real)))
+        return tuple(out)
+
     def element_arrays(self, lower: Linkage) -> tuple[np.ndarray, np.ndarray]:
         """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
         elements = [lower.elements[key] for key in self.keys]
