@@ -125,7 +125,7 @@ def _lingers(made: Plan, path: Reals, roots: Reals) -> bool:
     """Whether the path rests or turns back in a change point of a dyad."""
     branching = [dyad.number for dyad in made.dyads if dyad.branching]
     steps = np.diff(path, axis=0)
-    turns = (steps[1:] * steps[:-1] <= 0).all(axis=1)
+    turns = np.all(steps[1:] * steps[:-1] <= 0, axis=1).tolist()
     at_change = np.flatnonzero(np.abs(roots[:, branching]).min(axis=1, initial=1.0) < _AT_CHANGE)
     return any(0 < row <= len(turns) and turns[row - 1] for row in at_change.tolist())
 
