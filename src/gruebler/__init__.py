@@ -198,7 +198,9 @@ _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 
 
 def _picture(thing: Any) -> str:
-    if hasattr(thing, "elements"):  # a linkage
+    from gruebler.linkages import Linkage
+
+    if isinstance(thing, Linkage):
         from gruebler.drawing.linkage_picture import draw_linkage
 
         return str(draw_linkage(thing, labels=True).svg())

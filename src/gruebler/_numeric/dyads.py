@@ -16,13 +16,12 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.planar_jets import turned
+from gruebler._numeric.program import PRP, RPP, RPR, RRP, RRR
 
-__all__ = ["PRP", "RPP", "RPR", "RRP", "RRR", "dyad_place", "dyad_rates", "dyad_square", "meeting"]
+__all__ = ["dyad_place", "dyad_rates", "dyad_square", "meeting"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
-
-RRR, RRP, RPR, PRP, RPP = range(2, 7)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)

@@ -9,9 +9,23 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.closure import closing, closing_rates, factor, newton, settle, solve_factored
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.dyads import PRP, RPP, RRR, dyad_place, dyad_rates, dyad_square, meeting
+from gruebler._numeric.dyads import dyad_place, dyad_rates, dyad_square, meeting
 from gruebler._numeric.planar_jets import carry, element, turned
-from gruebler._numeric.program import APART, APPROACH, GOOD, GROUP, LOST, MEET, TURN, Memory, Program, Scratch
+from gruebler._numeric.program import (
+    APART,
+    APPROACH,
+    GOOD,
+    GROUP,
+    LOST,
+    MEET,
+    PRP,
+    RPP,
+    RRR,
+    TURN,
+    Memory,
+    Program,
+    Scratch,
+)
 
 __all__ = ["attempt", "commit", "set_drives"]
 

@@ -20,7 +20,12 @@ __all__ = [
     "LOST",
     "MEET",
     "NEAR",
+    "PRP",
     "PUSH",
+    "RPP",
+    "RPR",
+    "RRP",
+    "RRR",
     "SINGULAR",
     "START",
     "TURN",
@@ -36,8 +41,8 @@ Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 
-TURN, PUSH = 0, 1  # then the dyads, 2 to 6
-GROUP, CARRY = 7, 8
+TURN, PUSH, RRR, RRP, RPR, PRP, RPP, GROUP, CARRY = range(9)
+"""What an operation does: a driven turn or push, a dyad, a larger group; a link that is carried along by its body."""
 
 DONE, LIMIT, SINGULAR, START = range(4)
 """How a run ended: at its last row; where a dyad cannot be assembled any more; where a larger group cannot be followed;

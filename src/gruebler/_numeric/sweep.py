@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.dyads import RPR, RRP, RRR
-from gruebler._numeric.program import NEAR, TURN, Poses, Program
+from gruebler._numeric.program import NEAR, RPR, RRP, RRR, TURN, Poses, Program
 from gruebler._numeric.registers import (
     LANES,
     PAIR,

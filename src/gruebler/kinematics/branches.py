@@ -17,6 +17,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.program import GROUP
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Dyad, Larger, Plan
 
@@ -135,7 +136,7 @@ def pose_before(
     """Where the links lie before a group is placed: against the frame, or against the root of their body."""
     from gruebler.kinematics.moving import run_rows
 
-    stop = next(k for k, operation in enumerate(plan.operations) if operation[:2] == (7, part.number))
+    stop = next(k for k, operation in enumerate(plan.operations) if operation[:2] == (GROUP, part.number))
     program = plan.program._replace(operations=plan.program.operations[:stop])
     rows = run_rows(program, plan, np.asarray(drives).reshape(1, -1), None, 0, signs, unknowns)
     if rows.reached == 0:

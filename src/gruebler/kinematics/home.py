@@ -72,8 +72,7 @@ def _drive(plan: Plan, k: int) -> float:
 
 
 def _sign(plan: Plan, dyad: Dyad) -> float:
-    operation = next(o for o in plan.operations if 2 <= o[0] < 7 and o[9] == dyad.number)
-    outer, inner, other = operation[1], operation[3], operation[6]
+    _, outer, _, inner, _, _, other, *_ = plan.operation(dyad)
     if dyad.form == "RRR":
         side = ((_put(plan, other) - _put(plan, outer)).conjugate() * (_put(plan, inner) - _put(plan, outer))).imag
     elif dyad.form == "RRP":

@@ -18,7 +18,7 @@ from gruebler.kinematics.plan import Dyad, Larger, Plan, plan
 from gruebler.linkages import Linkage
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion import Program
+    from gruebler._numeric.program import Program
 
 __all__ = ["Rows", "degrees", "mend_rates", "motion_of", "move", "planned", "run_rows"]
 

@@ -7,23 +7,19 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from math import radians
-from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
 from gruebler.linkages import Line, Linkage, with_lower_pairs
 
-if TYPE_CHECKING:
-    from gruebler._numeric.motion import Program
-
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
 
-_TURN, _PUSH, _GROUP, _CARRY = 0, 1, 7, 8
-_DYADS = {("R", "R", "R"): 2, ("R", "R", "P"): 3, ("R", "P", "R"): 4, ("P", "R", "P"): 5, ("R", "P", "P"): 6}
-_FORMS = {number: "".join(form) for form, number in _DYADS.items()}
-_BRANCHING = (2, 3, 4)  # the dyads with two assembly modes
+_DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
+_FORMS = {code: form for form, code in _DYADS.items()}
+_BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
 _LONGEST_TURN = radians(5)
 _LONGEST_PUSH = 0.03  # of the linkage's size
 
@@ -43,7 +39,7 @@ class Dyad:
     @property
     def branching(self) -> bool:
         """Whether it has two assembly modes."""
-        return self.form in ("RRR", "RRP", "RPR")
+        return self.form in _BRANCHING
 
 
 @dataclass(frozen=True)
@@ -86,11 +82,13 @@ class Plan:
         """The larger groups in solving order."""
         return tuple(part for part in self.parts if isinstance(part, Larger))
 
+    def operation(self, dyad: Dyad) -> tuple[int, ...]:
+        """The operation that places a dyad: kind, six elements, two links, its number."""
+        return next(o for o in self.operations if o[0] in _FORMS and o[9] == dyad.number)
+
     @cached_property
     def program(self) -> Program:
         """The arrays."""
-        from gruebler._numeric.motion import Program
-
         chain = self.lower.mechanism.chain
         points, lines = self.element_arrays(self.lower)
         flat = [c for group in self.conditions for c in group]
@@ -124,11 +122,11 @@ class Plan:
         """
         program = self.program
         out = []
-        for _, k, near, far, sign in (o for o in self.operations if o[0] == _PUSH):
+        for _, k, near, far, sign in (o for o in self.operations if o[0] == PUSH):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
             for operation in self.operations:
-                for one, other in (operation[2:4], operation[4:6]) if operation[0] == _DYADS["R", "R", "R"] else ():
+                for one, other in (operation[2:4], operation[4:6]) if operation[0] == RRR else ():
                     if {program.links[one], program.links[other]} != {program.links[near], program.links[far]}:
                         continue
                     if program.links[one] != program.links[near]:
@@ -213,7 +211,7 @@ class _Planner:
             sign = 1
             if self.against.get(first) != root:
                 first, other, sign = other, first, -1
-            kind = _TURN if drives[k].direction.startswith("R") else _PUSH
+            kind = TURN if drives[k].direction.startswith("R") else PUSH
             joint = drives[k].joint
             self.operations.append((kind, k, self.number[joint, first], self.number[joint, other], sign))
             self.against[other] = root
@@ -230,12 +228,12 @@ class _Planner:
             self.parts.append(Dyad(number, _FORMS[kind], one, two, count))
         else:
             count = len(self.conditions)
-            self.operations.append((_GROUP, count))
+            self.operations.append((GROUP, count))
             self.conditions.append(self._conditions(group, base, roots))
             self.parts.append(Larger(number, roots, count, base))
         for root in roots:
             for link in [link for link, at in self.against.items() if at == root and link != root]:
-                self.operations.append((_CARRY, self.chain.index(link), self.chain.index(root)))
+                self.operations.append((CARRY, self.chain.index(link), self.chain.index(root)))
                 self.against[link] = base
             self.against[root] = base
 
@@ -260,9 +258,9 @@ class _Planner:
             else:
                 inner = joint, letter[member.pair.name]
         one, two = 0, 1
-        form = (outer[0][1], inner[1], outer[1][1])
+        form = outer[0][1] + inner[1] + outer[1][1]
         if form not in _DYADS:
-            form, one, two = (form[2], form[1], form[0]), 1, 0
+            form, one, two = form[::-1], 1, 0
         first, second = group.bodies[one][0], group.bodies[two][0]
         elements = [
             self._element(outer[one][0], base),

@@ -134,7 +134,7 @@ class Linkage:
         >>> drawn.length("1", 0, 1), drawn.home["1"].angle
         (2.0, 1.5707963267948966)
         """
-        from gruebler.linkages.drawing import from_drawing
+        from gruebler.linkages.drawn import from_drawing
 
         return from_drawing(mechanism, places, points or {}, unit=unit, outputs=tuple(outputs))
 
