@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.kinematics import degrees, move
-from gruebler.kinematics.moving import run_rows
+from gruebler.kinematics.runs import run_rows
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
 
@@ -109,6 +109,35 @@ def test_a_row_may_lie_in_a_change_point(degree: float, high: float) -> None:
     assert motion.complete
     assert motion.closure < 1e-12
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
+
+
+@pytest.mark.parametrize("high", [0.8, 3.0])
+@pytest.mark.parametrize("behind", [1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.1, -1e-9, -1e-6, -1e-5, -1e-3])
+def test_a_row_may_lie_next_to_a_change_point(behind: float, high: float) -> None:
+    motion = move(parallel_legs(high), np.radians([53.13, 100, 180 + behind, 250]), order=0)
+    assert motion.complete, motion.message()
+    assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
+
+
+@pytest.mark.parametrize("high", [0.8, 3.0])
+@pytest.mark.parametrize("step", np.geomspace(0.05, 60, 9))
+def test_change_points_are_crossed_with_any_spacing(step: float, high: float) -> None:
+    for start in (50.0, 53.13):
+        motion = move(parallel_legs(high), np.radians(np.arange(start, 400, step)), order=0)
+        assert motion.complete, motion.message()
+        assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [(100, 180, 100), (100, 180, 180, 250), (100, 180, 170, 180, 200), (100, 140, 180, 180, 140, 100), (180, 190)],
+    ids=str,
+)
+def test_a_path_may_turn_back_rest_and_start_in_a_change_point(rows: tuple[float, ...]) -> None:
+    motion = move(parallel_legs(), np.radians(rows), speed=2.0)
+    assert motion.complete, motion.message()
+    assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
+    assert np.abs(motion.angular("h")).max() < 1e-9
 
 
 def test_a_fold_ends_the_motion() -> None:

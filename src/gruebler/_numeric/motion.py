@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.dyads import dyad_square
-from gruebler._numeric.placing import attempt, commit, set_drives
+from gruebler._numeric.placing import attempt, commit, forget, set_drives, zero_ahead
 from gruebler._numeric.program import (
     APART,
     APPROACH,
@@ -27,6 +27,7 @@ from gruebler._numeric.program import (
     LOST,
     MEET,
     NEAR,
+    NEAREST,
     PUSH,
     SINGULAR,
     START,
@@ -261,10 +262,11 @@ def _walk_to(
 
     Returns the status, the place on the path, the next step, where ahead something cannot be assembled, and what.
     """
-    at, longest = memory.at[0], min(1.0, _unit(program, path, row))
-    if not steady(path, row):
+    unit = memory.unit[0] = _unit(program, path, row)
+    at, longest = memory.at[0], min(1.0, unit)
+    if not _remembered(path, row, memory):
         memory.filled[0] = 1
-        step = min(step, 0.01 * _unit(program, path, row) * _least_root(memory))
+        step = min(step, 0.01 * unit * _least_root(memory))
     while at < row:
         left = row - at
         full = step >= left * (1 - 1e-9)
@@ -291,15 +293,37 @@ def _walk_to(
         if verdict == APART:
             fault = min(fault, trial)
         step = min(step, left) / 2
-        if verdict == LOST and _straight(number, step, _unit(program, path, row), program, memory):
+        if verdict == LOST and _straight(number, program, memory):
             if _cross(program, path, speeds, row, number, poses, memory, s):
-                at, step = memory.at[0], longest / 64
+                at, step = memory.at[0], max(memory.at[0] - at, longest / 64)
                 continue
         if step < LEAST * (1 + abs(at)):
             if verdict == LOST:
                 return SINGULAR, at, step, fault, -1 - number
             return LIMIT, at, step, fault, number
     return DONE, at, step, fault, 0
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _remembered(path: Reals, row: int, memory: Memory) -> bool:
+    """Measure the past in the way to this row, on one straight line with it or back; false if it foretells nothing."""
+    if row < 2:
+        return False
+    most, ratio, off = 0.0, 0.0, 0.0
+    for d in range(path.shape[1]):
+        past = path[row - 1, d] - path[row - 2, d]
+        if abs(past) > most:
+            most, ratio = abs(past), (path[row, d] - path[row - 1, d]) / past
+    for d in range(path.shape[1]):
+        way, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
+        off = max(off, abs(way - ratio * past))
+    if ratio == 0 or off > 1e-9 * most:
+        return steady(path, row)
+    for k in range(memory.filled[0]):
+        memory.at[k] = row - 1 + (memory.at[k] - (row - 1)) / ratio
+    if memory.filled[0] > 1 and (memory.at[0] > row or (memory.at[0] < row - 1 and ratio < 0)):
+        forget(memory)  # a pose behind a change point, where this way does not come from or lead to
+    return True
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -337,20 +361,22 @@ def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: Memor
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _straight(number: int, step: float, unit: float, program: Program, memory: Memory) -> bool:
+def _straight(number: int, program: Program, memory: Memory) -> bool:
     """Whether a larger group comes straight to a singular position: then it is a change point, else a limit.
 
-    At a limit the unknowns go like the square root of the way that is left. Asked once, at 1e-5 of the longest step.
+    At a limit the rates of the unknowns grow as the determinant falls, one over the other; at a change point they stay.
     """
-    if memory.filled[0] < 3 or not 5e-6 * unit <= step < 1e-5 * unit:
+    if memory.filled[0] < 3 or not 10 * NEAREST < zero_ahead(number, memory) / memory.unit[0] < 1e-3:
         return False
-    t, y = memory.at, memory.unknowns
+    t, y, d = memory.at, memory.unknowns, memory.determinants
+    growth = (d[2, number] - d[0, number]) / (d[0, number] + d[1, number])
     bend = slope = 0.0
     for k in range(3 * program.bodies[number], 3 * program.bodies[number + 1]):
         scale = program.size if k % 3 == 2 else 1.0
         late, early = (y[0, k] - y[1, k]) / (t[0] - t[1]), (y[1, k] - y[2, k]) / (t[1] - t[2])
         bend, slope = max(bend, scale * abs(late - early)), max(slope, scale * abs(early))
-    return bend < 0.02 * slope
+    straight: bool = growth > 0.05 and bend < 0.1 * growth * slope
+    return straight
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -358,23 +384,30 @@ def _cross(
     program: Program, path: Reals, speeds: Reals, row: int, number: int, poses: Poses, memory: Memory, s: Scratch
 ) -> bool:
     """Go straight through a change point of a larger group; a row that lies in it is placed between both sides."""
-    at, unit, order = memory.at[0], _unit(program, path, row), len(poses.rates)
-    inside = row - at < 5e-5 * unit
+    at, unit, order = memory.at[0], memory.unit[0], len(poses.rates)
+    ahead, left = zero_ahead(number, memory), row - at
+    inside = left < 6 * ahead
+    if inside and ahead > 3e-5 * unit:
+        return False
+    beyond = (
+        row + min(1e-2 * unit, 0.5) if inside else min(at + 8 * ahead, float(row))
+    )  # behind it even if four ranks are lost
+    full = beyond == row
+    memory.singular[0] = 1 + number
     if inside:
-        beyond = row + min(1e-2 * unit, 0.5)
+        for d in range(path.shape[1]):
+            s.drives[0, d] = path[row, d] + (beyond - row) * (path[row, d] - path[row - 1, d])
     else:
-        beyond = min(at + 1e-2 * unit, float(row))
-    if beyond < len(path) - 1 or beyond == row:
-        memory.singular[0] = 1 + number
         set_drives(path, speeds, beyond, s)
-        verdict = attempt(program, order if beyond == row else 0, beyond, memory, s)
-        memory.singular[0] = 0
-        if verdict != GOOD:
-            return False
+    verdict = attempt(program, order if full else 0, beyond, memory, s)
+    memory.singular[0] = 0
+    if verdict == GOOD:
         commit(beyond, memory)
         if not inside:
-            _record(row if beyond == row else -1, poses, memory, s)
+            _record(row if full else -1, poses, memory, s)
             return True
+    elif not inside or row < len(path) - 1:
+        return False
     memory.singular[0] = -1 - number
     set_drives(path, speeds, float(row), s)
     verdict = attempt(program, order, float(row), memory, s)

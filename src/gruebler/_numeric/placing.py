@@ -18,6 +18,7 @@ from gruebler._numeric.program import (
     GROUP,
     LOST,
     MEET,
+    NEAREST,
     PRP,
     RPP,
     RRR,
@@ -27,7 +28,7 @@ from gruebler._numeric.program import (
     Scratch,
 )
 
-__all__ = ["attempt", "commit", "set_drives"]
+__all__ = ["attempt", "commit", "forget", "set_drives", "zero_ahead"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -124,8 +125,17 @@ def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
         memory.unknowns[3, k] = y
 
 
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def zero_ahead(number: int, memory: Memory) -> float:
+    """How far ahead of the last pose the determinant of a larger group is zero if it falls on so, or infinity."""
+    now, past = memory.determinants[0, number], memory.determinants[1, number]
+    if now * past <= 0 or abs(now) >= abs(past):
+        return np.inf
+    return float((memory.at[0] - memory.at[1]) * now / (past - now))
+
+
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _expected(number: int, first: int, last: int, size: float, memory: Memory, s: Scratch) -> bool:
+def _expected(number: int, first: int, last: int, size: float, at: float, memory: Memory, s: Scratch) -> bool:
     """Whether the trial of a larger group is near what was foretold, and on the same side of singular positions."""
     missed = moved = 0.0
     for k in range(first, last):
@@ -135,6 +145,9 @@ def _expected(number: int, first: int, last: int, size: float, memory: Memory, s
     if memory.singular[0] == 1 + number:
         return missed <= 0.02 * moved
     if missed > 1e-7 * size and missed > (0.25 * moved if memory.filled[0] > 1 else 0.01 * size):
+        return False
+    ahead = zero_ahead(number, memory) if memory.filled[0] > 1 else np.inf
+    if at - memory.at[0] > 0.5 * ahead and ahead > NEAREST * memory.unit[0]:
         return False
     far: bool = memory.determinants[3, number] / memory.determinants[0, number] > 0.1
     return far
@@ -167,7 +180,7 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
             kinds, values, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
         )
         memory.determinants[3, number] = determinant
-        if steps < 0 or (memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, size, memory, s)):
+        if steps < 0 or (memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, size, at, memory, s)):
             return False
     n = 3 * (last - first)
     for k in range(last - first):
@@ -285,16 +298,30 @@ def set_drives(path: Reals, speeds: Reals, at: float, s: Scratch) -> None:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _copy(memory: Memory, source: int, target: int) -> None:
+    memory.at[target] = memory.at[source]
+    for m in range(memory.roots.shape[1]):
+        memory.roots[target, m] = memory.roots[source, m]
+    for m in range(memory.unknowns.shape[1]):
+        memory.unknowns[target, m] = memory.unknowns[source, m]
+    for m in range(memory.determinants.shape[1]):
+        memory.determinants[target, m] = memory.determinants[source, m]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def forget(memory: Memory) -> None:
+    """Take the last pose back."""
+    _copy(memory, 1, 0)
+    _copy(memory, 2, 1)
+    memory.filled[0] -= 1
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def commit(at: float, memory: Memory) -> None:
-    for k in (2, 1, 0):
-        source = 3 if k == 0 else k - 1
-        memory.at[k] = at if k == 0 else memory.at[k - 1]
-        for m in range(memory.roots.shape[1]):
-            memory.roots[k, m] = memory.roots[source, m]
-        for m in range(memory.unknowns.shape[1]):
-            memory.unknowns[k, m] = memory.unknowns[source, m]
-        for m in range(memory.determinants.shape[1]):
-            memory.determinants[k, m] = memory.determinants[source, m]
+    memory.at[3] = at
+    _copy(memory, 1, 2)
+    _copy(memory, 0, 1)
+    _copy(memory, 3, 0)
     memory.filled[0] = min(memory.filled[0] + 1, 3)
     for number in range(len(memory.signs)):
         change = memory.change[number]

@@ -20,6 +20,7 @@ __all__ = [
     "LOST",
     "MEET",
     "NEAR",
+    "NEAREST",
     "PRP",
     "PUSH",
     "RPP",
@@ -54,6 +55,7 @@ that is not where it should be; with outer joints of a dyad that meet, its direc
 FLAT = 1e-12  # a squared root below this is zero: an exact change point
 NEAR = 1e-3  # below this root a change point is looked for
 LEAST = 1e-14  # the smallest step, in rows
+NEAREST = 1e-8  # of the longest step: nearer to a singular position of a larger group it is taken for a limit
 
 
 class Program(NamedTuple):
@@ -116,6 +118,7 @@ class Memory(NamedTuple):
     met: Reals  # (dyads,) the place on the path where the outer joints meet
     direction: Complexes  # (dyads,) the turn of the first body there
     singular: Ints  # (1,) 1 + the group whose singular place is jumped; -1 - the group that is placed at it; else 0
+    unit: Reals  # (1,) the longest step of the drives, in rows
     which: Ints  # (1,) the dyad or group that spoils the trial
 
 
@@ -157,6 +160,7 @@ def new_memory(dyads: int, bodies: int, groups: int) -> Memory:
         np.full(dyads, np.nan),
         np.ones(dyads, np.complex128),
         np.zeros(1, np.int64),
+        np.ones(1),
         np.zeros(1, np.int64),
     )
 

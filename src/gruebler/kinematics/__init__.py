@@ -18,9 +18,10 @@ from gruebler.kinematics.batch import (
 from gruebler.kinematics.branches import all_branches
 from gruebler.kinematics.circuits import ChangePoint, Circuit, Extreme, Stretch, circuit
 from gruebler.kinematics.course import follow
+from gruebler.kinematics.drive_rows import degrees
 from gruebler.kinematics.measuring import Measures, measures
 from gruebler.kinematics.motion import Motion, Stop
-from gruebler.kinematics.moving import degrees, move
+from gruebler.kinematics.moving import move
 from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.transmission import deviation_angle, transmission_angle
 from gruebler.kinematics.triads import assembly_modes

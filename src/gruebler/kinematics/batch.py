@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.branches import Unassembled, read_branch, starting
+from gruebler.kinematics.drive_rows import drive_path, drive_speeds
 from gruebler.kinematics.motion import Motion
-from gruebler.kinematics.moving import _path, _speeds, _start, move, planned
+from gruebler.kinematics.moving import move, planned, start_of
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, with_lower_pairs
 
@@ -232,11 +233,11 @@ def move_many(
     """
     made = many if isinstance(many, Designs) else designs(many)
     plan, count = made.plan, len(made)
-    path = _path(plan, drives)
+    path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
         raise LinkageError(f"the order is 0, 1, 2 or 3, not {order!r}")
-    speeds = _speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
+    speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     chain, frame = plan.lower.mechanism.chain, plan.lower.mechanism.frame
     kept = tuple(link for link in chain.links if link != frame) if links is None else tuple(links)
     for link in kept:
@@ -265,7 +266,7 @@ def _starts(made: Designs, path: Reals, branch: str | None) -> tuple[Reals, Real
     unknowns = np.full((count, 3 * sum(len(part.roots) for part in plan.larger)), np.nan)
     for n in range(count):
         try:
-            signs[n], unknowns[n] = _start(planned(made.linkage(n)), path[0], branch)
+            signs[n], unknowns[n] = start_of(planned(made.linkage(n)), path[0], branch)
         except Unassembled:
             signs[n] = np.nan
     return signs, unknowns

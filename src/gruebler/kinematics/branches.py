@@ -134,7 +134,7 @@ def pose_before(
     plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
     """Where the links lie before a group is placed: against the frame, or against the root of their body."""
-    from gruebler.kinematics.moving import run_rows
+    from gruebler.kinematics.runs import run_rows
 
     stop = next(k for k, operation in enumerate(plan.operations) if operation[:2] == (GROUP, part.number))
     program = plan.program._replace(operations=plan.program.operations[:stop])

@@ -14,9 +14,11 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.home import at_home
+from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Reals, Stop
-from gruebler.kinematics.moving import mend_rates, motion_of, move, planned, run_rows
+from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
+from gruebler.kinematics.runs import run_rows
 from gruebler.linkages import Linkage
 
 __all__ = ["Course", "Span", "follow"]

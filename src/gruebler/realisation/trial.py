@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.kinematics.moving import Rows, run_rows
+from gruebler.kinematics.runs import Rows, run_rows
 from gruebler.realisation.measures import conditioning
 from gruebler.realisation.sketch import Setting, Sketch
 

@@ -1,0 +1,67 @@
+"""Rows of drive values and of their rates, from what a user gives."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.plan import Plan
+
+__all__ = ["degrees", "drive_path", "drive_speeds"]
+
+Reals = NDArray[np.float64]
+
+
+def degrees(start: float, stop: float, step: float) -> Reals:
+    """Angles from start to stop, both included, given in degrees, in radians.
+
+    >>> degrees(0, 180, 90).round(4).tolist()
+    [0.0, 1.5708, 3.1416]
+    """
+    if not step or not np.isfinite([start, stop, step]).all() or (stop - start) / step < 0:
+        raise LinkageError(f"no angles lead from {start:g} to {stop:g} by steps of {step:g}")
+    count = int(np.floor((stop - start) / step * (1 + 1e-12) + 1e-9))
+    if count > 10_000_000:
+        raise LinkageError(f"{count + 1:,} rows are more than 10,000,000")
+    out: Reals = np.radians(start + step * np.arange(count + 1))
+    return out
+
+
+def drive_path(made: Plan, drives: ArrayLike) -> Reals:
+    """(rows, drives) values, checked."""
+    wanted = len(made.lower.mechanism.drives)
+    try:
+        path = np.array(drives, np.float64)
+    except (TypeError, ValueError):
+        raise LinkageError(f"drive values are numbers, but found {drives!r}") from None
+    if path.ndim == 0:
+        path = path.reshape(1, 1)
+    if path.ndim == 1:
+        path = path.reshape(-1, 1) if wanted == 1 else path.reshape(1, -1)
+    if path.ndim != 2 or path.shape[1] != wanted or not len(path):
+        given = "no rows" if not path.size else f"rows of {path.shape[-1]}"
+        raise LinkageError(f"the linkage has {wanted} drive{'s' * (wanted != 1)}, but found {given}")
+    if not np.isfinite(path).all():
+        row = int(np.argwhere(~np.isfinite(path))[0, 0])
+        raise LinkageError(f"drive values are finite numbers, but row {row} has {path[row].tolist()}")
+    return np.ascontiguousarray(path)
+
+
+def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals:
+    """(order, rows, drives) rates, checked; one value may stand for all rows."""
+    out = np.zeros((order, *path.shape))
+    for k, (name, value) in enumerate(zip(("speed", "acceleration", "jerk"), given, strict=True)):
+        if k >= order:
+            break
+        numbers = np.asarray(value, np.float64)
+        if not np.isfinite(numbers).all():
+            raise LinkageError(f"{name}: expected finite numbers, but found {value!r}")
+        if numbers.ndim == 1 and path.shape[1] == 1 and len(numbers) == len(path):
+            numbers = numbers.reshape(-1, 1)
+        try:
+            out[k] = numbers
+        except ValueError:
+            shape = "one number, one for each drive, or one for each row and drive"
+            raise LinkageError(f"{name}: expected {shape}, but found an array {numbers.shape}") from None
+    return out
