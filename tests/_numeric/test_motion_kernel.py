@@ -11,6 +11,7 @@ from gruebler.kinematics import degrees, move
 from gruebler.kinematics.runs import run_rows
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
+from tests.samples import class_iii, parallel_legs
 
 LINKAGES = {
     "four-bar": FourBar(25, 70, 40, 70).linkage(),
@@ -19,21 +20,7 @@ LINKAGES = {
     "turning block": InvertedSliderCrank(50, 30, 3).linkage(),
     "swinging block": InvertedSliderCrank(30, 50, -4).linkage(),
 }
-CLASS_III = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"
 FIVE_BAR = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
-
-
-def class_iii(*places: tuple[float, float]) -> Linkage:
-    """A three-legged group on a crank, drawn."""
-    return Linkage.drawn(Mechanism.parse(CLASS_III), dict(enumerate(places)))
-
-
-def parallel_legs(high: float = 3.0, error: float = 0.0) -> Linkage:
-    """Three equal parallel cranks carry a plate: a change point wherever they lie along two of the plate's pins.
-
-    With the third pin in line too (`high` 0.8) two ranks are lost there at once.
-    """
-    return class_iii((0, 0), (0.6, 0.8), (2.6, high), (4 + error, 0), (4.6, 0.8), (7, 0), (7.6, 0.8))
 
 
 @pytest.mark.parametrize("name", LINKAGES)

@@ -10,13 +10,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion, measures, move
 from gruebler.kinematics.course import Course, follow
 from gruebler.kinematics.events import change_points, crossings, dead_centres, transfer_function
 from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.zeros import bracketed, zeros
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
+from tests.samples import parallel_legs
 
 TURN = 2 * math.pi
 
@@ -328,3 +329,12 @@ def test_what_has_no_course() -> None:
         follow(FourBar(1, 1, 1, 9).linkage())
     with pytest.raises(LinkageError, match="did you mean 'rocker'"):
         find_output(FourBar(2, 7, 4.5, 5.5).linkage(), "rockr")
+
+
+def test_change_points_of_larger_groups_are_named() -> None:
+    """Three parallel cranks with a plate: where they lie along two of the plate's pins, twice a turn each way."""
+    found = measures(parallel_legs()).change_points
+    tilt = np.degrees(np.arctan2(3.0 - 0.8, 2.0))
+    assert [point.links for point in found] == [("2", "h", "3", "4")] * 4
+    assert np.degrees([point.drive for point in found]) == pytest.approx([0, tilt, 180, 180 + tilt], abs=1e-8)
+    assert measures(parallel_legs(error=1e-3)).change_points == ()

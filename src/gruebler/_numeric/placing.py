@@ -129,7 +129,7 @@ def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
 def zero_ahead(number: int, memory: Memory) -> float:
     """How far ahead of the last pose the determinant of a larger group is zero if it falls on so, or infinity."""
     now, past = memory.determinants[0, number], memory.determinants[1, number]
-    if now * past <= 0 or abs(now) >= abs(past):
+    if now * past <= 0 or abs(now) >= abs(past) or memory.at[0] <= memory.at[1]:
         return np.inf
     return float((memory.at[0] - memory.at[1]) * now / (past - now))
 
@@ -323,6 +323,8 @@ def commit(at: float, memory: Memory) -> None:
     _copy(memory, 0, 1)
     _copy(memory, 3, 0)
     memory.filled[0] = min(memory.filled[0] + 1, 3)
+    if (memory.at[0] - memory.at[1]) * (memory.at[1] - memory.at[2]) <= 0:  # turned back: two poses may be one
+        memory.filled[0] = min(memory.filled[0], 2)
     for number in range(len(memory.signs)):
         change = memory.change[number]
         if at >= change:  # not if it is NaN

@@ -6,15 +6,20 @@ respect to the drive. Definitions, method and errors: docs/theory/events.md.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from math import pi
 from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.assur import Group
+from gruebler.errors import LinkageError
+from gruebler.kinematics.circuits import Circuit, circuit
 from gruebler.kinematics.course import Course
 from gruebler.kinematics.motion import Reals
 from gruebler.kinematics.outputs import Output
 from gruebler.kinematics.plan import Dyad
+from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.zeros import Zero, bracketed, zeros
 
 __all__ = [
@@ -33,6 +38,7 @@ __all__ = [
 _STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
 _EVEN = 1e-9  # the same for its derivatives
 _EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
+_THERE = 1e-5  # radians: a pose that differs by less is the same
 _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
 _STEP = 0.02  # radians, or parts of the size
 
@@ -217,18 +223,55 @@ def _driving_point(course: Course, output: Output) -> tuple[str, complex] | None
 
 
 def change_points(course: Course) -> tuple[ChangePoint, ...]:
-    """Where the motion goes through a position in which two assembly modes of a dyad meet.
+    """Where the motion goes through a position in which two assembly modes of a group meet.
 
-    The signed root of the dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
-    near by, so the zero is that of a polynomial of degree 7 through eight poses around it; error some 1e-12.
+    The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
+    near by, so the zero is that of a polynomial of degree 7 through eight poses around it; error some 1e-12. Those of
+    larger groups are the places where another curve crosses the `circuit`; one where more than two curves meet is not
+    found.
     """
-    found = []
+    found = list(_of_larger_groups(course)) if course.plan.larger else []
     roots = course.at(course.grid, 0).roots
     for dyad in (dyad for dyad in course.plan.dyads if dyad.branching):
         mine = roots[:, dyad.number]
         for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
             found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
     return tuple(sorted(found))
+
+
+def _of_larger_groups(course: Course) -> Iterator[ChangePoint]:
+    try:
+        made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
+    except LinkageError:  # the circuit cannot be followed: nothing is known
+        return
+    for change in made.change_points:
+        group = _singular(course, made, change.pose)
+        if group is None:
+            continue
+        for turn in range(course.span.turns) if course.span.full else range(-1, 2) if course.turning_drive else (0,):
+            drive = float(change.drive % (2 * pi) + 2 * pi * turn if course.turning_drive else change.drive)
+            if course.span.low <= drive <= course.span.high or course.span.full:
+                here = course.at(np.array([drive]), 0)
+                away = [here.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
+                if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
+                    yield ChangePoint(course.span.wrapped(drive), group.links, group.form())
+
+
+def _singular(course: Course, made: Circuit, pose: Poses) -> Group | None:
+    """The larger group that can move there while the drive stands: the first that has two ways to move on."""
+    plan, bodies, size = course.plan, list(made.system.bodies), course.plan.lower.size
+    rows = [
+        (z.real / size, z.imag / size, angle[0])
+        for z, angle in ((pose.places[0, 0, pose._link(link)], pose.angle(link)) for link in bodies)
+    ]
+    _, matrix = made.system.linearised(np.array(rows).ravel())
+    ways = np.linalg.svd(matrix)[2][-2:].reshape(2, -1, 3)
+    placed: list[int] = []
+    for number, group in enumerate(plan.decomposition.groups):
+        placed += [bodies.index(link) for link in group.links if link in bodies]
+        if np.linalg.svd(ways[:, placed].reshape(2, -1))[1][-1] > _THERE if placed else False:
+            return group if any(part.group == number for part in plan.larger) else None
+    return None
 
 
 def _change_point(course: Course, dyad: Dyad, cell: Reals) -> ChangePoint:

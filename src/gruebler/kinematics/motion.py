@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.plan import Plan
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, Named, Place
 
 __all__ = ["Motion", "Stop"]
 
@@ -124,6 +124,14 @@ class Motion:
         from gruebler.kinematics.ways import slide
 
         return slide(self, joint, order)
+
+    def home(self, row: int = 0) -> dict[str, Place]:
+        """Where the links lie in a row, as a home for `Linkage.with_home`."""
+        return {
+            link: Place(float(z.real), float(z.imag), float(self.angle(link)[row]))
+            for link in self.linkage.mechanism.chain.links
+            for z in [self.places[0, row, self._link(link)]]
+        }
 
     @cached_property
     def closure(self) -> float:

@@ -193,6 +193,10 @@ class Linkage:
             raise LinkageError("the same sizes need the same chain and the same frame")
         return self._changed(mechanism=mechanism)
 
+    def with_home(self, home: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
+        """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
+        return self._changed(home=home)
+
     def scaled(self, factor: float) -> Linkage:
         """Every length times a positive factor."""
         if not 0 < factor < 1e100:

@@ -1,0 +1,19 @@
+"""Linkages that several tests look at."""
+
+from gruebler.linkages import Linkage
+from gruebler.mechanism import Mechanism
+
+CLASS_III = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"
+
+
+def class_iii(*places: tuple[float, float]) -> Linkage:
+    """A three-legged group on a crank, drawn."""
+    return Linkage.drawn(Mechanism.parse(CLASS_III), dict(enumerate(places)))
+
+
+def parallel_legs(high: float = 3.0, error: float = 0.0) -> Linkage:
+    """Three equal parallel cranks carry a plate: a change point wherever they lie along two of the plate's pins.
+
+    With the third pin in line too (`high` 0.8) two ranks are lost there at once.
+    """
+    return class_iii((0, 0), (0.6, 0.8), (2.6, high), (4 + error, 0), (4.6, 0.8), (7, 0), (7.6, 0.8))
