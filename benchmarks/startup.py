@@ -11,6 +11,7 @@ COMMANDS = {
     "gruebler --help": ["-m", "gruebler", "--help"],
     "gruebler check 'R(0-1) R(1-2) R(2-0)'": ["-m", "gruebler", "check", "R(0-1) R(1-2) R(2-0)"],
     "gruebler check (the whole catalog)": ["-m", "gruebler", "check"],
+    "gruebler analyse four-bar:25,70,40,70": ["-m", "gruebler", "analyse", "four-bar:25,70,40,70"],
 }
 
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from dataclasses import replace
 
-from gruebler.cli.inputs import mechanism_of
-from gruebler.linkages.files import to_json, to_toml, write_linkage
+from gruebler.catalog import entry
+from gruebler.cli.inputs import is_text, mechanism_of
+from gruebler.cli.linkage_inputs import tell_compiling
+from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
 __all__ = ["run"]
@@ -18,7 +21,12 @@ _WRITTEN = {"en": "Written: {path}", "de": "Geschrieben: {path}"}
 def run(arguments: argparse.Namespace) -> int:
     """Find dimensions and print or write them. Status 1: none were found."""
     mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
+    if arguments.output is not None:
+        check_linkage_path(arguments.output)
+    tell_compiling(arguments.lang)
     found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
+    if found.linkage is not None and not is_text(arguments.chain):
+        found = replace(found, linkage=found.linkage.with_outputs(entry(arguments.chain).outputs))
     if found.linkage is not None and arguments.output is not None:
         write_linkage(arguments.output, found.linkage)
     if arguments.json:

@@ -123,6 +123,8 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
 
     Raises `LinkageError` if there are none, or if one has another mechanism than the first.
     """
+    if isinstance(linkages, Linkage):
+        raise LinkageError("expected a list of linkages; one alone is moved by `move`")
     if not linkages:
         raise LinkageError("expected at least one design")
     for number, linkage in enumerate(linkages):

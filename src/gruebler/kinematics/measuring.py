@@ -40,7 +40,7 @@ from gruebler.kinematics.events import (
     transfer_function,
 )
 from gruebler.kinematics.outputs import Output, find_output
-from gruebler.kinematics.transmission import Transmission, measure_transmission
+from gruebler.kinematics.transmission import NoTransmissionAngleError, Transmission, measure_transmission
 from gruebler.linkages import Linkage
 from gruebler.linkages.extremes import StrokeTimes
 
@@ -88,8 +88,14 @@ class Measures:
     change_points: tuple[ChangePoint, ...]
     transfer: Transfer
     transmission: Transmission | None
-    transmission_note: str
+    transmission_notes: dict[str, str]
+    """Why there is no transmission angle, by language; empty if there is one."""
     speed_rpm: float | None
+
+    @property
+    def transmission_note(self) -> str:
+        """Why there is no transmission angle, in English; empty if there is one."""
+        return self.transmission_notes["en"]
 
     @property
     def inner(self) -> DeadCentre | None:
@@ -193,9 +199,9 @@ def measures(
     centres = dead_centres(course, looked_at)
     turns = output_turns(course, looked_at)
     try:
-        transmission, note = measure_transmission(course, looked_at), ""
-    except LinkageError as why:
-        transmission, note = None, str(why)
+        transmission, notes = measure_transmission(course, looked_at), {"en": "", "de": ""}
+    except NoTransmissionAngleError as why:
+        transmission, notes = None, why.texts
     return Measures(
         linkage,
         looked_at,
@@ -210,7 +216,7 @@ def measures(
         change_points(course),
         _transfer(course, looked_at),
         transmission,
-        note,
+        notes,
         speed,
     )
 

@@ -21,6 +21,7 @@ _TEXTS = {
         "Der Antrieb läuft voll um; alles wiederholt sich nach {turns} Umdrehungen.",
     ),
     "range": ("The drive moves from {low} to {high}.", "Der Antrieb bewegt sich von {low} bis {high}."),
+    "turning range": ("The drive turns from {low} to {high}.", "Der Antrieb dreht von {low} bis {high}."),
     "limit": (
         "At {at} the group {form} {{{links}}} can no longer be assembled.",
         "Bei {at} lässt sich die Gruppe {form} {{{links}}} nicht mehr zusammenbauen.",
@@ -30,6 +31,7 @@ _TEXTS = {
         "Bei {at} treffen sich zwei Einbaulagen der Gruppe {form} {{{links}}}.",
     ),
     "still": ("The output {name} does not move.", "Der Abtrieb {name} steht still."),
+    "not turning": ("The output {name} does not turn.", "Der Abtrieb {name} dreht sich nicht."),
     "uniform": (
         "The transmission to {name} is uniform: i = {ratio:.9g}.",
         "Die Übersetzung auf {name} ist gleichförmig: i = {ratio:.9g}.",
@@ -48,6 +50,14 @@ _TEXTS = {
         "Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
         "Antriebswinkel: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
     ),
+    "slow forward": (
+        "In the positive sense the way outward is the slow one.",
+        "Im positiven Drehsinn ist der Weg nach außen der langsame.",
+    ),
+    "slow back": (
+        "In the positive sense the way inward is the slow one.",
+        "Im positiven Drehsinn ist der Weg nach innen der langsame.",
+    ),
     "times": (
         "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
         "Bei {rpm:g} Umdrehungen je Minute: {forward:.6g} s von innen nach außen, {back:.6g} s zurück.",
@@ -64,12 +74,6 @@ _TEXTS = {
     "good": ("It does not fall below 40°.", "Er unterschreitet 40° nicht."),
     "poor": ("It falls below 40°.", "Er unterschreitet 40°."),
 }
-_GERMAN_NOTES = (
-    ("there is no transmission angle: ", "Es gibt keinen Übertragungswinkel: "),
-    (" is moved by the drive itself", " wird vom Antrieb selbst bewegt"),
-    ("no link with two joints drives the group ", "kein Glied mit zwei Gelenken treibt die Gruppe "),
-    (" slides at both ends and transmits a couple only", " gleitet an beiden Enden und überträgt nur ein Moment"),
-)
 
 
 def explain(found: Measures, lang: str) -> Iterator[str]:
@@ -82,7 +86,7 @@ def explain(found: Measures, lang: str) -> Iterator[str]:
     yield from _drive_lines(found, say)
     name = found.output.name
     if found.transfer.still:
-        yield say("still", name=name)
+        yield say("not turning" if found.output.turning else "still", name=name)
     elif found.transfer.uniform:
         yield say("uniform", name=name, ratio=found.transfer.ratio)
     elif found.output_turns:
@@ -96,12 +100,15 @@ def explain(found: Measures, lang: str) -> Iterator[str]:
     if found.phi_forward is not None and found.phi_back is not None:
         forward, back = (_drive(found, x) for x in (found.phi_forward, found.phi_back))
         yield say("strokes", forward=forward, back=back, ratio=found.time_ratio)
+        if abs(found.phi_forward - found.phi_back) > _CONSTANT:
+            yield say("slow forward" if found.phi_forward > found.phi_back else "slow back")
     if found.times is not None:
         yield say("times", rpm=found.speed_rpm, forward=found.times.forward, back=found.times.back)
     for point in found.change_points:
         yield say("change", form=point.form, links=", ".join(point.links), at=_drive(found, point.drive))
     if found.transmission is None:
-        yield _note(found.transmission_note, lang)
+        note = found.transmission_notes[lang]
+        yield note[:1].upper() + note[1:] + "."
         return
     worst, best = found.transmission.smallest, found.transmission.largest
     yield say(
@@ -120,18 +127,13 @@ def _drive_lines(found: Measures, say: Any) -> Iterator[str]:
     if span.full:
         yield say("full") if span.turns == 1 else say("turns", turns=span.turns)
         return
-    yield say("range", low=_drive(found, span.low), high=_drive(found, span.high))
+    yield say(
+        "turning range" if found.turning_drive else "range", low=_drive(found, span.low), high=_drive(found, span.high)
+    )
     for stop, at in zip(span.stops, (span.low, span.high), strict=True):
         if stop is not None:
             key = "limit" if stop.reason == "limit" else "singular"
             yield say(key, at=_drive(found, at), form=stop.form, links=", ".join(stop.links))
-
-
-def _note(text: str, lang: str) -> str:
-    if lang == "de":
-        for english, german in _GERMAN_NOTES:
-            text = text.replace(english, german)
-    return text[:1].upper() + text[1:] + "."
 
 
 def _angle(value: float) -> str:

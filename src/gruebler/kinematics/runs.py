@@ -63,13 +63,15 @@ def follow_path(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals
 
 def _lingers(made: Plan, path: Reals, rows: Rows) -> bool:
     """Whether the path rests or turns back in a change point of a dyad, or rests where a larger group may have one."""
-    steps = np.diff(path, axis=0)
-    if made.larger and rows.status and (steps == 0).all(axis=1).any():
+    ways = np.diff(path, axis=0)
+    corners = np.flatnonzero((ways[1:] * ways[:-1] <= 0).all(axis=1)) + 1
+    if not len(corners):
+        return False
+    if made.larger and rows.status and (ways[np.append(corners, 0)] == 0).all(axis=1).any():
         return True
     branching = [dyad.number for dyad in made.dyads if dyad.branching]
-    turns = np.all(steps[1:] * steps[:-1] <= 0, axis=1).tolist()
-    at_change = np.flatnonzero(np.abs(rows.roots[:, branching]).min(axis=1, initial=1.0) < _AT_CHANGE)
-    return any(0 < row <= len(turns) and turns[row - 1] for row in at_change.tolist())
+    roots = rows.roots[corners[corners < len(rows.roots)]][:, branching]
+    return bool((np.abs(roots).min(axis=1, initial=1.0) < _AT_CHANGE).any())
 
 
 def _without_rests(path: Reals) -> tuple[Ints, Ints]:

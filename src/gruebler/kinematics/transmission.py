@@ -23,6 +23,7 @@ __all__ = [
     "GOOD",
     "Extreme",
     "Leg",
+    "NoTransmissionAngleError",
     "Transmission",
     "deviation_angle",
     "driving_legs",
@@ -34,6 +35,15 @@ GOOD = radians(40)
 """The rule of thumb: the transmission angle should not fall below."""
 
 _SLOW = 1e-7  # of the size (per unit of the drive): a velocity below it has no direction of its own
+
+
+class NoTransmissionAngleError(LinkageError):
+    """The output has no transmission angle; why, in English and German."""
+
+    def __init__(self, en: str, de: str) -> None:
+        super().__init__(f"there is no transmission angle: {en}")
+        self.texts = {"en": str(self), "de": f"es gibt keinen Übertragungswinkel: {de}"}
+
 
 Element = tuple[str, complex, complex]
 """A joint on a link: the link, the point, the direction."""
@@ -95,19 +105,25 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
     """
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
     if group is None:
-        raise LinkageError(f"there is no transmission angle: {output.link!r} is moved by the drive itself")
+        raise NoTransmissionAngleError(
+            f"{output.link!r} is moved by the drive itself", f"{output.link!r} wird vom Antrieb selbst bewegt"
+        )
     driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
     legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
     others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
     chosen = others or legs
     if not chosen:
         names = ", ".join(group.links)
-        raise LinkageError(
-            f"there is no transmission angle: no link with two joints drives the group {group.form()} {{{names}}}"
+        raise NoTransmissionAngleError(
+            f"no link with two joints drives the group {group.form()} {{{names}}}",
+            f"kein Glied mit zwei Gelenken treibt die Gruppe {group.form()} {{{names}}}",
         )
     if any(leg.form == "PP" for leg in chosen.values()):
         links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")
-        raise LinkageError(f"there is no transmission angle: {links} slides at both ends and transmits a couple only")
+        raise NoTransmissionAngleError(
+            f"{links} slides at both ends and transmits a couple only",
+            f"{links} gleitet an beiden Enden und überträgt nur ein Moment",
+        )
     return tuple(chosen.values())
 
 

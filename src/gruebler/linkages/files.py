@@ -19,7 +19,7 @@ from gruebler.linkages.model import Linkage
 from gruebler.linkages.records import Dimensions, dimensioned
 from gruebler.mechanism import Mechanism
 
-__all__ = ["linkage_from_json", "read_linkage", "to_json", "to_toml", "write_linkage"]
+__all__ = ["check_linkage_path", "linkage_from_json", "read_linkage", "to_json", "to_toml", "write_linkage"]
 
 _LONGEST = 50_000  # characters of the joints; a linkage of a thousand links fits
 
@@ -169,17 +169,23 @@ def _value(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
+def check_linkage_path(path: Path) -> None:
+    """`LinkageError` if no linkage can be written there: to be asked before a long search."""
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise LinkageError(f"{path}: end the name with .toml or .json")
+    if not path.parent.is_dir():
+        raise LinkageError(f"{path}: there is no folder {str(path.parent)!r}")
+
+
 def write_linkage(path: Path | str, linkage: Linkage) -> None:
     """Write a ``.toml`` or ``.json`` file; it appears whole or not at all."""
     from gruebler.enumeration.checkpoint import whole_file
 
     path = Path(path)
-    match path.suffix.lower():
-        case ".toml":
-            text = to_toml(linkage)
-        case ".json":
-            text = json.dumps(to_json(linkage), ensure_ascii=False, indent=2) + "\n"
-        case _:
-            raise LinkageError(f"{path}: end the name with .toml or .json")
+    check_linkage_path(path)
+    if path.suffix.lower() == ".toml":
+        text = to_toml(linkage)
+    else:
+        text = json.dumps(to_json(linkage), ensure_ascii=False, indent=2) + "\n"
     with whole_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))

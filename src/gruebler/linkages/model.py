@@ -187,6 +187,10 @@ class Linkage:
         """The linkage with further named points, in coordinates of their links."""
         return self._changed(points={**{n: tuple(p) for n, p in self.points.items()}, **points})
 
+    def with_outputs(self, outputs: Iterable[str]) -> Linkage:
+        """The same linkage with these links looked at."""
+        return self._changed(outputs=outputs)
+
     def with_mechanism(self, mechanism: Mechanism) -> Linkage:
         """The same sizes with other drives; the mechanism must have the same chain and frame."""
         if mechanism.chain != self.mechanism.chain or mechanism.frame != self.mechanism.frame:

@@ -28,7 +28,7 @@ _TEXT = {
         "full": "{drive} läuft um.",
         "turning": "{drive} schwingt von {low:.0f}° bis {high:.0f}°.",
         "sliding": "{drive} schiebt von {low:.6g} bis {high:.6g} {unit}.",
-        "quality": "Kleinste Maßzahl der Güte {quality:.2f} (1 ist das Beste, 0 singulär).",
+        "quality": "Kleinste Gütezahl {quality:.2f} (1 ist das Beste, 0 singulär).",
         "tries": "Versucht: {tries} Zeichnungen (Startwert {seed}).",
         "none": "Keine Abmessungen gefunden, mit denen die Antriebe es bewegen: {tries} Zeichnungen versucht "
         "(Startwert {seed}).",
