@@ -8,44 +8,23 @@ Whether two chains have the same *structure*, names aside, is asked of `gruebler
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from gruebler import notation, views
-from gruebler.errors import ChainError, NotationError, PairError, nearest
-from gruebler.pairs import Alphabet, Pair, Space, pair
+from gruebler.chain.documents import read_document, read_graph6
+from gruebler.chain.joint import Joint
+from gruebler.chain.soundness import checked_joint, checked_links, whole
+from gruebler.errors import ChainError, nearest
+from gruebler.pairs import Alphabet, Pair, Space
 
 if TYPE_CHECKING:
     import networkx as nx
 
-__all__ = ["Chain", "Joint"]
-
-_LONGEST_NAME = 200
-
-
-@dataclass(frozen=True, slots=True)
-class Joint:
-    """A place where two or more links meet with one pair; a joint of k links counts k - 1."""
-
-    pair: Pair
-    links: tuple[str, ...]
-
-    @property
-    def count(self) -> int:
-        """How often the joint counts in F: k - 1."""
-        return len(self.links) - 1
-
-    def __str__(self) -> str:
-        return notation.joint_text(self.pair.symbol(), self.links)
-
-    @property
-    def _key(self) -> tuple[str, tuple[str, ...]]:
-        return self.pair.name, tuple(sorted(self.links))
+__all__ = ["Chain"]
 
 
 class Chain:
@@ -87,10 +66,10 @@ class Chain:
         space: str | Space = Space.PLANAR,
     ) -> None:
         where = notation.space_of(space)
-        made = tuple(_joint(j, where) for j in joints)
+        made = tuple(checked_joint(j, where) for j in joints)
         named = tuple(dict.fromkeys(link for j in made for link in j.links))
-        declared = named if links is None else _declared(links, named, made)
-        _check_whole(declared, made)
+        declared = named if links is None else checked_links(links, named, made)
+        whole(declared, made)
         object.__setattr__(self, "links", declared)
         object.__setattr__(self, "joints", made)
         object.__setattr__(self, "space", where)
@@ -131,43 +110,14 @@ class Chain:
     @classmethod
     def from_graph6(cls, code: str) -> Chain:
         """The planar chain of revolute joints whose link graph this graph6 code describes."""
-        import networkx as nx  # it takes longer to import than most questions to answer
-
-        try:
-            graph = nx.from_graph6_bytes(code.encode("ascii"))
-        except UnicodeEncodeError:
-            raise NotationError(f"{code!r} is not a graph6 code: it has letters beyond ASCII") from None
-        except IndexError:
-            raise NotationError(f"{code!r} is not a graph6 code: it ends too early") from None
-        except (nx.NetworkXError, ValueError) as error:
-            raise NotationError(f"{code!r} is not a graph6 code: {error}") from None
-        order = [str(v) for v in range(graph.number_of_nodes())]
-        return cls([("revolute", (str(a), str(b))) for a, b in sorted(graph.edges)], links=order)
+        joints, links = read_graph6(code)
+        return cls(joints, links=links)
 
     @classmethod
     def from_json(cls, document: str | Mapping[str, Any]) -> Chain:
         """The chain of a JSON document made by `to_json` (the text, or the object already read)."""
-        if isinstance(document, str):
-            try:
-                document = json.loads(document)
-            except json.JSONDecodeError as error:
-                raise NotationError(f"not a JSON document: {error}") from None
-        if not isinstance(document, Mapping):
-            raise NotationError(f"a chain is a JSON object, not {type(document).__name__}")
-        unknown = sorted(set(document) - {"space", "links", "joints"})
-        if unknown:
-            raise NotationError(f"unknown key {unknown[0]!r} in a chain: expected space, links, joints")
-        joints = document.get("joints")
-        if not isinstance(joints, Sequence) or isinstance(joints, str):
-            raise NotationError('a chain needs a list under "joints"')
-        links = document.get("links")
-        if links is not None and (not isinstance(links, Sequence) or isinstance(links, str)):
-            raise NotationError('"links" must be a list of names')
-        return cls(
-            [_joint_of_json(number, j) for number, j in enumerate(joints, 1)],
-            links=links,
-            space=document.get("space", Space.PLANAR),
-        )
+        joints, links, space = read_document(document)
+        return cls(joints, links=links, space=space)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`: space, links and joints, all names in full.
@@ -208,7 +158,7 @@ class Chain:
 
     @cached_property
     def _key(self) -> tuple[Space, tuple[str, ...], tuple[tuple[str, tuple[str, ...]], ...]]:
-        return self.space, tuple(sorted(self.links)), tuple(sorted(j._key for j in self.joints))
+        return self.space, tuple(sorted(self.links)), tuple(sorted(j.key for j in self.joints))
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, Chain) else NotImplemented
@@ -305,8 +255,8 @@ class Chain:
         symbols = notation.symbols_for((j.pair for j in self.joints), self.space, Alphabet(alphabet))
         names = []
         for j in self.joints:
-            seen[j._key] += 1
-            again = f"#{seen[j._key]}" if seen[j._key] > 1 else ""
+            seen[j.key] += 1
+            again = f"#{seen[j.key]}" if seen[j.key] > 1 else ""
             names.append(notation.joint_text(symbols[j.pair], j.links) + again)
         return tuple(names)
 
@@ -390,92 +340,3 @@ class Chain:
 
 def _rebuilt(joints: tuple[Joint, ...], links: tuple[str, ...], space: Space) -> Chain:
     return Chain(joints, links=links, space=space)
-
-
-def _joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
-    kind, links = (raw.pair, raw.links) if isinstance(raw, Joint) else raw
-    if isinstance(links, str):
-        raise ChainError(f"the links of a joint are a list of names, not the text {links!r}")
-    made = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
-    if len(made.links) < 2:
-        raise ChainError(f"the joint {made} has {_links(len(made.links))}; a joint joins at least two")
-    if len(set(made.links)) < len(made.links):
-        twice = next(link for link, k in Counter(made.links).items() if k > 1)
-        raise ChainError(f"the joint {made} names the link {twice!r} twice; a joint joins different links")
-    if space not in made.pair.freedoms:
-        try:
-            made.pair.f(space)
-        except PairError as error:
-            raise PairError(f"the joint {made} is not possible: {error}") from None
-    if len(made.links) > 2 and not made.pair.is_group:
-        raise ChainError(
-            f"the joint {made} has {len(made.links)} links, but a {made.pair.name} joint ({made.pair.german}) joins "
-            "exactly two: such relative motions do not compose; write one joint for each contact"
-        )
-    return made
-
-
-def _joint_of_json(number: int, document: object) -> tuple[str, Sequence[str]]:
-    match document:
-        case {"pair": str(kind), "links": [*links], **rest} if not rest and all(
-            isinstance(link, str) for link in links
-        ):
-            return kind, [str(link) for link in links]
-    raise NotationError(f'joint {number} must be an object with a text "pair" and a list of names "links"')
-
-
-def _name(raw: str | int) -> str:
-    if not isinstance(raw, str | int) or isinstance(raw, bool):
-        raise ChainError(f"a link is named by a text or a whole number, not by {raw!r}")
-    name = str(raw)
-    if not name.strip() or name != name.strip() or not name.isprintable():
-        raise ChainError(f"{name!r} cannot name a link: a name has visible characters and no blank at its ends")
-    if len(name) > _LONGEST_NAME:
-        raise ChainError(f"the link name {name[:20]!r}... has {len(name)} characters; at most {_LONGEST_NAME}")
-    return name
-
-
-def _declared(links: Iterable[str | int], named: tuple[str, ...], joints: tuple[Joint, ...]) -> tuple[str, ...]:
-    declared = tuple(_name(link) for link in links)
-    if len(set(declared)) < len(declared):
-        twice = next(link for link, k in Counter(declared).items() if k > 1)
-        raise ChainError(f"two links are called {twice!r}; every link needs a name of its own")
-    stranger = next((link for link in named if link not in set(declared)), None)
-    if stranger is not None:
-        where = next(j for j in joints if stranger in j.links)
-        raise ChainError(
-            f"the joint {where} names the link {stranger!r}, which is not among the links" + nearest(stranger, declared)
-        )
-    lonely = next((link for link in declared if link not in set(named)), None)
-    if lonely is not None:
-        raise ChainError(f"the link {lonely!r} has no joint; every link of a chain carries at least one")
-    return declared
-
-
-def _check_whole(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
-    if len(links) < 3:
-        raise ChainError(f"a kinematic chain has at least three links, this one has {_links(len(links))}")
-    root = {link: link for link in links}
-
-    def find(link: str) -> str:
-        while root[link] != link:
-            root[link] = link = root[root[link]]
-        return link
-
-    for j in joints:
-        for other in j.links[1:]:
-            root[find(other)] = find(j.links[0])
-    parts: dict[str, list[str]] = {}
-    for link in links:
-        parts.setdefault(find(link), []).append(link)
-    if len(parts) > 1:
-        sizes = sorted(parts.values(), key=len)
-        raise ChainError(f"the chain falls into {len(parts)} parts: no joint connects {_some(sizes[0])} with the rest")
-
-
-def _links(number: int) -> str:
-    return "one link" if number == 1 else f"{number or 'no'} links"
-
-
-def _some(names: Sequence[str]) -> str:
-    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")

@@ -1,0 +1,61 @@
+"""Chains read from graph6 codes and from JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from gruebler.errors import NotationError
+from gruebler.pairs import Space
+
+__all__ = ["read_document", "read_graph6"]
+
+Joints = list[tuple[str, Sequence[str]]]
+
+
+def read_graph6(code: str) -> tuple[Joints, list[str]]:
+    """Revolute joints and links of a graph6 code."""
+    import networkx as nx  # it takes longer to import than most questions to answer
+
+    try:
+        graph = nx.from_graph6_bytes(code.encode("ascii"))
+    except UnicodeEncodeError:
+        raise NotationError(f"{code!r} is not a graph6 code: it has letters beyond ASCII") from None
+    except IndexError:
+        raise NotationError(f"{code!r} is not a graph6 code: it ends too early") from None
+    except (nx.NetworkXError, ValueError) as error:
+        raise NotationError(f"{code!r} is not a graph6 code: {error}") from None
+    order = [str(v) for v in range(graph.number_of_nodes())]
+    return [("revolute", (str(a), str(b))) for a, b in sorted(graph.edges)], order
+
+
+def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[str] | None, str | Space]:
+    """Joints, links and space of a JSON document, the text or the object already read."""
+    if isinstance(document, str):
+        try:
+            document = json.loads(document)
+        except json.JSONDecodeError as error:
+            raise NotationError(f"not a JSON document: {error}") from None
+    if not isinstance(document, Mapping):
+        raise NotationError(f"a chain is a JSON object, not {type(document).__name__}")
+    unknown = sorted(set(document) - {"space", "links", "joints"})
+    if unknown:
+        raise NotationError(f"unknown key {unknown[0]!r} in a chain: expected space, links, joints")
+    joints = document.get("joints")
+    if not isinstance(joints, Sequence) or isinstance(joints, str):
+        raise NotationError('a chain needs a list under "joints"')
+    links = document.get("links")
+    if links is not None and (not isinstance(links, Sequence) or isinstance(links, str)):
+        raise NotationError('"links" must be a list of names')
+    made = [_joint_of_json(number, j) for number, j in enumerate(joints, 1)]
+    return made, links, document.get("space", Space.PLANAR)
+
+
+def _joint_of_json(number: int, document: object) -> tuple[str, Sequence[str]]:
+    match document:
+        case {"pair": str(kind), "links": [*links], **rest} if not rest and all(
+            isinstance(link, str) for link in links
+        ):
+            return kind, [str(link) for link in links]
+    raise NotationError(f'joint {number} must be an object with a text "pair" and a list of names "links"')

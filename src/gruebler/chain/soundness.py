@@ -1,0 +1,97 @@
+"""What makes a chain sound: names, joints and links that fit, in one piece. Each slip is one clear `ChainError`."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+
+from gruebler.chain.joint import Joint
+from gruebler.errors import ChainError, PairError, nearest
+from gruebler.pairs import Pair, Space, pair
+
+__all__ = ["checked_joint", "checked_links", "whole"]
+
+_LONGEST_NAME = 200
+
+
+def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
+    """A joint as it is given, checked."""
+    kind, links = (raw.pair, raw.links) if isinstance(raw, Joint) else raw
+    if isinstance(links, str):
+        raise ChainError(f"the links of a joint are a list of names, not the text {links!r}")
+    made = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
+    if len(made.links) < 2:
+        raise ChainError(f"the joint {made} has {_links(len(made.links))}; a joint joins at least two")
+    if len(set(made.links)) < len(made.links):
+        twice = next(link for link, k in Counter(made.links).items() if k > 1)
+        raise ChainError(f"the joint {made} names the link {twice!r} twice; a joint joins different links")
+    if space not in made.pair.freedoms:
+        try:
+            made.pair.f(space)
+        except PairError as error:
+            raise PairError(f"the joint {made} is not possible: {error}") from None
+    if len(made.links) > 2 and not made.pair.is_group:
+        raise ChainError(
+            f"the joint {made} has {len(made.links)} links, but a {made.pair.name} joint ({made.pair.german}) joins "
+            "exactly two: such relative motions do not compose; write one joint for each contact"
+        )
+    return made
+
+
+def _name(raw: str | int) -> str:
+    if not isinstance(raw, str | int) or isinstance(raw, bool):
+        raise ChainError(f"a link is named by a text or a whole number, not by {raw!r}")
+    name = str(raw)
+    if not name.strip() or name != name.strip() or not name.isprintable():
+        raise ChainError(f"{name!r} cannot name a link: a name has visible characters and no blank at its ends")
+    if len(name) > _LONGEST_NAME:
+        raise ChainError(f"the link name {name[:20]!r}... has {len(name)} characters; at most {_LONGEST_NAME}")
+    return name
+
+
+def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tuple[Joint, ...]) -> tuple[str, ...]:
+    """The names of the links, which must be those that the joints name."""
+    declared = tuple(_name(link) for link in links)
+    if len(set(declared)) < len(declared):
+        twice = next(link for link, k in Counter(declared).items() if k > 1)
+        raise ChainError(f"two links are called {twice!r}; every link needs a name of its own")
+    stranger = next((link for link in named if link not in set(declared)), None)
+    if stranger is not None:
+        where = next(j for j in joints if stranger in j.links)
+        raise ChainError(
+            f"the joint {where} names the link {stranger!r}, which is not among the links" + nearest(stranger, declared)
+        )
+    lonely = next((link for link in declared if link not in set(named)), None)
+    if lonely is not None:
+        raise ChainError(f"the link {lonely!r} has no joint; every link of a chain carries at least one")
+    return declared
+
+
+def whole(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
+    """Refuse what is too small or in several parts."""
+    if len(links) < 3:
+        raise ChainError(f"a kinematic chain has at least three links, this one has {_links(len(links))}")
+    root = {link: link for link in links}
+
+    def find(link: str) -> str:
+        while root[link] != link:
+            root[link] = link = root[root[link]]
+        return link
+
+    for j in joints:
+        for other in j.links[1:]:
+            root[find(other)] = find(j.links[0])
+    parts: dict[str, list[str]] = {}
+    for link in links:
+        parts.setdefault(find(link), []).append(link)
+    if len(parts) > 1:
+        sizes = sorted(parts.values(), key=len)
+        raise ChainError(f"the chain falls into {len(parts)} parts: no joint connects {_some(sizes[0])} with the rest")
+
+
+def _links(number: int) -> str:
+    return "one link" if number == 1 else f"{number or 'no'} links"
+
+
+def _some(names: Sequence[str]) -> str:
+    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
