@@ -161,7 +161,7 @@ REFUSED = [
     (["four-bar:a,b,c,d"], "four-bar: expected numbers a,b,c,d"),
     (["fourbar:1,2,3,4"], "did you mean 'four-bar'?"),
     (["crankroker"], "did you mean crankrocker"),
-    (["quad"], "the catalog entry 'quad' has no dimensions; these have: "),
+    (["tri"], "the catalog entry 'tri' has no dimensions; these have: "),
     (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
     (["/dev/null"], "a linkage is in a .toml or .json file"),

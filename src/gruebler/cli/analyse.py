@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.cli.analysis_table import Column, as_csv, columns, shown
+from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.kinematics import Motion, degrees, move
+from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import all_branches, read_branch
 from gruebler.kinematics.moving import planned
 from gruebler.kinematics.outputs import Output, find_output
@@ -32,9 +33,7 @@ __all__ = ["run"]
 
 Reals = NDArray[np.float64]
 
-_MOST_ROWS = 1_000_000
 _MOST_BRANCHES = 16
-_STEP = 15.0  # degrees between the rows of a full turn
 _WORDS = {
     "en": {
         "roles": "Roles: {roles}.",
@@ -54,7 +53,7 @@ _WORDS = {
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
     linkage, shown_range = linkage_of(arguments.linkage)
-    turning = _turning(linkage)
+    turning = turning_drives(linkage)
     plan = planned(linkage)
     speed = _speed(arguments.speed, turning)
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
@@ -62,8 +61,12 @@ def run(arguments: argparse.Namespace) -> int:
         linkage.named(name)
     if arguments.branch is not None:
         read_branch(plan, arguments.branch)
-    given = _given_rows(arguments.drive, arguments.at, turning)
+    given = given_rows(arguments.drive, arguments.at, turning)
     if len(turning) > 1:
+        if arguments.poles or arguments.curvature:
+            raise GrueblerError(
+                "--poles and --curvature are those of one drive; with several drives there are poses only"
+            )
         if given is None:
             raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
         motion = move(linkage, given, branch=arguments.branch, order=0)
@@ -74,23 +77,17 @@ def run(arguments: argparse.Namespace) -> int:
     except LinkageError as error:
         print(error)
         return 1
-    rows = _default_rows(found, shown_range, turning[0]) if given is None else given
+    rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, found, rows, arguments.branch)
     made = []
     if len(motion):
         angle = None if found.transmission is None else transmission_angle(motion, found.output.name)
         made = columns(motion, outputs, arguments.point, speed, angle, _WORDS[arguments.lang]["mu"])
+        made += _geometry(motion, outputs, arguments)
     return _tell(linkage, found, motion, [column.without(before) for column in made], arguments)
 
 
 # --- what was asked for ----------------------------------------------------------------------------
-
-
-def _turning(linkage: Linkage) -> list[bool]:
-    mechanism = linkage.mechanism
-    if not mechanism.drives:
-        raise GrueblerError(f"no joint is driven; name one in drives, such as {mechanism.chain.joint_names()[0]}")
-    return [drive.direction.startswith("R") for drive in mechanism.drives]
 
 
 def _speed(speed: float | None, turning: Sequence[bool]) -> float | None:
@@ -102,66 +99,6 @@ def _speed(speed: float | None, turning: Sequence[bool]) -> float | None:
     if len(turning) > 1:
         raise GrueblerError("--speed is that of one drive; with several drives there are poses only")
     return speed * math.pi / 30 if turning[0] else speed
-
-
-def _given_rows(spans: Sequence[str], at: Sequence[float], turning: Sequence[bool]) -> Reals | None:
-    """(rows, drives) of --drive or --at; None if neither is given."""
-    if not spans and not at:
-        return None
-    if spans and at:
-        raise GrueblerError("--drive and --at do not go together")
-    if len(spans or at) != len(turning):
-        option = "--drive" if spans else "--at"
-        raise GrueblerError(f"the linkage has {_drives(len(turning))}, but {option} was given {len(spans or at)} times")
-    if at:
-        if not all(math.isfinite(value) and abs(value) < 1e9 for value in at):
-            raise GrueblerError(f"--at: expected a finite number below 1e9, but found {at[0]:g}")
-        return np.array([[math.radians(v) if turns else v for v, turns in zip(at, turning, strict=True)]])
-    ways = [_way(text, turns) for text, turns in zip(spans, turning, strict=True)]
-    longest = max(map(len, ways))
-    for text, way in zip(spans, ways, strict=True):
-        if len(way) not in (1, longest):
-            raise GrueblerError(f"--drive {text}: {len(way)} rows where another drive has {longest}")
-    return np.column_stack([np.broadcast_to(way, longest) for way in ways])
-
-
-def _drives(count: int) -> str:
-    return f"{count} drive" if count == 1 else f"{count} drives"
-
-
-def _way(text: str, turning: bool) -> Reals:
-    try:
-        start, stop, step = (float(part) for part in text.split(":")) if ":" in text else (float(text),) * 2 + (1.0,)
-    except ValueError:
-        raise GrueblerError(f"--drive: expected FROM:TO:STEP such as 0:360:15, but found {text!r}") from None
-    if not all(math.isfinite(v) and abs(v) < 1e9 for v in (start, stop, step)) or not step:
-        raise GrueblerError(f"--drive: expected finite numbers below 1e9 and a step other than 0, but found {text!r}")
-    if abs((stop - start) / step) >= _MOST_ROWS:
-        raise GrueblerError(f"--drive {text}: more than {_MOST_ROWS:,} rows")
-    rows = degrees(start, stop, step)
-    return rows if turning else np.degrees(rows)
-
-
-def _default_rows(found: Measures, shown_range: tuple[float, float] | None, turning: bool) -> Reals:
-    """A full turn by 15 degrees, or round numbers in the range."""
-    span = found.span
-    if shown_range is None and span.full:
-        return degrees(0, 360 * span.turns, _STEP).reshape(-1, 1)
-    scale = 180 / math.pi if turning else 1.0
-    low, high = shown_range or (span.low * scale, span.high * scale)
-    step = _round_step((high - low) / 20)
-    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    return np.array([[k * step / scale] for k in range(first, last + 1)])
-
-
-def _round_step(step: float) -> float:
-    """The next number of 1, 2, 5 times a power of ten.
-
-    >>> _round_step(0.03), _round_step(3.4)
-    (0.05, 5.0)
-    """
-    power = math.floor(math.log10(step))
-    return next(float(f"{k}e{power}") for k in (1, 2, 5, 10) if k * 10.0**power >= step * (1 - 1e-9))
 
 
 # --- what is found ---------------------------------------------------------------------------------
@@ -180,6 +117,21 @@ def _moved(linkage: Linkage, found: Measures, rows: Reals, branch: str | None) -
     """
     motion = move(linkage, np.concatenate([[[found.start]], rows]), branch=found.branch, speed=1.0)
     return (motion, 1) if len(motion) > 1 else (move(linkage, rows, branch=branch, speed=1.0), 0)
+
+
+def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Namespace) -> list[Column]:
+    """The columns of --poles and --curvature."""
+    from gruebler.cli.geometry_columns import curvature_columns, pole_columns
+
+    out = pole_columns(motion, arguments.lang) if arguments.poles and not _listed(arguments) else []
+    if arguments.curvature:
+        out += curvature_columns(motion, arguments.point, [output.link for output in outputs], arguments.lang)
+    return out
+
+
+def _listed(arguments: argparse.Namespace) -> bool:
+    """Whether the poles are told as a list below the table."""
+    return bool(arguments.poles and arguments.at and not arguments.json and arguments.csv is None)
 
 
 def _others(linkage: Linkage, found: Measures) -> list[str]:
@@ -212,6 +164,12 @@ def _tell(
             _say(linkage, found, _WORDS[arguments.lang], arguments.lang)
         if made and arguments.csv is None:
             print_table([column.header for column in made], shown(made), numbers=range(len(made)))
+        if made and _listed(arguments):
+            from gruebler.cli.geometry_columns import pole_list
+
+            headers, rows = pole_list(motion, len(motion) - 1, arguments.lang)
+            print()
+            print_table(headers, rows)
         if not motion.complete:
             print(motion.message(arguments.lang))
     return 0 if motion.complete else 1

@@ -106,14 +106,20 @@ def _by(own: str, per: str, order: int) -> str:
 
 
 def shown(made: Sequence[Column]) -> list[list[str]]:
-    """The rows as texts of six digits, rounding noise as 0."""
+    """The rows as texts of six digits, rounding noise as 0, a radius without end as ∞."""
     cells = []
     for column in made:
         finite = np.abs(column.values[np.isfinite(column.values)])
         noise = 1e-12 * max(finite.max(initial=0.0), 1e-300)
         values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
-        cells.append([f"{value + 0.0:.6g}" if np.isfinite(value) else "–" for value in values])
+        cells.append([_cell(value) for value in values])
     return [list(row) for row in zip(*cells, strict=True)]
+
+
+def _cell(value: float) -> str:
+    if np.isfinite(value):
+        return f"{value + 0.0:.6g}"
+    return "∞" if np.isinf(value) else "–"
 
 
 def as_csv(made: Sequence[Column]) -> str:

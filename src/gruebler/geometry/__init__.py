@@ -2,9 +2,13 @@
 
 `poles` and `centrodes`, `inflection_circle` and `path_curvature` take any `Motion`; `cognates`, `slider_cognates` and
 `parallel_motion` find other linkages for one coupler curve, `coupler_sextic` its equation; `piece`, `longest_piece`
-and `piece_of_ratio` tell how straight a path is. Definitions, theorems and errors: docs/theory/geometry.md.
+and `piece_of_ratio` tell how straight a path is; `coupler_curve` finds length, area, cusps, inflections,
+vertices and double points, `tangent_contact` the order of contact, `series` the Taylor series of a motion.
+Definitions, theorems and errors: docs/theory/geometry.md, docs/theory/coupler-curves.md.
 """
 
+from gruebler.geometry.contact import Contact, tangent_contact
+from gruebler.geometry.coupler_curve import CouplerCurve, coupler_curve
 from gruebler.geometry.curvature import InflectionCircle, PathCurvature, inflection_circle, path_curvature
 from gruebler.geometry.instant_centres import Centrodes, Poles, centrodes, poles
 from gruebler.geometry.roberts import (
@@ -15,6 +19,7 @@ from gruebler.geometry.roberts import (
     parallel_motion,
     slider_cognates,
 )
+from gruebler.geometry.series import Series, series
 from gruebler.geometry.sextic import CouplerSextic, coupler_sextic
 from gruebler.geometry.straight import Path, Piece, coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
 
@@ -22,15 +27,19 @@ __all__ = [
     "Centrodes",
     "Cognate",
     "CognateSizes",
+    "Contact",
+    "CouplerCurve",
     "CouplerSextic",
     "InflectionCircle",
     "Path",
     "PathCurvature",
     "Piece",
     "Poles",
+    "Series",
     "centrodes",
     "cognate_sizes",
     "cognates",
+    "coupler_curve",
     "coupler_path",
     "coupler_sextic",
     "inflection_circle",
@@ -41,5 +50,7 @@ __all__ = [
     "piece",
     "piece_of_ratio",
     "poles",
+    "series",
     "slider_cognates",
+    "tangent_contact",
 ]

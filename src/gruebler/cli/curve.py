@@ -1,0 +1,200 @@
+"""`gruebler curve`: the path of a point, with all that is on it."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from typing import Any
+
+import numpy as np
+
+from gruebler.cli.analysis_table import Column, as_csv
+from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.geometry import Contact, CouplerCurve, coupler_curve
+from gruebler.linkages import Named
+
+__all__ = ["run"]
+
+_WORDS = {
+    "en": {
+        "closed": "The path is closed: length {length:.9g} {unit}, area {area:.9g} {unit}².",
+        "open": "The path goes from {low} to {high}: length {length:.9g} {unit}.",
+        "retraced": "The point goes back on its own way.",
+        "contact": "At {drive} the tangent touches with {points} points: y = {coefficient:.9g} x^{points}.",
+        "straight": "At {drive} the path does not leave its tangent up to the order 10.",
+        "what": "what",
+        "drive": "drive",
+        "note": "",
+        "none": "Nothing is on it.",
+        "cusp": "cusp",
+        "inflection": "inflection",
+        "flat": "flat point",
+        "vertex": "vertex",
+        "double": "double point",
+        "touch": "touches itself",
+        "turn": "extreme along {direction:g}°",
+        "tangent": "tangent {direction:.6g}°",
+        "radius": "radius {radius:.6g} {unit}",
+        "angle": "angle {angle:.6g}°",
+    },
+    "de": {
+        "closed": "Die Bahn ist geschlossen: Länge {length:.9g} {unit}, Fläche {area:.9g} {unit}².",
+        "open": "Die Bahn reicht von {low} bis {high}: Länge {length:.9g} {unit}.",
+        "retraced": "Der Punkt läuft auf seiner eigenen Bahn zurück.",
+        "contact": "Bei {drive} berührt die Tangente {points}punktig: y = {coefficient:.9g} x^{points}.",
+        "straight": "Bei {drive} verlässt die Bahn ihre Tangente bis zur Ordnung 10 nicht.",
+        "what": "was",
+        "drive": "Antrieb",
+        "note": "",
+        "none": "Es liegt nichts darauf.",
+        "cusp": "Spitze",
+        "inflection": "Wendepunkt",
+        "flat": "Flachpunkt",
+        "vertex": "Scheitel",
+        "double": "Doppelpunkt",
+        "touch": "berührt sich selbst",
+        "turn": "Umkehrpunkt längs {direction:g}°",
+        "tangent": "Tangente {direction:.6g}°",
+        "radius": "Radius {radius:.6g} {unit}",
+        "angle": "Winkel {angle:.6g}°",
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Length, area, contact, then a table of what is on the path."""
+    linkage, _ = linkage_of(arguments.linkage)
+    found = coupler_curve(linkage, _point(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance)
+    turning = found.trail.course.turning_drive
+    drives = [math.radians(value) if turning else value for value in arguments.contact]
+    contacts = [found.contact(drive) for drive in drives]
+    directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
+    if arguments.csv is not None:
+        from gruebler.cli.draw import written
+
+        written(arguments.csv, as_csv(_polygon(found, turning)).encode("utf-8"))
+    if arguments.json:
+        print(json.dumps(_document(found, contacts, directions), ensure_ascii=False, indent=2))
+    else:
+        _say(found, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
+    return 0
+
+
+def _point(text: str) -> str | Named:
+    link, colon, place = text.rpartition(":")
+    if not colon or "(" in place:
+        return text
+    try:
+        x, y = (float(part) for part in place.split(","))
+    except ValueError:
+        raise GrueblerError(f"expected a point LINK:X,Y such as coupler:45,40, but found {text!r}") from None
+    if not (math.isfinite(x) and math.isfinite(y)):
+        raise GrueblerError(f"a point has finite coordinates, but found {text!r}")
+    return Named(link, x, y)
+
+
+def _polygon(found: CouplerCurve, turning: bool) -> list[Column]:
+    unit, z = found.trail.course.linkage.unit, found.points
+    drives = np.degrees(found.drives) if turning else found.drives
+    name = found.trail.course.linkage.mechanism.drive_names()[0]
+    return [
+        Column(name, "°" if turning else unit, drives),
+        Column("x", unit, z.real),
+        Column("y", unit, z.imag),
+        Column("s", unit, found.arcs),
+    ]
+
+
+# --- what is said ----------------------------------------------------------------------------------
+
+
+def _say(found: CouplerCurve, contacts: list[tuple[float, Contact]], directions: tuple[float, ...], lang: str) -> None:
+    words, unit = _WORDS[lang], found.trail.course.linkage.unit
+    if found.area is not None:
+        print(words["closed"].format(length=found.length, area=round(found.area, 9) + 0.0, unit=unit))
+    else:
+        low, high = (_drive(found, value) for value in found.trail.course.span[:2])
+        print(words["open"].format(low=low, high=high, length=found.length, unit=unit))
+    if found.retraced:
+        print(words["retraced"])
+    for drive, one in contacts:
+        key = "straight" if one.points is None else "contact"
+        print(words[key].format(drive=_drive(found, drive), points=one.points, coefficient=one.coefficient))
+    rows = _rows(found, directions, words)
+    print()
+    if rows:
+        print_table([words["what"], words["drive"], "x", "y", words["note"]], rows, numbers=[1, 2, 3])
+    else:
+        print(words["none"])
+
+
+def _rows(found: CouplerCurve, directions: tuple[float, ...], words: dict[str, str]) -> list[list[str]]:
+    unit = found.trail.course.linkage.unit
+    rows = []
+
+    def add(what: str, drives: tuple[float, ...], at: complex, note: str) -> None:
+        noise = 1e-9 * found.trail.size
+        places = [f"{value if abs(value) > noise else 0.0:.6g}" for value in (at.real, at.imag)]
+        rows.append([what, ", ".join(_drive(found, drive) for drive in drives), *places, note])
+
+    for cusp in found.cusps:
+        add(words["cusp"], (cusp.drive,), cusp.at, words["tangent"].format(direction=_axis(cusp.direction)))
+    for one in found.inflections:
+        what = words["flat" if one.flat else "inflection"]
+        add(what, (one.drive,), one.at, words["tangent"].format(direction=_axis(one.direction)))
+    for top in found.vertices:
+        straight = abs(top.curvature) * found.trail.size < 1e-9
+        radius = math.inf if straight else 1 / top.curvature
+        add(words["vertex"], (top.drive,), top.at, words["radius"].format(radius=radius, unit=unit).replace("inf", "∞"))
+    for double in found.double_points:
+        what = words["touch" if double.touching else "double"]
+        add(what, double.drives, double.at, words["angle"].format(angle=math.degrees(double.angle)))
+    for direction in directions:
+        for turn in found.turning_points(math.radians(direction)):
+            add(words["turn"].format(direction=direction), (turn.drive,), turn.at, turn.kind[:3])
+    return rows
+
+
+def _axis(angle: float) -> float:
+    """The angle of a line in degrees, 0 up to 180."""
+    return round(math.degrees(angle), 9) % 180
+
+
+def _drive(found: CouplerCurve, value: float) -> str:
+    if found.trail.course.turning_drive:
+        return f"{round(math.degrees(value), 9) + 0.0:.6f}°"
+    return f"{value:.9g} {found.trail.course.linkage.unit}"
+
+
+def _document(found: CouplerCurve, contacts: list[Contact], directions: tuple[float, ...]) -> dict[str, Any]:
+    turning = found.trail.course.turning_drive
+
+    def told(one: Any) -> dict[str, Any]:
+        """An event as its fields, drives in degrees."""
+        fields = {key: value for key, value in one._asdict().items() if key != "parameter"}
+        for key in ("drive", "drives"):
+            if key in fields and turning:
+                fields[key] = np.degrees(fields[key]).tolist()
+        for key in ("direction", "angle"):
+            if key in fields:
+                fields[f"{key}_deg"] = math.degrees(fields.pop(key))
+        return fields | {"at": [one.at.real, one.at.imag]}
+
+    return {
+        "closed": found.closed,
+        "length": found.length,
+        "area": found.area,
+        "retraced": found.retraced,
+        "cusps": [told(one) for one in found.cusps],
+        "inflections": [told(one) for one in found.inflections],
+        "vertices": [told(one) for one in found.vertices],
+        "double_points": [told(one) for one in found.double_points],
+        "turning_points": {
+            f"{direction:g}": [told(one) for one in found.turning_points(math.radians(direction))]
+            for direction in directions
+        },
+        "contacts": [{"points": one.points, "coefficient": one.coefficient} for one in contacts],
+    }

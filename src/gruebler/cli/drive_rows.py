@@ -1,0 +1,91 @@
+"""Rows of drive values as commands are given them: --drive FROM:TO:STEP, --at VALUE, or the whole range."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import GrueblerError
+from gruebler.kinematics import degrees
+from gruebler.linkages import Linkage
+
+if TYPE_CHECKING:
+    from gruebler.kinematics.course import Span
+
+__all__ = ["default_rows", "given_rows", "turning_drives"]
+
+Reals = NDArray[np.float64]
+
+_MOST_ROWS = 1_000_000
+_STEP = 15.0  # degrees between the rows of a full turn
+
+
+def turning_drives(linkage: Linkage) -> list[bool]:
+    """Which drives turn; the others slide. `GrueblerError` for a linkage without drives."""
+    mechanism = linkage.mechanism
+    if not mechanism.drives:
+        raise GrueblerError(f"no joint is driven; name one in drives, such as {mechanism.chain.joint_names()[0]}")
+    return [drive.direction.startswith("R") for drive in mechanism.drives]
+
+
+def given_rows(spans: Sequence[str], at: Sequence[float], turning: Sequence[bool]) -> Reals | None:
+    """(rows, drives) of --drive or --at; None if neither is given."""
+    if not spans and not at:
+        return None
+    if spans and at:
+        raise GrueblerError("--drive and --at do not go together")
+    if len(spans or at) != len(turning):
+        option = "--drive" if spans else "--at"
+        raise GrueblerError(f"the linkage has {_drives(len(turning))}, but {option} was given {len(spans or at)} times")
+    if at:
+        if not all(math.isfinite(value) and abs(value) < 1e9 for value in at):
+            raise GrueblerError(f"--at: expected a finite number below 1e9, but found {at[0]:g}")
+        return np.array([[math.radians(v) if turns else v for v, turns in zip(at, turning, strict=True)]])
+    ways = [_way(text, turns) for text, turns in zip(spans, turning, strict=True)]
+    longest = max(map(len, ways))
+    for text, way in zip(spans, ways, strict=True):
+        if len(way) not in (1, longest):
+            raise GrueblerError(f"--drive {text}: {len(way)} rows where another drive has {longest}")
+    return np.column_stack([np.broadcast_to(way, longest) for way in ways])
+
+
+def _drives(count: int) -> str:
+    return f"{count} drive" if count == 1 else f"{count} drives"
+
+
+def _way(text: str, turning: bool) -> Reals:
+    try:
+        start, stop, step = (float(part) for part in text.split(":")) if ":" in text else (float(text),) * 2 + (1.0,)
+    except ValueError:
+        raise GrueblerError(f"--drive: expected FROM:TO:STEP such as 0:360:15, but found {text!r}") from None
+    if not all(math.isfinite(v) and abs(v) < 1e9 for v in (start, stop, step)) or not step:
+        raise GrueblerError(f"--drive: expected finite numbers below 1e9 and a step other than 0, but found {text!r}")
+    if abs((stop - start) / step) >= _MOST_ROWS:
+        raise GrueblerError(f"--drive {text}: more than {_MOST_ROWS:,} rows")
+    rows = degrees(start, stop, step)
+    return rows if turning else np.degrees(rows)
+
+
+def default_rows(span: Span, shown_range: tuple[float, float] | None, turning: bool) -> Reals:
+    """A full turn by 15 degrees, or round numbers in the range; (rows, 1)."""
+    if shown_range is None and span.full:
+        return degrees(0, 360 * span.turns, _STEP).reshape(-1, 1)
+    scale = 180 / math.pi if turning else 1.0
+    low, high = shown_range or (span.low * scale, span.high * scale)
+    step = _round_step((high - low) / 20)
+    first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
+    return np.array([[k * step / scale] for k in range(first, last + 1)])
+
+
+def _round_step(step: float) -> float:
+    """The next number of 1, 2, 5 times a power of ten.
+
+    >>> _round_step(0.03), _round_step(3.4)
+    (0.05, 5.0)
+    """
+    power = math.floor(math.log10(step))
+    return next(float(f"{k}e{power}") for k in (1, 2, 5, 10) if k * 10.0**power >= step * (1 - 1e-9))

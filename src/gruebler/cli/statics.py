@@ -1,0 +1,217 @@
+"""`gruebler statics`: drive torque and joint forces of a linkage under loads."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gruebler.cli.analysis_table import Column, as_csv, shown
+from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
+from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.kinematics import Motion, move
+from gruebler.kinematics.course import follow
+from gruebler.linkages import Linkage, Named
+from gruebler.statics import Loads, Statics, slide_friction, statics
+
+__all__ = ["run"]
+
+_FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
+_NOISE = 1e-13  # of the loads: a smaller effort is none
+_WORDS = {
+    "en": {
+        "torque": "torque {name}",
+        "force": "force {name}",
+        "work": "{name} by virtual work",
+        "joint": "force of {joint} on {link}",
+        "couple": "moment of {joint} on {link}",
+        "side": "side force {joint}",
+        "friction": "friction {joint}",
+        "effort": "with friction {name}",
+        "none": "Nothing acts: give --load, --moment or --mass.",
+        "most": "Largest effort: {name} = {value:.6g} {unit} at {drive}.",
+        "idle": "The drive carries nothing: {name} = 0.",
+        "agree": "Equilibrium and virtual work agree to {part:.1e} of the largest load.",
+    },
+    "de": {
+        "torque": "Antriebsmoment {name}",
+        "force": "Antriebskraft {name}",
+        "work": "{name} (virtuelle Arbeit)",
+        "joint": "Kraft von {joint} auf {link}",
+        "couple": "Moment von {joint} auf {link}",
+        "side": "Normalkraft {joint}",
+        "friction": "Reibkraft {joint}",
+        "effort": "{name} mit Reibung",
+        "none": "Es wirkt nichts: --load, --moment oder --mass angeben.",
+        "most": "Größtwert: {name} = {value:.6g} {unit} bei {drive}.",
+        "idle": "Der Antrieb trägt nichts: {name} = 0.",
+        "agree": "Gleichgewicht und virtuelle Arbeit stimmen auf {part:.1e} der größten Last überein.",
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """A table over the rows, or all forces of one row; 1 if it stops or is not held somewhere."""
+    linkage, shown_range = linkage_of(arguments.linkage)
+    turning, words = turning_drives(linkage), _WORDS[arguments.lang]
+    loads = _loads(arguments)
+    if not (loads.forces or loads.moments or loads.masses):
+        raise GrueblerError(words["none"])
+    motion = _motion(linkage, shown_range, turning, arguments)
+    if not len(motion):
+        print(motion.message(arguments.lang))
+        return 1
+    held = statics(motion, loads)
+    made = _columns(held, arguments.friction, words)
+    if arguments.csv is not None:
+        from gruebler.cli.draw import written
+
+        written(arguments.csv, as_csv([*made, *_components(held, words)]).encode("utf-8"))
+    if arguments.json:
+        print(
+            json.dumps(
+                _document(held, [*made, *_components(held, words)], arguments.lang), ensure_ascii=False, indent=2
+            )
+        )
+    elif arguments.csv is None:
+        _say(held, made, words, arguments.lang)
+    return 0 if motion.complete and not held.singular.any() else 1
+
+
+# --- what was asked for ----------------------------------------------------------------------------
+
+
+def _loads(arguments: argparse.Namespace) -> Loads:
+    forces: dict[str | Named, ArrayLike] = dict(_named("--load", text, 2) for text in arguments.load)
+    moments: dict[str, ArrayLike] = dict(_named("--moment", text, 1) for text in arguments.moment)
+    masses: dict[str | Named, ArrayLike] = dict(_named("--mass", text, 1) for text in arguments.mass)
+    if arguments.gravity is None:
+        return Loads(forces, moments, masses)
+    x, y = _numbers("--gravity", arguments.gravity, 2)
+    return Loads(forces, moments, masses, (x, y))
+
+
+def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float]:
+    name, equals, values = text.rpartition("=")
+    if not equals or not name:
+        wanted = "POINT=FX,FY" if count == 2 else "NAME=NUMBER"
+        raise GrueblerError(f"{option}: expected {wanted}, but found {text!r}")
+    numbers = _numbers(option, values, count)
+    return name.strip(), numbers if count > 1 else numbers[0]
+
+
+def _numbers(option: str, text: str, count: int) -> list[float]:
+    try:
+        numbers = [float(part) for part in text.split(",")]
+    except ValueError:
+        numbers = []
+    if len(numbers) != count or not all(map(math.isfinite, numbers)):
+        raise GrueblerError(f"{option}: expected {'two numbers X,Y' if count == 2 else 'a number'}, but found {text!r}")
+    return numbers
+
+
+def _motion(
+    linkage: Linkage, shown_range: tuple[float, float] | None, turning: Sequence[bool], arguments: argparse.Namespace
+) -> Motion:
+    rows = given_rows(arguments.drive, arguments.at, turning)
+    if rows is None and len(turning) > 1:
+        raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
+    if rows is not None:
+        return move(linkage, rows, branch=arguments.branch)
+    course = follow(linkage, arguments.branch)
+    values = default_rows(course.span, shown_range, turning[0])[:, 0]
+    if not course.span.full:
+        margin = _FROM_LIMITS * course.span.width
+        values = np.clip(values, course.span.low + margin, course.span.high - margin)
+    return course.at(values, 0)
+
+
+# --- what is said ----------------------------------------------------------------------------------
+
+
+def _columns(held: Statics, coefficient: float | None, words: dict[str, str]) -> list[Column]:
+    """Drive values, their efforts, the sizes of joint forces, friction of slides."""
+    linkage, motion = held.motion.linkage, held.motion
+    mechanism = linkage.mechanism
+    out, efforts = [], []
+    for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
+        turns = drive.direction.startswith("R")
+        values = motion.drives[:, k]
+        out.append(Column(name, "°", np.degrees(values)) if turns else Column(name, linkage.unit, values))
+        effort = words["torque" if turns else "force"].format(name=name)
+        work = np.where(np.abs(held.work[:, k]) <= _NOISE * held.load[k], 0.0, held.work[:, k])
+        efforts.append(Column(effort, f"N·{linkage.unit}" if turns else "N", work))
+    out += efforts
+    names = mechanism.chain.joint_names()
+    for number, joint in enumerate(mechanism.chain.joints):
+        links = joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]
+        for link in links:
+            size = np.hypot(*held.force(number, link).T)
+            out.append(Column(words["joint"].format(joint=names[number], link=link), "N", size))
+    for number, joint in enumerate(mechanism.chain.joints if coefficient is not None else ()):
+        if joint.pair.name in ("prismatic", "roll_slide"):
+            assert coefficient is not None
+            found = slide_friction(held, number, coefficient)
+            out.append(Column(words["friction"].format(joint=names[number]), "N", found.friction))
+            more = words["effort"].format(name=efforts[0].name)
+            out.append(Column(more, efforts[0].unit, efforts[0].values + found.effort))
+    return out
+
+
+def _components(held: Statics, words: dict[str, str], once: bool = False) -> list[Column]:
+    """The forces of all joints on all their links, and the moments of slides; ``once``: no reactions."""
+    mechanism, unit = held.motion.linkage.mechanism, held.motion.linkage.unit
+    out = []
+    for number, (joint, name) in enumerate(zip(mechanism.chain.joints, mechanism.chain.joint_names(), strict=True)):
+        for link in (_moving(joint.links, mechanism.frame),) if once and len(joint.links) == 2 else joint.links:
+            said = words["joint"].format(joint=name, link=link)
+            out += [Column(f"{said} {axis}", "N", held.force(number, link)[:, k]) for k, axis in enumerate("xy")]
+            if joint.pair.name in ("prismatic", "double_slide"):
+                moment = words["couple"].format(joint=name, link=link)
+                out.append(Column(moment, f"N·{unit}", held.couple(number, link)))
+    return out
+
+
+def _moving(links: Sequence[str], frame: str) -> str:
+    return next(link for link in reversed(links) if link != frame)
+
+
+def _say(held: Statics, made: list[Column], words: dict[str, str], lang: str) -> None:
+    motion, drives = held.motion, len(held.motion.linkage.mechanism.drives)
+    if len(motion) > 1:
+        for column in made[drives : 2 * drives]:
+            if np.isfinite(column.values).any():
+                row = int(np.nanargmax(np.abs(column.values)))
+                key = "most" if column.values[row] else "idle"
+                at = f"{made[0].values[row]:.6g}{'' if made[0].unit == '°' else ' '}{made[0].unit}"
+                print(words[key].format(name=column.name, value=column.values[row], unit=column.unit, drive=at))
+    print(words["agree"].format(part=held.disagreement))
+    print()
+    if len(motion) > 1:
+        print_table([column.header for column in made], shown(made), numbers=range(len(made)))
+    else:
+        every = [*made, *_components(held, words, once=True)]
+        print_table(
+            ["", "", ""], [[c.name, value, c.unit] for c, value in zip(every, shown(every)[0], strict=True)], [1]
+        )
+    for message in (motion.message(lang), held.message(lang)):
+        if message:
+            print(message)
+
+
+def _document(held: Statics, made: list[Column], lang: str) -> dict[str, object]:
+    rows = zip(*(column.values for column in made), strict=True)
+    return {
+        "columns": [{"name": column.name, "unit": column.unit} for column in made],
+        "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
+        "disagreement": held.disagreement,
+        "singular": [int(row) for row in np.flatnonzero(held.singular)],
+        "complete": held.motion.complete,
+        "message": " ".join(filter(None, (held.motion.message(lang), held.message(lang)))),
+    }

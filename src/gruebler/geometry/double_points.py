@@ -1,0 +1,218 @@
+"""Where a path meets itself: pairs of a polygon's sides first, then Newton's method on the two parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.geometry.relative import Complexes, Flags, Reals
+from gruebler.geometry.sampling import Samples
+from gruebler.geometry.trail import Trail
+
+__all__ = ["DoublePoint", "double_points"]
+
+_CLOSED = 1e-11  # sizes: two places that are nearer are one point
+_TOUCH = 1e-9  # the same, and tangents parallel
+_FLAT = 1e-5  # sine of the angle of the tangents: below it they touch
+_APART = 1e-6  # of the parameter: nearer places are neighbours
+_SAME = 1e-6
+_ROUNDS = 25
+_MOST_TOUCHES = 20  # more: the path is gone twice
+
+
+class DoublePoint(NamedTuple):
+    """A point that the path passes twice."""
+
+    drives: tuple[float, float]
+    """The smaller first."""
+    at: complex
+    angle: float
+    """The angle between the two tangents as lines, in radians from 0 to pi/2."""
+    touching: bool
+    """Whether both ways touch there."""
+
+
+_Step = Callable[[Complexes, Complexes], tuple[Reals, Reals]]
+
+
+class _Pairs(NamedTuple):
+    """Two parameters of each candidate."""
+
+    one: Reals
+    other: Reals
+
+    def pick(self, which: Flags) -> _Pairs:
+        return _Pairs(self.one[which], self.other[which])
+
+
+def double_points(trail: Trail, samples: Samples, pad: float) -> tuple[DoublePoint, ...] | None:
+    """The double points of a path; None if it is gone twice (everything is double).
+
+    Args:
+        trail: the path.
+        samples: its polygon.
+        pad: by how much the polygon may be off.
+
+    Two crossings nearer to one another than the polygon's tolerance may be taken for one, or for none; loops that lie
+    within it may be missed. Error: of crossings some roundings by the sine of their angle; of touches the root of that.
+    """
+    near = _near_sides(samples, trail.closed, pad)
+    if not len(near.one):
+        return ()
+    crossing, crossed = _newton(trail, near, _crossing_step)
+    z, w = trail.at(crossing.one, 1), trail.at(crossing.other, 1)
+    sine = np.abs(_cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
+    crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * trail.size) & (sine > _FLAT) & _apart(trail, crossing)
+    found = _told(trail, crossing.pick(crossed), touching=False)
+    rest = near.pick(~crossed)
+    if len(rest.one):
+        touch, touched = _newton(trail, rest, _touching_step)
+        gap = np.abs(trail.at(touch.one, 0)[0] - trail.at(touch.other, 0)[0])
+        touched &= (gap <= _TOUCH * trail.size) & _apart(trail, touch)
+        touches = _told(trail, touch.pick(touched), touching=True)
+        if len(touches) > _MOST_TOUCHES:
+            return None
+        found += [one for one in touches if not any(_equal(trail, one.drives, other.drives) for other in found)]
+    return tuple(sorted(found))
+
+
+# --- sides that come near to one another ---------------------------------------------------------------
+
+
+def _near_sides(samples: Samples, closed: bool, pad: float) -> _Pairs:
+    """Pairs of sides, not neighbours, nearer than the pad; sweeping over x."""
+    p, q = samples.points[:-1], samples.points[1:]
+    low, high = np.minimum(p.real, q.real) - pad, np.maximum(p.real, q.real) + pad
+    order = np.argsort(low)
+    until = np.searchsorted(low[order], high[order], side="right")
+    counts = np.maximum(until - np.arange(len(p)) - 1, 0)
+    first = np.repeat(np.arange(len(p)), counts)
+    offset = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    i, j = order[first], order[first + 1 + offset]
+    bottom, top = np.minimum(p.imag, q.imag) - pad, np.maximum(p.imag, q.imag) + pad
+    apart = np.abs(i - j)
+    if closed:
+        apart = np.minimum(apart, len(p) - apart)
+    kept = (apart > 1) & (bottom[i] <= top[j]) & (bottom[j] <= top[i])
+    i, j = i[kept], j[kept]
+    gap, t, u = _between(p[i], q[i], p[j], q[j])
+    kept = gap <= 2 * pad
+    i, j, t, u = i[kept], j[kept], t[kept], u[kept]
+    s, width = samples.parameters[:-1], np.diff(samples.parameters)
+    return _Pairs(s[i] + t * width[i], s[j] + u * width[j])
+
+
+def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Reals, Reals, Reals]:
+    """The distance of sides pq and ab, and where on both it is."""
+    one, other = q - p, b - a
+    sine = _cross(one, other)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t, u = _cross(a - p, other) / sine, _cross(a - p, one) / sine
+    inside = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
+    best = np.where(inside, 0.0, np.inf)
+    t, u = np.where(inside, t, 0.0), np.where(inside, u, 0.0)
+    for end, side, swap in ((p, 0.0, False), (q, 1.0, False), (a, 0.0, True), (b, 1.0, True)):
+        start, way = (p, one) if swap else (a, other)
+        square = np.maximum(np.abs(way) ** 2, 1e-300)
+        foot = np.clip((np.conj(way) * (end - start)).real / square, 0, 1)
+        gap = np.abs(end - start - foot * way)
+        nearer = gap < best
+        best = np.where(nearer, gap, best)
+        t, u = np.where(nearer, foot if swap else side, t), np.where(nearer, side if swap else foot, u)
+    return best, t, u
+
+
+# --- Newton's method ------------------------------------------------------------------------------------
+
+
+def _newton(trail: Trail, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
+    """Where it arrives, and whether it has come to rest."""
+    s, t = start.one.copy(), start.other.copy()
+    still = np.zeros(len(s), bool)
+    for _ in range(_ROUNDS):
+        ds, dt = step(trail.at(s, 2), trail.at(t, 2))
+        most = np.maximum(np.abs(ds), np.abs(dt))
+        scale = np.minimum(1.0, 0.1 / np.maximum(most, 1e-300))
+        s, t = _kept(trail, s + scale * ds), _kept(trail, t + scale * dt)
+        still = most < 1e-11
+        if still.all():
+            break
+    return _Pairs(s, t), still | (most < 1e-7)
+
+
+def _crossing_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
+    """Towards z(s) = w(t)."""
+    sine = _cross(z[1], w[1])
+    sine = np.where(sine == 0, 1e-300, sine)
+    gap = z[0] - w[0]
+    return _finite(-_cross(gap, w[1]) / sine), _finite(-_cross(gap, z[1]) / sine)
+
+
+def _touching_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
+    """Towards parallel tangents and a gap at right angles to them."""
+    gap = z[0] - w[0]
+    f, g = _dot(gap, z[1]), _cross(z[1], w[1])
+    fs, ft = np.abs(z[1]) ** 2 + _dot(gap, z[2]), -_dot(w[1], z[1])
+    gs, gt = _cross(z[2], w[1]), _cross(z[1], w[2])
+    det = fs * gt - ft * gs
+    det = np.where(det == 0, 1e-300, det)
+    return _finite(-(f * gt - g * ft) / det), _finite(-(fs * g - gs * f) / det)
+
+
+def _finite(step: Reals) -> Reals:
+    return np.clip(np.nan_to_num(step, posinf=1.0, neginf=-1.0), -1.0, 1.0)
+
+
+def _kept(trail: Trail, s: Reals) -> Reals:
+    """Within the path; of a closed one in its period."""
+    if trail.closed:
+        return np.asarray(trail.start + (s - trail.start) % (trail.end - trail.start))
+    return np.clip(s, trail.start, trail.end)
+
+
+# --- what is told ---------------------------------------------------------------------------------------
+
+
+def _apart(trail: Trail, pairs: _Pairs) -> Flags:
+    gap = np.abs(pairs.one - pairs.other)
+    if trail.closed:
+        gap = np.minimum(gap, trail.end - trail.start - gap)
+    return np.asarray(gap > _APART)
+
+
+def _told(trail: Trail, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
+    """Each once."""
+    if not len(pairs.one):
+        return []
+    z, w = trail.at(pairs.one, 1), trail.at(pairs.other, 1)
+    angle = np.abs(np.arctan2(_cross(z[1], w[1]), _dot(z[1], w[1])))
+    angle = np.minimum(angle, np.pi - angle)
+    drives = np.sort(np.stack([trail.drive(pairs.one), trail.drive(pairs.other)]), axis=0)
+    out: list[DoublePoint] = []
+    for k in np.lexsort(drives[::-1]):
+        both = (float(drives[0, k]), float(drives[1, k]))
+        if not any(_equal(trail, both, one.drives) for one in out):
+            out.append(DoublePoint(both, complex(z[0, k]), float(angle[k]), touching))
+    return out
+
+
+def _equal(trail: Trail, one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether two pairs of drive values are the same, also across the seam."""
+    period = trail.course.span.period
+
+    def near(a: float, b: float) -> bool:
+        gap = abs(a - b)
+        return bool(min(gap, abs(period - gap)) < _SAME * 100)
+
+    (a, b), (c, d) = one, other
+    return (near(a, c) and near(b, d)) or (near(a, d) and near(b, c))
+
+
+def _dot(a: Complexes, b: Complexes) -> Reals:
+    return np.asarray((np.conj(a) * b).real)
+
+
+def _cross(a: Complexes, b: Complexes) -> Reals:
+    return np.asarray((np.conj(a) * b).imag)

@@ -1,0 +1,244 @@
+"""Cusps, inflections, vertices and turning points of a path, as roots of exact functions of its derivatives."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.errors import LinkageError
+from gruebler.geometry.relative import Complexes, Reals
+from gruebler.geometry.series import series
+from gruebler.geometry.trail import Trail
+from gruebler.kinematics.zeros import Zero, zeros
+from gruebler.linkages.quantities import as_finite
+
+__all__ = [
+    "Cusp",
+    "Inflection",
+    "TurningPoint",
+    "Vertex",
+    "cusps",
+    "goes_back",
+    "inflections",
+    "turning_points",
+    "vertices",
+]
+
+_STILL = 1e-8  # of the usual velocity: slower, in the minimum, the point stands still
+_PARALLEL = 1e-7  # sine of the angle between the second and the third derivative in a cusp
+_BESIDE = np.array([0.02, 0.03, 0.05])  # of the parameter: places from which a path is looked for on its other side
+_BACK = 1e-9  # sizes: so near it is then
+_NEAR = 1e-3  # of the parameter: zeros nearer to a cusp are its own
+_ORDER = 9  # of the series by which multiple inflections are settled
+_MANIFOLD = 1e-8  # coefficients of the bend, by its natural size, that are zero in a multiple one
+_LEAST = 1e-9  # a function that is hardly ever larger than that, by its natural size, is zero
+
+
+class Cusp(NamedTuple):
+    """Where the point stands still."""
+
+    drive: float
+    at: complex
+    direction: float
+    """The angle of the tangent, the way in which the point leaves; in radians."""
+    flat: bool
+    """The third derivative lies in the tangent too: the point goes back on the side it came from, or on its own way
+    (the pin of a rocker in a dead centre)."""
+    parameter: float
+
+
+class Inflection(NamedTuple):
+    """Where the curvature is zero."""
+
+    drive: float
+    at: complex
+    direction: float
+    """The angle of the tangent in radians."""
+    points: int
+    """How many points path and tangent have in common there: 3 ordinarily, 6 in a six-point contact."""
+    parameter: float
+
+    @property
+    def flat(self) -> bool:
+        """Whether the curvature does not change its sign: the tangent touches with 4 or 6 points."""
+        return self.points % 2 == 0
+
+
+class Vertex(NamedTuple):
+    """Where the curvature is extreme: a circle touches with four points or more."""
+
+    drive: float
+    at: complex
+    curvature: float
+    """1/radius, positive where the path bends to the left."""
+    kind: str
+    """``maximum`` or ``minimum`` of the signed curvature."""
+    parameter: float
+
+
+class TurningPoint(NamedTuple):
+    """Where the path goes farthest in a direction, locally."""
+
+    drive: float
+    at: complex
+    kind: str
+    """``maximum`` or ``minimum``; ``flat``: it only pauses."""
+    parameter: float
+
+
+def cusps(trail: Trail) -> tuple[Cusp, ...]:
+    """Where the velocity is zero, found as roots of its square's derivative: error of some roundings.
+
+    >>> from gruebler.geometry.trail import trail_of
+    >>> from gruebler.linkages import SliderCrank
+    >>> [round(found.drive, 9) for found in cusps(trail_of(SliderCrank(2, 5).linkage(), "R(coupler-slider)"))]
+    [0.0, 3.141592654]
+    """
+
+    def slowing(s: Reals) -> Reals:
+        _, v, a, j = trail.at(s)
+        return np.stack([_dot(v, a), np.abs(a) ** 2 + _dot(v, j)])
+
+    usual = _usual(trail)
+    found = zeros(slowing, trail.grid, _LEAST * usual**2)
+    out = []
+    for zero, z in _seen(trail, found):
+        if abs(z[1]) <= _STILL * usual:
+            sine = abs(_cross(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
+            out.append(Cusp(_drive(trail, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
+    return tuple(sorted(out))
+
+
+def goes_back(trail: Trail, cusp: Cusp) -> bool:
+    """Whether the point goes back on its own way from a cusp: feet of perpendiculars onto the other side."""
+    before, behind = trail.at(cusp.parameter - _BESIDE, 0)[0], cusp.parameter + _BESIDE
+    for _ in range(20):
+        z, v, a = trail.at(behind, 2)
+        slope = np.abs(v) ** 2 + _dot(z - before, a)
+        behind = behind - np.clip(_dot(z - before, v) / np.where(slope == 0, 1e-300, slope), -0.01, 0.01)
+    return bool((np.abs(trail.at(behind, 0)[0] - before) <= _BACK * trail.size).all())
+
+
+def inflections(trail: Trail, known: tuple[Cusp, ...]) -> tuple[Inflection, ...]:
+    """Zeros of Im(conj(z') z''), multiple ones settled by the Taylor series; none of a straight path."""
+
+    def bend(s: Reals) -> Reals:
+        _, v, a, j = trail.at(s)
+        return np.stack([_cross(v, a), _cross(v, j)])
+
+    found = _away(trail, zeros(bend, trail.grid, _LEAST * _usual(trail) ** 2), known)
+    settled = tuple(_settled(trail, zero) for zero in found)
+    return tuple(
+        sorted(
+            Inflection(_drive(trail, zero), z[0], float(np.angle(z[1])), zero.multiplicity + 2, zero.at)
+            for zero, z in _seen(trail, settled)
+        )
+    )
+
+
+def _settled(trail: Trail, zero: Zero) -> Zero:
+    """The zero of the bend with its true multiplicity m: in the middle of m close ones, -g_(m-1)/(m g_m) from here."""
+    try:
+        drive, g = float(trail.drive(np.array([zero.at]))[0]), _bend_series(trail, zero.at)
+        for m in range(6, 1, -1):
+            step = -g[m - 1] / (m * g[m]) if g[m] else 1.0
+            if abs(step) < _NEAR and (m - zero.multiplicity) % 2 == 0:
+                at = trail.parameter(drive + step, zero.at)
+                there = np.abs(_bend_series(trail, at))
+                if there[:m].max() <= _MANIFOLD and there[m] > 1e3 * _MANIFOLD:
+                    return Zero(at, m, zero.rises)
+    except LinkageError:  # no series: a change point
+        pass
+    return zero
+
+
+def _bend_series(trail: Trail, s: float) -> Reals:
+    """Coefficients of Im(conj(z') z'') by the drive, in its natural size |z'| (|z'| + |z''|)."""
+    z = series(trail.course.at(trail.drive(np.array([s])), 0), _ORDER).point(trail.place)[0]
+    v = np.polynomial.polynomial.polyder(z)
+    a = np.polynomial.polynomial.polyder(v)
+    return np.asarray(np.convolve(np.conj(v), a).imag[: _ORDER - 1] / (abs(v[0]) * (abs(v[0]) + abs(a[0]))))
+
+
+def vertices(trail: Trail, known: tuple[Cusp, ...], flat: tuple[Inflection, ...] = ()) -> tuple[Vertex, ...]:
+    """Sign changes of the curvature's derivative, flat inflections among them; none of a circle or a straight line."""
+
+    def change(s: Reals) -> Reals:
+        _, v, a, j = trail.at(s)
+        return np.stack([np.abs(v) ** 2 * _cross(v, j) - 3 * _cross(v, a) * _dot(v, a)])
+
+    _, v, a, j = trail.at(trail.grid)
+    natural = float(np.median(np.abs(v) ** 2 * (np.abs(v) * np.abs(j) + 3 * np.abs(a) ** 2)))
+    found = _away(trail, zeros(change, trail.grid, _LEAST * natural), known)
+    found = tuple(zero._replace(at=_nearest(zero.at, flat)) for zero in found)
+    return tuple(
+        sorted(
+            Vertex(
+                _drive(trail, zero),
+                z[0],
+                float(_cross(z[1], z[2]) / abs(z[1]) ** 3),
+                "minimum" if zero.rises else "maximum",
+                zero.at,
+            )
+            for zero, z in _seen(trail, found)
+        )
+    )
+
+
+def _nearest(at: float, flat: tuple[Inflection, ...]) -> float:
+    """The flat inflection that this place is, exactly."""
+    return next((one.parameter for one in flat if one.flat and abs(one.parameter - at) < _NEAR), at)
+
+
+def turning_points(trail: Trail, direction: float = 0.0) -> tuple[TurningPoint, ...]:
+    """Where the path turns back along a direction (radians; 0: in x, pi/2: in y)."""
+    turn = np.exp(-1j * as_finite("direction", direction))
+
+    def along(s: Reals) -> Reals:
+        return np.asarray((trail.at(s)[1:] * turn).real)
+
+    found = zeros(along, trail.grid, _LEAST * _usual(trail))
+    kinds = {(1, True): "minimum", (1, False): "maximum", (3, True): "minimum", (3, False): "maximum"}
+    return tuple(
+        sorted(
+            TurningPoint(_drive(trail, zero), z[0], kinds.get((zero.multiplicity, zero.rises), "flat"), zero.at)
+            for zero, z in _seen(trail, found)
+        )
+    )
+
+
+def _usual(trail: Trail) -> float:
+    """The usual velocity of the point."""
+    return max(float(np.median(np.abs(trail.at(trail.grid, 1)[1]))), 1e-12 * trail.size)
+
+
+def _seen(trail: Trail, found: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
+    """Zeros with the point and its derivatives there."""
+    if not found:
+        return []
+    z = trail.at(np.array([zero.at for zero in found]))
+    return [(zero, [complex(value) for value in z[:, k]]) for k, zero in enumerate(found)]
+
+
+def _away(trail: Trail, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
+    period = trail.end - trail.start
+
+    def near(zero: Zero, cusp: Cusp) -> bool:
+        gap = abs(zero.at - cusp.parameter)
+        return min(gap, period - gap if trail.closed else gap) < _NEAR
+
+    return tuple(zero for zero in found if not any(near(zero, cusp) for cusp in known))
+
+
+def _drive(trail: Trail, zero: Zero) -> float:
+    value = float(trail.drive(np.array([zero.at]))[0])
+    return trail.course.span.wrapped(value)
+
+
+def _dot(a: Complexes | complex, b: Complexes | complex) -> Reals:
+    return np.asarray((np.conj(a) * b).real)
+
+
+def _cross(a: Complexes | complex, b: Complexes | complex) -> Reals:
+    return np.asarray((np.conj(a) * b).imag)

@@ -1,0 +1,176 @@
+"""Taylor series of a whole linkage in its drive, to any order, by exact arithmetic with power series."""
+
+from __future__ import annotations
+
+from cmath import rect
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gruebler.errors import LinkageError
+from gruebler.geometry.relative import Complexes, Reals, link_numbers
+from gruebler.kinematics import Motion
+from gruebler.linkages import Line, Linkage, Named
+
+__all__ = ["Series", "series"]
+
+_HIGHEST = 40
+_SINGULAR = 1e-9  # a smaller root: the drive stands at a limit, or assembly modes meet
+
+
+@dataclass(frozen=True)
+class Series:
+    """Taylor coefficients by powers of the drive's increase (radians, or the unit), at each row of a motion."""
+
+    motion: Motion
+    places: Complexes
+    """(rows, links, order + 1): of the links' origins."""
+    turns: Complexes
+    """(rows, links, order + 1): of cosine + i sine of the links' angles."""
+
+    @property
+    def order(self) -> int:
+        """The highest power."""
+        return int(self.places.shape[2]) - 1
+
+    def point(self, name: str | Named) -> Complexes:
+        """The coefficients of a named point or joint, as x + iy; (rows, order + 1)."""
+        place = name if isinstance(name, Named) else self.motion.linkage.named(name)[-1]
+        (k,) = link_numbers(self.motion, [place.link])
+        out: Complexes = self.places[:, k] + self.turns[:, k] * complex(place.x, place.y)
+        return out
+
+
+class _Condition(NamedTuple):
+    """A scalar closing condition, or two of them for a pin, between two links by number."""
+
+    kind: str
+    one: int
+    other: int
+    near: complex
+    far: complex
+    line: complex
+
+
+def series(motion: Motion, order: int) -> Series:
+    """The Taylor coefficients of all links in the drive of a linkage with one drive.
+
+    Powers are found one after another: the closing conditions are linear in the highest, with the Jacobian of the pose.
+    Error: that of the pose times the condition of the Jacobian, in units of size/r^k, r being the convergence radius.
+    Cost: order^2 times the number of joints, and one linear system, for each row.
+
+    Raises `LinkageError` at a limit of the drive or a change point, where there is no such series.
+
+    >>> from gruebler.kinematics import move
+    >>> from gruebler.linkages import SliderCrank
+    >>> found = series(move(SliderCrank(1, 1).linkage(), [0.0]), 6)  # the slider at 2 cos(phi)
+    >>> (found.point("R(coupler-slider)")[0].real.round(12) + 0.0).tolist()
+    [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]
+    """
+    if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= _HIGHEST:
+        raise LinkageError(f"the order of a series is a whole number from 1 to {_HIGHEST}, not {order!r}")
+    lower = motion.plan.lower
+    if len(lower.mechanism.drives) != 1:
+        raise LinkageError(f"a series is by one drive, but this linkage has {len(lower.mechanism.drives)}")
+    roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])
+    if roots.size and roots.min() < _SINGULAR:
+        row = int(np.argmin(roots.min(axis=1)))
+        raise LinkageError(
+            f"at the drive value {motion.drives[row, 0]:.9g} assembly modes meet: there is no series in the drive"
+        )
+    conditions = _conditions(lower)
+    z: Complexes = np.zeros((*motion.turns.shape, order + 1), np.complex128)
+    turn = np.zeros_like(z)
+    z[..., 0], turn[..., 0] = motion.places[0] / lower.size, motion.turns
+    angle = np.zeros(z.shape)
+    frame = lower.mechanism.chain.links.index(lower.mechanism.frame)
+    bodies = [k for k in range(z.shape[1]) if k != frame]
+    jacobian = _rows(conditions, z, turn, bodies)
+    for k in range(1, order + 1):
+        powers = np.arange(1, k)
+        turn[..., k] = 1j / k * (powers * angle[..., 1:k] * turn[..., k - 1 : 0 : -1]).sum(axis=-1)
+        right: Reals = -_residual(conditions, z, turn, angle, k)
+        if k == 1:
+            turning = lower.mechanism.drives[0].direction.startswith("R")
+            right[:, -1] += 1.0 if turning else 1 / lower.size
+        found = _solved(jacobian, right).reshape(len(right), -1, 3)
+        z[:, bodies, k] = found[..., 0] + 1j * found[..., 1]
+        angle[:, bodies, k] = found[..., 2]
+        turn[:, bodies, k] += 1j * found[..., 2] * turn[:, bodies, 0]
+    places: Complexes = z * lower.size
+    return Series(motion, places, turn)
+
+
+def _conditions(lower: Linkage) -> list[_Condition]:
+    """Those of the joints, and last that of the drive; lengths in sizes."""
+    chain, links = lower.mechanism.chain, lower.mechanism.chain.links
+    out = []
+    for number, joint in enumerate(chain.joints):
+        if joint.pair.name not in ("revolute", "prismatic"):
+            raise LinkageError(
+                f"a series is that of turning and sliding joints, but {chain.joint_names()[number]} is none"
+            )
+        for other in joint.links[1:]:
+            ends = _ends(lower, number, joint.links[0], other)
+            kinds = ("pin",) if joint.pair.name == "revolute" else ("angle", "across")
+            out += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
+    drive = lower.mechanism.drives[0]
+    first, second = lower.reference(0)
+    kind = "angle" if drive.direction.startswith("R") else "along"
+    ends = _ends(lower, drive.joint, first, second)
+    return [*out, _Condition(kind, links.index(first), links.index(second), *ends)]
+
+
+def _solved(jacobian: Reals, right: Reals) -> Reals:
+    try:
+        return np.asarray(np.linalg.solve(jacobian, right[..., None])[..., 0])
+    except np.linalg.LinAlgError:
+        raise LinkageError("the linkage is in a singular pose: there is no series in the drive") from None
+
+
+def _ends(lower: Linkage, joint: int, one: str, other: str) -> tuple[complex, complex, complex]:
+    near, far = lower.elements[joint, one], lower.elements[joint, other]
+    line = rect(1, near.angle) if isinstance(near, Line) else 1 + 0j
+    return complex(near.x, near.y) / lower.size, complex(far.x, far.y) / lower.size, line
+
+
+def _residual(conditions: list[_Condition], z: Complexes, turn: Complexes, angle: Reals, k: int) -> Reals:
+    """The k-th coefficients of the conditions; (rows, equations)."""
+    out = []
+    for c in conditions:
+        if c.kind == "angle":
+            out.append(angle[:, c.other, k] - angle[:, c.one, k])
+            continue
+        gap = z[:, c.other] + turn[:, c.other] * c.far - z[:, c.one] - turn[:, c.one] * c.near
+        if c.kind == "pin":
+            out += [gap[:, k].real, gap[:, k].imag]
+            continue
+        seen = (np.conj(turn[:, c.one, : k + 1] * c.line) * gap[:, k::-1]).sum(axis=1)
+        out.append(seen.imag if c.kind == "across" else seen.real)
+    return np.stack(out, axis=1)
+
+
+def _rows(conditions: list[_Condition], z: Complexes, turn: Complexes, bodies: list[int]) -> Reals:
+    """The Jacobian of the conditions by x, y and angle of each body; (rows, equations, unknowns)."""
+    out = []
+    for c in conditions:
+        arms = {c.one: turn[:, c.one, 0] * c.near, c.other: turn[:, c.other, 0] * c.far}
+        gap = z[:, c.other, 0] + arms[c.other] - z[:, c.one, 0] - arms[c.one]
+        line = turn[:, c.one, 0] * c.line
+        measures: tuple[Any, ...] = {"pin": (1, 1j), "across": (1j * line,), "along": (line,), "angle": (0 * line,)}[
+            c.kind
+        ]
+        for measure in measures:
+            row = np.zeros((len(z), 3 * z.shape[1]))
+            for body, sign in ((c.one, -1), (c.other, 1)):
+                row[:, 3 * body] = sign * np.real(measure)
+                row[:, 3 * body + 1] = sign * np.imag(measure)
+                row[:, 3 * body + 2] = sign * (np.conj(measure) * 1j * arms[body]).real
+                if c.kind == "angle":
+                    row[:, 3 * body + 2] = sign
+            if c.kind in ("across", "along"):
+                row[:, 3 * c.one + 2] += (np.conj(1j * measure) * gap).real
+            out.append(row)
+    columns = [3 * body + part for body in bodies for part in range(3)]
+    return np.stack(out, axis=1)[..., columns]

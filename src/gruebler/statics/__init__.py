@@ -1,0 +1,11 @@
+"""The static side of a linkage: what the drive and the joints carry when loads act, without masses in motion.
+
+`statics` solves the equilibrium of all links at every row of a motion and sets the drive's effort against the one that
+virtual work gives; `slide_friction` and `slider_friction` estimate what a slide rubs. docs/theory/statics.md.
+"""
+
+from gruebler.statics.friction import SlideFriction, SliderFriction, slide_friction, slider_friction
+from gruebler.statics.loads import Loads
+from gruebler.statics.solution import Statics, statics
+
+__all__ = ["Loads", "SlideFriction", "SliderFriction", "Statics", "slide_friction", "slider_friction", "statics"]

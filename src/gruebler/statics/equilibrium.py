@@ -1,0 +1,172 @@
+"""The equations of equilibrium of all links of a linkage with turning and sliding joints, solved at every row."""
+
+from __future__ import annotations
+
+from cmath import rect
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics import Motion
+from gruebler.linkages import Line
+from gruebler.statics.loads import Complexes, Flags, Reals, Wrench
+
+__all__ = ["Contact", "Reactions", "contacts", "reactions"]
+
+_GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
+_BLOCK = 2048  # rows solved at once
+
+
+class Contact(NamedTuple):
+    """Two links that a joint holds together, by number: ``force`` and ``couple`` are those on the other one."""
+
+    joint: int
+    one: int
+    other: int
+    slides: bool
+
+
+class Reactions(NamedTuple):
+    """What joints and drives exert; NaN in rows where it is not determined."""
+
+    forces: Complexes
+    """(rows, contacts): on the other link, at its point of the joint."""
+    couples: Reals
+    """(rows, contacts): of slides, on the other link about its point."""
+    drives: Reals
+    """(rows, drives): torques, or forces along slides, on the link that is moved."""
+    singular: Flags
+    """(rows,): whether the links are not held in this pose."""
+
+
+def contacts(motion: Motion) -> tuple[Contact, ...]:
+    """Those of the linkage with lower pairs. `LinkageError` for other joints than turning and sliding ones."""
+    chain = motion.plan.lower.mechanism.chain
+    out = []
+    for number, joint in enumerate(chain.joints):
+        if joint.pair.name not in ("revolute", "prismatic"):
+            raise LinkageError(
+                f"joint forces are those of turning and sliding joints, but {chain.joint_names()[number]} is none"
+            )
+        for other in joint.links[1:]:
+            one = chain.links.index(joint.links[0])
+            out.append(Contact(number, one, chain.links.index(other), joint.pair.name == "prismatic"))
+    return tuple(out)
+
+
+def reactions(motion: Motion, wrenches: Iterable[Wrench]) -> Reactions:
+    """The forces of all joints and drives that hold the loads, from three equations for each link.
+
+    Cost: a linear system of three rows for each moving link, at each row.
+    """
+    wrenches = tuple(wrenches)
+    parts = [_block(motion, wrenches, slice(first, first + _BLOCK)) for first in range(0, max(len(motion), 1), _BLOCK)]
+    return Reactions(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactions:
+    lower, held = motion.plan.lower, contacts(motion)
+    columns, directions = _columns(motion, held, rows)
+    frame = lower.mechanism.chain.links.index(lower.mechanism.frame)
+    bodies = [3 * k + part for k in range(len(lower.mechanism.chain.links)) if k != frame for part in range(3)]
+    matrix = columns[:, bodies]
+    if matrix.shape[1] != matrix.shape[2]:
+        raise LinkageError(
+            f"joint forces are not determined by statics: {matrix.shape[2]} unknowns in {matrix.shape[1]} equations"
+        )
+    load = _loads(motion, wrenches, rows)[:, bodies]
+    probe = np.random.default_rng(0).uniform(0.5, 1.0, load.shape)
+    answer = _solved(matrix, np.stack([-load, probe], axis=2))
+    with np.errstate(invalid="ignore"):
+        singular = ~(np.abs(answer[..., 1]).max(axis=1, initial=0.0) < _GROWTH)
+    found = np.where(singular[:, None], np.nan, answer[..., 0])
+    first, second = found[:, 0 : 2 * len(held) : 2], found[:, 1 : 2 * len(held) : 2]
+    slides = np.array([contact.slides for contact in held], bool)
+    forces = np.where(slides, directions * first, first + 1j * second)
+    turning = np.array([drive.direction.startswith("R") for drive in lower.mechanism.drives], bool)
+    drives = found[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
+    return Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular)
+
+
+def _columns(motion: Motion, held: tuple[Contact, ...], rows: slice) -> tuple[Reals, Complexes]:
+    """What each unknown does to each link (x, y, moment about its origin): (rows, 3 links, unknowns).
+
+    Unknowns: x, y of a pin's force, normal force and couple of a slide, then the drives. Second come the directions of
+    the slides' normal forces, (rows, contacts).
+    """
+    lower, z = motion.plan.lower, motion.places[0, rows]
+    links = lower.mechanism.chain.links
+    acts = _Actions(z / lower.size, np.zeros((len(z), 3 * len(links), 2 * len(held) + len(lower.mechanism.drives))))
+    directions = np.ones((len(z), len(held)), np.complex128)
+    for k, contact in enumerate(held):
+        at, line = _meeting(motion, contact.joint, links[contact.one], links[contact.other], rows)
+        if contact.slides:
+            directions[:, k] = 1j * line
+            acts.force(contact, 2 * k, 1j * line, at)
+            acts.couple(contact, 2 * k + 1)
+        else:
+            acts.force(contact, 2 * k, np.ones_like(line), at)
+            acts.force(contact, 2 * k + 1, 1j * np.ones_like(line), at)
+    for k, drive in enumerate(lower.mechanism.drives):
+        one, other = lower.reference(k)
+        pair = Contact(drive.joint, links.index(one), links.index(other), False)
+        if drive.direction.startswith("R"):
+            acts.couple(pair, 2 * len(held) + k)
+        else:
+            at, line = _meeting(motion, drive.joint, one, other, rows)
+            acts.force(pair, 2 * len(held) + k, line, at)
+    return acts.columns, directions
+
+
+class _Actions(NamedTuple):
+    """Columns being filled: each action on the other link, its reaction on the first."""
+
+    places: Complexes
+    columns: Reals
+
+    def force(self, pair: Contact, column: int, direction: Complexes, at: Complexes) -> None:
+        for link, sign in ((pair.other, 1), (pair.one, -1)):
+            self.columns[:, 3 * link, column] += sign * direction.real
+            self.columns[:, 3 * link + 1, column] += sign * direction.imag
+            arm = at - self.places[:, link]
+            self.columns[:, 3 * link + 2, column] += sign * (np.conj(arm) * direction).imag
+
+    def couple(self, pair: Contact, column: int) -> None:
+        self.columns[:, 3 * pair.other + 2, column] += 1
+        self.columns[:, 3 * pair.one + 2, column] -= 1
+
+
+def _meeting(motion: Motion, joint: int, one: str, other: str, rows: slice) -> tuple[Complexes, Complexes]:
+    """Where the other link's point of a joint lies, in sizes, and the direction of the first one's line."""
+    lower = motion.plan.lower
+    links, near, far = lower.mechanism.chain.links, lower.elements[joint, one], lower.elements[joint, other]
+    k, m = links.index(one), links.index(other)
+    at = (motion.places[0, rows, m] + motion.turns[rows, m] * complex(far.x, far.y)) / lower.size
+    return at, motion.turns[rows, k] * (rect(1, near.angle) if isinstance(near, Line) else 1)
+
+
+def _loads(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reals:
+    """The loads on each link: x, y and the moment about its origin by the size; (rows, 3 links)."""
+    lower, turns = motion.plan.lower, motion.turns[rows]
+    out = np.zeros((len(turns), 3 * turns.shape[1]))
+    for wrench in wrenches:
+        k = lower.mechanism.chain.links.index(wrench.place.link)
+        force, arm = wrench.force[rows], turns[:, k] * complex(wrench.place.x, wrench.place.y)
+        out[:, 3 * k] += force.real
+        out[:, 3 * k + 1] += force.imag
+        out[:, 3 * k + 2] += ((np.conj(arm) * force).imag + wrench.moment[rows]) / lower.size
+    return out
+
+
+def _solved(matrix: Reals, right: Reals) -> Reals:
+    """Of a row that cannot be solved, infinities."""
+    try:
+        return np.asarray(np.linalg.solve(matrix, right))
+    except np.linalg.LinAlgError:
+        out = np.full(right.shape, np.inf)
+        for row, (one, side) in enumerate(zip(matrix, right, strict=True)):
+            if np.linalg.matrix_rank(one) == len(one):
+                out[row] = np.linalg.solve(one, side)
+        return out

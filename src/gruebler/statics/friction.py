@@ -1,0 +1,98 @@
+"""What a slide rubs: estimates from the forces without friction."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from gruebler.errors import LinkageError
+from gruebler.linkages import SliderCrank
+from gruebler.linkages.model import joint_number
+from gruebler.linkages.quantities import as_finite
+from gruebler.statics.loads import Reals
+from gruebler.statics.rates import again
+from gruebler.statics.solution import Statics
+
+__all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]
+
+
+class SliderFriction(NamedTuple):
+    """Forces of a slider-crank whose slider carries a load along its path; all of the shape of the crank angles."""
+
+    alpha: Reals
+    """The deviation angle of the coupler from the path, in radians; positive where the coupler rises to the slider's
+    side."""
+    coupler: Reals
+    """F_K along the coupler."""
+    side: Reals
+    """F_N = F_K sin(alpha), at right angles to the path."""
+    friction: Reals
+    """F_R = mu_R F_N, a magnitude."""
+
+
+class SlideFriction(NamedTuple):
+    """What a slide of any linkage rubs; all arrays are (rows,)."""
+
+    side: Reals
+    """The size of the normal force."""
+    friction: Reals
+    """mu_R times that."""
+    effort: Reals
+    """What the friction adds to the drive's torque or force while the drive goes forward."""
+
+
+def slider_friction(size: SliderCrank, phi: npt.ArrayLike, load: float, coefficient: float) -> SliderFriction:
+    """Side force and friction of a slider-crank, F_K = F/cos(alpha), F_N = F_K sin(alpha), F_R = mu_R F_N.
+
+    An estimate: the friction itself is left out of the equilibrium, an error of the part mu_R tan(alpha).
+
+    Args:
+        size: the slider-crank.
+        phi: crank angles in radians.
+        load: F, the force along the slider's path.
+        coefficient: mu_R, not to be mixed up with the transmission angle mu.
+
+    Raises `LinkageError` at crank angles that cannot be assembled, or where the coupler is at right angles to the path.
+
+    >>> found = slider_friction(SliderCrank(2, 5), np.pi / 2, load=100, coefficient=0.1)
+    >>> round(float(np.degrees(found.alpha)), 6), round(float(found.side / found.coupler), 9)
+    (23.578178, 0.4)
+    """
+    force, mu = as_finite("load", load), _coefficient(coefficient)
+    angles = np.asarray(phi, np.float64)
+    sine = (size.a * np.sin(angles) - size.e) / size.b
+    if not (np.abs(sine) < 1).all():
+        raise LinkageError(
+            "the slider-crank transmits no force, or cannot be assembled, at some of the crank angles: "
+            f"sin(alpha) = {float(np.abs(sine).max()):.6g}"
+        )
+    alpha = np.arcsin(sine)
+    coupler = force / np.cos(alpha)
+    return SliderFriction(alpha, coupler, coupler * sine, mu * np.abs(coupler * sine))
+
+
+def slide_friction(held: Statics, joint: str | int, coefficient: float) -> SlideFriction:
+    """Side force and friction of any sliding joint, from the equilibrium without friction.
+
+    Raises `LinkageError` for a joint that does not slide and for a linkage with several drives.
+    """
+    linkage = held.motion.linkage
+    number, mu = joint_number(linkage.mechanism, joint), _coefficient(coefficient)
+    if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
+        raise LinkageError(f"{linkage.mechanism.chain.joint_names()[number]} does not slide along one line")
+    if len(linkage.mechanism.drives) != 1:
+        raise LinkageError(f"friction is told for one drive; this linkage has {len(linkage.mechanism.drives)}")
+    side: Reals = np.hypot(*held.force(number).T)
+    rate = np.full(len(side), np.nan)
+    for rows, moved in again(held.motion, np.ones(1)):
+        rate[rows] = np.abs(moved.slide(number, 1))
+    return SlideFriction(side, mu * side, mu * side * rate)
+
+
+def _coefficient(value: float) -> float:
+    mu = as_finite("coefficient", value)
+    if mu < 0:
+        raise LinkageError(f"a coefficient of friction is not negative, but {value!r} is")
+    return mu

@@ -1,0 +1,107 @@
+"""Loads on a linkage: forces at points, moments on links, weights."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.errors import LinkageError, nearest
+from gruebler.kinematics import Motion
+from gruebler.linkages import Named
+
+__all__ = ["Loads", "Wrench", "placed"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Rows = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+
+_STANDARD = 9.80665
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What acts on a linkage from outside, in coordinates of the plane.
+
+    A force at a joint acts on the link of that joint that `Motion.point` looks at; to choose the link give a `Named`.
+
+    >>> Loads(forces={"K": (0, -100)}, moments={"rocker": 5}).moments
+    {'rocker': 5}
+    """
+
+    forces: Mapping[str | Named, ArrayLike] = field(default_factory=dict)
+    """By point or joint: (x, y), or one for each row, (rows, 2)."""
+    moments: Mapping[str, ArrayLike] = field(default_factory=dict)
+    """By link, counter-clockwise, in force times the linkage's unit: a number, or (rows,)."""
+    masses: Mapping[str | Named, ArrayLike] = field(default_factory=dict)
+    """By point or joint: each weighs its mass times ``gravity``."""
+    gravity: tuple[float, float] = (0.0, -_STANDARD)
+    """Force for each unit of mass: metres a second squared for kilograms and newtons."""
+
+
+@dataclass(frozen=True)
+class Wrench:
+    """A force on a link at each row, and a moment beside it."""
+
+    place: Named
+    force: Complexes
+    """(rows,)."""
+    moment: Reals
+    """(rows,): a free moment."""
+
+
+def placed(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
+    """The loads over the rows of a motion.
+
+    Raises `LinkageError` for a point or link that is not there and for numbers that are not finite.
+    """
+    out = []
+    none = np.zeros(len(motion))
+    for name, given in loads.forces.items():
+        force = _over_rows(f"the force at {_said(name)}", given, (len(motion), 2))
+        out.append(Wrench(_place(motion, name), np.ascontiguousarray(force).view(np.complex128)[:, 0], none))
+    gravity = _over_rows("gravity", loads.gravity, (2,))
+    for name, given in loads.masses.items():
+        mass = _over_rows(f"the mass at {_said(name)}", given, (len(motion),))
+        if (mass < 0).any():
+            raise LinkageError(f"the mass at {_said(name)} is negative: {mass.min():g}")
+        out.append(Wrench(_place(motion, name), (mass * complex(*gravity)).astype(np.complex128), none))
+    links = motion.linkage.mechanism.chain.links
+    for link, given in loads.moments.items():
+        if link not in links:
+            raise LinkageError(
+                f"a moment acts on a link, but there is no link {link!r}{nearest(str(link), links)}; "
+                f"the links are {', '.join(links)}"
+            )
+        moment = _over_rows(f"the moment on {link!r}", given, (len(motion),))
+        out.append(Wrench(Named(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
+    return tuple(out)
+
+
+def _place(motion: Motion, name: str | Named) -> Named:
+    place = name if isinstance(name, Named) else motion.linkage.named(name)[-1]
+    links = motion.linkage.mechanism.chain.links
+    if place.link not in links:
+        raise LinkageError(f"a force acts on a link, but there is no link {place.link!r}; they are {', '.join(links)}")
+    return place
+
+
+def _said(name: str | Named) -> str:
+    return repr(name) if isinstance(name, str) else f"({name.x:g}, {name.y:g}) of {name.link!r}"
+
+
+def _over_rows(what: str, given: ArrayLike, shape: tuple[int, ...]) -> Reals:
+    wanted = "one number for each row" if len(shape) == 1 else "x and y, for each row if they change"
+    try:
+        numbers = np.asarray(given, np.float64)
+        out: Reals = np.broadcast_to(numbers, shape)
+    except (TypeError, ValueError):
+        raise LinkageError(f"{what}: expected {wanted}, but found {given!r}") from None
+    if numbers.ndim == 0 and len(shape) == 2:
+        raise LinkageError(f"{what}: expected {wanted}, but found {given!r}")
+    if not (np.abs(numbers) < 1e100).all():
+        raise LinkageError(f"{what}: expected finite numbers, but found {given!r}")
+    return out

@@ -1,0 +1,89 @@
+"""`gruebler curve` as a user meets it."""
+
+import argparse
+import csv
+import json
+import math
+
+import pytest
+
+from gruebler.cli import curve, curve_commands
+from gruebler.errors import GrueblerError
+
+
+def run(capsys, *arguments):
+    parser = argparse.ArgumentParser()
+    curve_commands.add(parser.add_subparsers())
+    made = parser.parse_args(["curve", *arguments])
+    try:
+        status = curve.run(made)
+    except GrueblerError as error:
+        return 2, str(error)
+    return status, capsys.readouterr().out
+
+
+def test_a_path_in_words(capsys):
+    status, out = run(capsys, "inverted-slider-crank:30,50", "coupler:90,0")
+    assert status == 0
+    assert "The path is closed: length 190.289755 mm, area -2529.3839 mm²." in out
+    # E17: inflections at 80.55 and 147.09 degrees, mirrored; curvature 0.021088 and 1.233333 at 0 and 180
+    rows = [line.split() for line in out.splitlines()]
+    assert [row[1] for row in rows if row[:1] == ["inflection"]] == [
+        "80.556161°",
+        "147.098378°",
+        "212.901622°",
+        "279.443839°",
+    ]
+    assert ["vertex", "180.000000°", "60", "0", "radius", "-0.810811", "mm"] in rows
+
+
+def test_a_six_point_contact_in_german(capsys):
+    status, out = run(capsys, "mzc", "K", "--contact", "180", "--lang", "de")
+    assert status == 0
+    assert "Bei 180.000000° berührt die Tangente 6punktig: y = -0.000155006773 x^6." in out
+    assert "Flachpunkt  " in out
+    assert "Radius ∞" in out
+
+
+def test_between_limits_and_back(capsys):
+    status, out = run(capsys, "four-bar:60,30,30,70", "coupler:15,20")
+    assert status == 0
+    assert "The path goes from -54.314665° to 54.314665°" in out
+    assert "double point       -54.246388°, -33.089162°" in out
+    _, out = run(capsys, "slider-crank:20,50", "R(coupler-slider)", "--contact", "60", "--direction", "90")
+    assert "does not leave its tangent" in out
+    assert "goes back on its own way" in out
+    assert "extreme" not in out
+
+
+def test_json_and_csv(capsys, tmp_path):
+    path = tmp_path / "path.csv"
+    status, out = run(capsys, "four-bar:25,70,40,70", "coupler:45,40", "--json", "-o", str(path), "--direction", "30")
+    found = json.loads(out)
+    assert status == 0
+    assert found["closed"]
+    assert list(found["turning_points"]) == ["30"]
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header == ["R(frame-crank) [°]", "x [mm]", "y [mm]", "s [mm]"]
+    points = [complex(float(row[1]), float(row[2])) for row in rows]
+    assert points[0] == pytest.approx(points[-1])
+    assert float(rows[-1][3]) == pytest.approx(found["length"], rel=1e-3)
+    assert math.isclose(found["length"], 145.03082809, rel_tol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("point", "message"),
+    [
+        ("coupler:45", "expected a point LINK:X,Y"),
+        ("coupler:45,inf", "finite coordinates"),
+        ("copler:45,1", "did you mean 'coupler'"),
+        ("frame:45,1", "lies on the frame"),
+        ("K", "there is no point 'K'"),
+    ],
+)
+def test_refusals(capsys, point, message):
+    status, error = run(capsys, "four-bar:25,70,40,70", point)
+    assert status == 2
+    assert message in error
+    assert run(capsys, "four-bar:25,70,40,70", "coupler:1,2", "--tolerance", "0")[0] == 2

@@ -1,0 +1,107 @@
+"""`gruebler statics` as a user meets it."""
+
+import argparse
+import csv
+import json
+
+import pytest
+
+from gruebler.cli import main, statics, statics_commands
+from gruebler.errors import GrueblerError
+
+
+def run(capsys, *arguments):
+    parser = argparse.ArgumentParser()
+    statics_commands.add(parser.add_subparsers())
+    made = parser.parse_args(["statics", *arguments])
+    try:
+        status = statics.run(made)
+    except GrueblerError as error:
+        return 2, "", str(error)
+    return status, *capsys.readouterr()
+
+
+def document(capsys, *arguments):
+    status, out, _ = run(capsys, *arguments, "--json")
+    found = json.loads(out)
+    return status, found, {c["name"]: [row[k] for row in found["rows"]] for k, c in enumerate(found["columns"])}
+
+
+def test_a_press_over_a_turn(capsys):
+    status, out, _ = run(capsys, "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1")
+    assert status == 0
+    assert "Largest effort: torque R(frame-crank) = -2148.69 N·mm at 75°." in out
+    rows = [line.split() for line in out.splitlines() if line.strip()[:2] == "90"]
+    # tan(arcsin 0.4) of 100 N, a tenth of it, a torque 20 mm on that
+    assert rows == [["90", "-2000", "109.109", "109.109", "109.109", "43.6436", "4.36436", "-1912.71"]]
+
+
+def test_all_forces_of_one_pose(capsys):
+    status, out, _ = run(capsys, "four-bar:25,70,40,70", "--moment", "rocker=-1000", "--at", "55", "--lang", "de")
+    assert status == 0
+    rows = [line.rsplit(maxsplit=2) for line in out.splitlines() if line.endswith(("N", "N·mm"))]
+    assert ["Antriebsmoment R(frame-crank)", "478.521", "N·mm"] in rows
+    assert ["Kraft von R(frame-crank) auf crank y", "-7.44971", "N"] in rows
+
+
+def test_json_and_csv(capsys, tmp_path):
+    path = tmp_path / "forces.csv"
+    arguments = ("four-bar:25,70,40,70", "--mass", "R(coupler-rocker)=2", "--drive", "0:90:45")
+    status, found, columns = document(capsys, *arguments)
+    assert status == 0
+    assert found["complete"]
+    assert found["disagreement"] < 1e-12
+    assert columns["force of R(coupler-rocker) on rocker x"] == pytest.approx(
+        [-x for x in columns["force of R(coupler-rocker) on coupler x"]]
+    )
+    assert run(capsys, *arguments, "-o", str(path))[:2] == (0, "")
+    with path.open(encoding="utf-8", newline="") as file:
+        header, *rows = csv.reader(file)
+    assert header[1] == "torque R(frame-crank) [N·mm]"
+    assert len(rows) == 3
+    light = document(capsys, *arguments, "--gravity", "0,-4.903325")[2]
+    assert columns["torque R(frame-crank)"] == pytest.approx([2 * t for t in light["torque R(frame-crank)"]])
+
+
+def test_a_cylinder_has_a_force(capsys):
+    """Scissor table: the cylinder's force by the weight's rise for its stroke, F = -W dy/ds."""
+    load = ("hubpodium_blocks", "--load", "R(arm2-platform)=0,-100")
+    _, _, forces = document(capsys, *load, "--drive", "40:60:20")
+    main(["analyse", "hubpodium_blocks", "--drive", "40:60:20", "--point", "R(arm2-platform)", "--json"])
+    found = json.loads(capsys.readouterr().out)
+    k = next(k for k, c in enumerate(found["columns"]) if c["name"] == "R(arm2-platform) vy")
+    assert forces["force P(cylinder-piston)"] == pytest.approx([100 * row[k] for row in found["rows"]])
+    status, out, _ = run(capsys, *load)
+    assert status == 0
+    assert "Largest effort: force P(cylinder-piston) = " in out
+
+
+def test_poses_that_are_not_held(capsys):
+    status, out, _ = run(capsys, "loco2", "--moment", "wheel2=5", "--drive=-15:15:15")
+    assert status == 1
+    assert "At the drive values 0° the joint forces are not determined" in out
+    assert run(capsys, "four-bar:60,30,30,70", "--moment", "rocker=1", "--at", "170")[0] == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((), "Nothing acts"),
+        (("--load", "K"), "--load: expected POINT=FX,FY, but found 'K'"),
+        (("--load", "R(crank-coupler)=1"), "--load: expected two numbers X,Y"),
+        (("--moment", "rocker=x"), "--moment: expected a number, but found 'x'"),
+        (("--moment", "roker=1"), "did you mean 'rocker'"),
+        (("--mass", "R(crank-coupler)=nan"), "--mass: expected a number"),
+        (("--mass", "R(crank-coupler)=1", "--gravity", "1"), "--gravity: expected two numbers"),
+        (("--moment", "rocker=1", "--friction", "-1", "--at", "0"), None),
+        (("--moment", "rocker=1", "--at", "nan"), "expected a finite number"),
+    ],
+)
+def test_refusals(capsys, arguments, message):
+    status, _, error = run(capsys, "four-bar:25,70,40,70", *arguments)
+    if message is None:  # no slide, no friction
+        assert status == 0
+    else:
+        assert status == 2
+        assert message in error
+    assert run(capsys, "slider-crank:2,5", "--moment", "crank=1", "--friction", "-1")[0] == 2
