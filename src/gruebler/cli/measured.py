@@ -1,0 +1,44 @@
+"""Lengths as a user writes them, with or without a unit: 15cm, 0.75 mm, 3."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from gruebler.errors import GrueblerError
+
+__all__ = ["length_of", "same_unit"]
+
+_METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
+_FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")
+
+
+def length_of(name: str, word: str) -> tuple[float, str]:
+    """Number and unit; no unit is an empty one.
+
+    >>> length_of("length", "15cm"), length_of("length", "2")
+    ((15.0, 'cm'), (2.0, ''))
+    """
+    form = _FORM.fullmatch(word)
+    try:
+        value = float(form[1]) if form else math.nan
+    except ValueError:
+        value = math.nan
+    if form is None or not 0 < value < 1e70 or form[2] not in ("", *_METRES):
+        raise GrueblerError(
+            f"--{name}: expected a positive length such as 15cm (units: {', '.join(_METRES)}), but found {word!r}"
+        )
+    return value, form[2]
+
+
+def same_unit(value: float, unit: str, wanted: str) -> float:
+    """A length in another unit; a missing unit is that of the other one.
+
+    >>> same_unit(0.75, "mm", "cm")
+    0.075
+    """
+    if unit == wanted or not unit:
+        return value
+    if not wanted:
+        raise GrueblerError(f"one length is in {unit}, the other has no unit: give both, or none")
+    return float(f"{value * _METRES[unit] / _METRES[wanted]:.15g}")

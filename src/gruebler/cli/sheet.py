@@ -1,0 +1,238 @@
+"""`gruebler sheet`: collection sheets, listed, told, drawn, sized."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from typing import Any
+
+from gruebler.cli.draw import written
+from gruebler.cli.measured import length_of, same_unit
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError, LinkageError
+from gruebler.sheets import Sheet, Sized, Told, sheet, sheets
+from gruebler.sheets.prose import Number, explained
+
+__all__ = ["run"]
+
+_WORDS: dict[str, dict[str, Any]] = {
+    "en": {
+        "list": ("id", "title", "source"),
+        "source": "Source",
+        "values": ("symbol", "meaning", "exact", "computed", "printed", ""),
+        "of": "length {of}",
+        "right": "as printed",
+        "wrong": "WRONG",
+        "size": "L = {length}{unit} within {tolerance}{unit}: Q_G = {ratio}, φ_G = {width}°, from φ_A = {start}° to "
+        "φ_E = {end}°, L/{scale} = {factor}.",
+        "printed": "Printed: {text}.",
+    },
+    "de": {
+        "list": ("Kennung", "Titel", "Quelle"),
+        "source": "Quelle",
+        "values": ("Zeichen", "Bedeutung", "exakt", "berechnet", "gedruckt", ""),
+        "of": "Länge {of}",
+        "right": "wie gedruckt",
+        "wrong": "FALSCH",
+        "size": "L = {length}{unit} innerhalb von {tolerance}{unit}: Q_G = {ratio}, φ_G = {width}°, von φ_A = {start}° "
+        "bis φ_E = {end}°, L/{scale} = {factor}.",
+        "printed": "Gedruckt: {text}.",
+    },
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List, show, draw or size."""
+    match arguments.action:
+        case "list":
+            _list(arguments)
+            return 0
+        case "show":
+            return _show(sheet(arguments.id), arguments)
+        case "draw":
+            _draw(sheet(arguments.id), arguments)
+            return 0
+    return _size(sheet(arguments.id), arguments)
+
+
+def _list(arguments: argparse.Namespace) -> None:
+    if arguments.json:
+        items = [
+            {
+                "id": one.id,
+                "title": {lang: one.record.title.said(lang) for lang in ("en", "de")},
+                "source": one.record.source,
+            }
+            for one in sheets().values()
+        ]
+        _print_json(items)
+        return
+    rows = [(one.id, one.record.title.said(arguments.lang), one.record.source) for one in sheets().values()]
+    print_table(_WORDS[arguments.lang]["list"], rows)
+
+
+def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
+    from gruebler.sheets.layout import page
+    from gruebler.sheets.page import SUFFIXES, suffix_of
+
+    suffix = "svg" if arguments.output is None else suffix_of(arguments.output, SUFFIXES)
+    made = page(one, arguments.lang)
+    if arguments.output is None:
+        sys.stdout.write(made.svg())
+    else:
+        written(arguments.output, made.written(suffix))
+
+
+# --- show -------------------------------------------------------------------------------------------
+
+
+def _show(one: Sheet, arguments: argparse.Namespace) -> int:
+    """The sheet in words; status 1 if a value does not hold."""
+    if arguments.json:
+        _print_json(_item(one, arguments.lang))
+        return int(bool(one.wrong))
+    lang, words = arguments.lang, _WORDS[arguments.lang]
+    title = f"{one.record.title.said(lang)} ({one.id})"
+    print(title, "-" * len(title), f"{words['source']}: {one.record.source}", sep="\n")
+    for task in one.record.tasks:
+        print(f"- {task.said(lang)}")
+    print()
+    for label, value in one.features.said(lang):
+        print(f"{label}: {value}")
+    print()
+    told = [*one.dimensions, *one.quantities, *one.example_values]
+    print_table(words["values"], [_row(value, lang) for value in told], numbers=(3,))
+    for text in explained(one, lang):
+        print(f"\n{text}")
+    print()
+    _say_size(one, one.example, one.record.guide.unit, lang)
+    return int(bool(one.wrong))
+
+
+def _row(told: Told, lang: str) -> tuple[str, ...]:
+    words = _WORDS[lang]
+    meaning = told.name.said(lang) if told.name else words["of"].format(of="".join(told.of))
+    remark = "" if told.printed is None or told.of else words["right"]
+    if told.reason is not None:
+        remark = told.reason.said(lang)
+    whole = told.exact is not None and told.exact.text.isdigit()
+    printed = told.printed.typeset if told.printed and not told.of else ""
+    return (
+        told.symbol,
+        meaning,
+        told.exact.typeset if told.exact else "",
+        format(Number(told.derived, lang), "g" if whole else ".6f") + told.unit,
+        printed.replace(".", ",") if lang == "de" else printed,
+        remark if told.holds else words["wrong"],
+    )
+
+
+def _item(one: Sheet, lang: str) -> dict[str, Any]:
+    features = one.features
+    return {
+        "id": one.id,
+        "title": one.record.title.said(lang),
+        "source": one.record.source,
+        "tasks": [task.said(lang) for task in one.record.tasks],
+        "mechanism": str(one.linkage.mechanism),
+        "features": {
+            "drive_joints": features.drive_joints,
+            "drive_joints_at_frame": features.drive_joints_at_frame,
+            "output_links": features.output_links,
+            "output_links_at_frame": features.output_links_at_frame,
+            "links": features.links,
+            "links_by_joints": {str(k): count for k, count in features.links_by_joints},
+            "joints": features.joints,
+            "joints_by_symbol": dict(features.by_symbol("german" if lang == "de" else "international")),
+        },
+        "dimensions": [_value(told) for told in one.dimensions],
+        "quantities": [_value(told) for told in (*one.quantities, *one.example_values)],
+        "explanation": explained(one, lang),
+        "diagram": {
+            "phi_G_deg": [math.degrees(angle) for angle in one.curve.widths],
+            "ratio": one.curve.ratios.tolist(),
+            "length": one.curve.lengths.tolist(),
+        },
+        "example": _sized_item(one.example, one.record.guide.unit),
+        "literature": list(one.record.literature),
+    }
+
+
+def _value(told: Told) -> dict[str, Any]:
+    return {
+        "symbol": told.symbol,
+        "exact": told.exact.text if told.exact else None,
+        "computed": told.derived,
+        "printed": told.printed.text if told.printed else None,
+        "as_printed": told.is_as_printed,
+        "holds": told.holds,
+    }
+
+
+# --- size -------------------------------------------------------------------------------------------
+
+
+def _size(one: Sheet, arguments: argparse.Namespace) -> int:
+    """All lengths for a task; status 1 if no piece of the path is so straight."""
+    length, unit = length_of("length", arguments.length)
+    if arguments.ratio is None:
+        tolerance = same_unit(*length_of("tolerance", arguments.tolerance), unit)
+    elif math.isfinite(arguments.ratio) and 0 < arguments.ratio < 1:
+        tolerance = arguments.ratio * length
+    else:
+        raise GrueblerError(f"--ratio: expected a number between 0 and 1, but found {arguments.ratio!r}")
+    try:
+        found = one.sized(length, tolerance)
+    except LinkageError as error:
+        print(error)
+        return 1
+    if arguments.json:
+        _print_json(_sized_item(found, unit))
+    else:
+        _say_size(one, found, unit, arguments.lang)
+    return 0
+
+
+def _say_size(one: Sheet, found: Sized, unit: str, lang: str) -> None:
+    start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
+    behind = f" {unit}" if unit else ""
+
+    def said(value: float, form: str) -> str:
+        return format(Number(value, lang), form)
+
+    text = _WORDS[lang]["size"].format(
+        length=said(found.length, "g"),
+        tolerance=said(found.tolerance, "g"),
+        unit=behind,
+        ratio=said(found.tolerance / found.length, "g"),
+        width=said(end - start, ".4f"),
+        start=said(start, ".4f"),
+        end=said(end, ".4f"),
+        scale=found.lengths[0][0],
+        factor=said(found.ratio, ".6f"),
+    )
+    print(text)
+    for (symbol, value), told in zip(found.lengths, one.dimensions, strict=True):
+        exact = "" if told.exact is None or told.exact.text == "1" else f"{told.exact.typeset}·{found.lengths[0][0]} = "
+        print(f"{symbol} = {exact}{said(value, '.4f')}{behind}")
+
+
+def _sized_item(found: Sized, unit: str) -> dict[str, Any]:
+    start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
+    return {
+        "length": found.length,
+        "tolerance": found.tolerance,
+        "unit": unit,
+        "ratio": found.sizing.piece.ratio,
+        "phi_G_deg": end - start,
+        "phi_A_deg": start,
+        "phi_E_deg": end,
+        "length_by_scale": found.ratio,
+        "lengths": dict(found.lengths),
+    }
+
+
+def _print_json(document: Any) -> None:
+    print(json.dumps(document, ensure_ascii=False, indent=2))

@@ -1,0 +1,290 @@
+"""Straight-line linkages named after their finders, with their proportions; what they are worth is computed.
+
+One row of `GUIDANCES` each: proportions as a drawing of one position or the usual lengths, the window of the drive in
+which it is used, the line. Exact or approximate, length, band and order of contact are answers.
+"""
+
+from __future__ import annotations
+
+from cmath import phase
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan2, degrees, pi, radians, sqrt
+from typing import NamedTuple
+
+from gruebler.errors import LinkageError, nearest
+from gruebler.geometry.lever_contact import LeverContact, lever_contact, lever_pose
+from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
+from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, sized
+from gruebler.geometry.straight import Path, Piece, linkage_path, piece
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.mechanism import Mechanism
+
+__all__ = ["GUIDANCES", "Guidance", "guidance"]
+
+_EXACT = 1e-12  # deviation by length over the whole window
+_POINT = "K"
+
+
+class Names(NamedTuple):
+    """A text in both languages."""
+
+    en: str
+    de: str
+
+    def said(self, lang: str) -> str:
+        """The text in one language."""
+        return self.de if lang == "de" else self.en
+
+
+@dataclass(frozen=True)
+class Guidance:
+    """A linkage with a point K that runs straight, the smallest length being its unit."""
+
+    key: str
+    name: Names
+    proportions: Names
+    build: Callable[[], Linkage]
+    degrees: tuple[float, float, float]
+    """Drive values: beginning, position of reference, end."""
+    direction: float
+    """Of the line, in radians."""
+
+    @cached_property
+    def linkage(self) -> Linkage:
+        """The linkage with the point K."""
+        return self.build()
+
+    @property
+    def path(self) -> Path:
+        """The path of K over the drive's values."""
+        return linkage_path(self.linkage, _POINT)
+
+    @property
+    def window(self) -> Window:
+        """The drive values in which it is used, and the line."""
+        start, centre, end = (radians(angle) for angle in self.degrees)
+        return Window(start, centre, end, self.direction)
+
+    @cached_property
+    def piece(self) -> Piece:
+        """Length and band over the whole window."""
+        return piece(self.path, self.window.start, self.window.end, self.direction)
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether K stays on the line over the whole window, but for roundings."""
+        return self.piece.ratio < _EXACT
+
+    @cached_property
+    def contact(self) -> LeverContact | None:
+        """How the path touches the line in the position of reference; None if it is the line, or no four-bar's path."""
+        if self.is_exact:
+            return None
+        size, u, v, phi, branch = lever_pose(self.linkage, _POINT, self.window.centre)
+        return lever_contact(size, u, v, phi, branch=branch)
+
+    def curve(self) -> RatioCurve:
+        """Q_G and the length over the windows up to the whole."""
+        return ratio_curve(self.path, self.window)
+
+    def sized(self, length: float, tolerance: float) -> Sizing:
+        """The factor that makes K straight over a length within a tolerance, both in one unit.
+
+        >>> round(guidance("lambda").sized(120, 0.6).factor, 6)
+        30.0
+        """
+        return sized(self.path, self.window, length, tolerance)
+
+
+def guidance(key: str) -> Guidance:
+    """The straight-line linkage of this key.
+
+    Raises `LinkageError` for another word, with the nearest key.
+
+    >>> watt = guidance("watt")
+    >>> watt.is_exact, watt.contact.points
+    (False, 5)
+    """
+    for one in GUIDANCES:
+        if one.key == key:
+            return one
+    keys = [one.key for one in GUIDANCES]
+    raise LinkageError(f"there is no straight-line linkage {key!r}{nearest(key, keys)}; known are {', '.join(keys)}")
+
+
+# --- the table --------------------------------------------------------------------------------------
+
+_FOUR_BAR = "R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); drive="
+
+
+def _four_bar(*pins: complex, drive: str = "R(frame-crank)") -> Callable[[], Linkage]:
+    """A four-bar drawn in one position: A0, A, B, B0, K; driven at A where its crank would get into a dead centre."""
+
+    def build() -> Linkage:
+        mechanism = Mechanism.parse(_FOUR_BAR + drive)
+        names = mechanism.chain.joint_names()
+        places: dict[str | int, object] = {n: (z.real, z.imag) for n, z in zip(names, pins, strict=False)}
+        return Linkage.drawn(mechanism, places, {_POINT: ("coupler", pins[4].real, pins[4].imag)}, unit="LE")
+
+    return build
+
+
+def _sized(size: FourBar | SliderCrank | InvertedSliderCrank, u: float, v: float = 0.0) -> Callable[[], Linkage]:
+    return lambda: size.linkage({_POINT: (u, v)}, unit="LE")
+
+
+def _peaucellier() -> Linkage:
+    """Inversor: arms 3 from the fixed pivot to a rhombus of sides 1.5, whose near corner a crank guides on a circle."""
+    mechanism = Mechanism.parse(
+        "R(frame-crank) R(frame-arm1-arm2) R(crank-bar1-bar2) R(arm1-bar1-bar3) R(arm2-bar2-bar4) R(bar3-bar4); "
+        "drive=R(frame-crank)"
+    )
+    half = 1.2  # of the rhombus, across; the corners of a 3-4-5 triangle: 1.5, 0.9, 1.2
+    middle = sqrt(9 - half**2)
+    near, far = middle - 0.9, middle + 0.9
+    places: dict[str | int, object] = {
+        "R(frame-crank)": (near / 2, 0),
+        "R(frame-arm1-arm2)": (0, 0),
+        "R(crank-bar1-bar2)": (near, 0),
+        "R(arm1-bar1-bar3)": (middle, half),
+        "R(arm2-bar2-bar4)": (middle, -half),
+        "R(bar3-bar4)": (far, 0),
+    }
+    return Linkage.drawn(mechanism, places, {_POINT: ("bar4", far, 0)}, unit="LE")
+
+
+def _hart() -> Linkage:
+    """Inversor: a crossed parallelogram of sides 4 and 2; points half-way on three sides lie on one line."""
+    mechanism = Mechanism.parse(
+        "R(frame-crank) R(frame-long1) R(crank-short1) R(long1-short1) R(long1-short2) R(short2-long2) "
+        "R(long2-short1); drive=R(frame-crank)"
+    )
+    p, q = 2.5, 1.2  # halves of the diagonals, 4pq = 4^2 - 2^2
+    h = sqrt(4 - (p - q) ** 2)
+    corner = {"a": (-p, 0), "b": (q, h), "c": (p, 0), "d": (-q, h)}
+    places: dict[str | int, object] = {
+        "R(frame-crank)": ((q - p) / 2 - q / 2, h / 2),
+        "R(frame-long1)": ((q - p) / 2, h / 2),
+        "R(crank-short1)": (-(p + q) / 2, h / 2),
+        "R(long1-short1)": corner["a"],
+        "R(long1-short2)": corner["b"],
+        "R(short2-long2)": corner["c"],
+        "R(long2-short1)": corner["d"],
+    }
+    return Linkage.drawn(mechanism, places, {_POINT: ("short2", (p + q) / 2, h / 2)}, unit="LE")
+
+
+_LEG = 1.2
+_ROBERTS = complex(0.5, sqrt(_LEG**2 - 0.25))
+_ROCKER = symmetric_rocker(5 / 6)
+_ROCKER_PINS = [(z - _ROCKER.pins[0]) / -_ROCKER.lever.k for z in (*_ROCKER.pins, _ROCKER.point)]
+_CAPELLEN = _ROCKER.replacement()
+_INFLECTION, _ITS_TANGENT = 80.55616065499164, 2.2732018534280565  # of the conchoid: degrees of the crank, radians
+
+GUIDANCES: tuple[Guidance, ...] = (
+    Guidance(
+        "watt",
+        Names("Watt", "Watt"),
+        Names("rockers 2, coupler 1; middle of the coupler", "Schwingen 2, Koppel 1; Koppelmitte"),
+        _four_bar(-2 + 0.5j, 0.5j, -0.5j, 2 - 0.5j, 0j),
+        (-20, 0, 20),
+        pi / 2,
+    ),
+    Guidance(
+        "evans",
+        Names("Evans", "Evans"),
+        Names(
+            "crank = coupler = its extension = 1, long rocker 3 upright with crank and coupler stretched",
+            "Kurbel = Koppel = deren Verlängerung = 1, lange Schwinge 3 senkrecht bei gestreckter Kurbel und Koppel",
+        ),
+        _four_bar(0j, 1 + 0j, 2 + 0j, 2 - 3j, 0j),
+        (-35, 0, 35),
+        pi / 2,
+    ),
+    Guidance(
+        "chebyshev",
+        Names("Chebyshev", "Tschebyscheff"),
+        Names("frame 4, crossed rockers 5, coupler 2; its middle", "Gestell 4, gekreuzte Schwingen 5, Koppel 2; Mitte"),
+        _four_bar(0j, 3 + 4j, 1 + 4j, 4 + 0j, 2 + 4j, drive="R(crank-coupler)"),
+        (-90 - degrees(atan2(3, 4)), -degrees(atan2(4, 3)), 0),
+        0.0,
+    ),
+    Guidance(
+        "roberts",
+        Names("Roberts", "Roberts"),
+        Names(
+            "frame 2, coupler 1, rockers and legs of the coupler triangle 1.2",
+            "Gestell 2, Koppel 1, Schwingen und Schenkel des Koppeldreiecks 1,2",
+        ),
+        _four_bar(0j, _ROBERTS, _ROBERTS + 1, 2 + 0j, 1 + 0j, drive="R(crank-coupler)"),
+        (65.4, 180 - degrees(phase(_ROBERTS)), 178),
+        0.0,
+    ),
+    Guidance(
+        "lambda",
+        Names("Chebyshev's lambda, Hoecken", "Tschebyscheffs Lambda, Hoecken"),
+        Names(
+            "crank 1, coupler = rocker = extension = 2.5, frame 2",
+            "Kurbel 1, Koppel = Schwinge = Verlängerung = 2,5, Gestell 2",
+        ),
+        _sized(FourBar(1, 2.5, 2.5, 2), 5),
+        (90, 180, 270),
+        0.0,
+    ),
+    Guidance(
+        "scott-russell",
+        Names("Scott Russell", "Scott-Russell"),
+        Names("crank = rod = its extension = 1, central slider", "Kurbel = Koppel = Verlängerung = 1, zentrisch"),
+        _sized(SliderCrank(1, 1), -1),
+        (-60, 0, 60),
+        pi / 2,
+    ),
+    Guidance(
+        "conchoid",
+        Names("conchoid linkage", "Konchoidenlenker"),
+        Names("crank 3, frame 5, AK = 9; about an inflection", "Kurbel 3, Gestell 5, AK = 9; um einen Wendepunkt"),
+        _sized(InvertedSliderCrank(3, 5), 9),
+        (57.25, _INFLECTION, 120.75),
+        _ITS_TANGENT,
+    ),
+    Guidance(
+        "peaucellier",
+        Names("Peaucellier, Lipkin", "Peaucellier, Lipkin"),
+        Names(
+            "arms 3, rhombus 1.5, crank = half of the distance of pivot and near corner",
+            "Arme 3, Raute 1,5, Kurbel = halber Abstand von Drehpunkt und naher Ecke",
+        ),
+        _peaucellier,
+        (-60, 0, 60),
+        pi / 2,
+    ),
+    Guidance(
+        "hart",
+        Names("Hart", "Hart"),
+        Names(
+            "crossed parallelogram 4 : 2, points half-way, crank 0.6",
+            "gekreuztes Parallelogramm 4 : 2, Punkte auf halber Länge, Kurbel 0,6",
+        ),
+        _hart,
+        (120, 180, 240),
+        pi / 2,
+    ),
+    Guidance(
+        "meyer-zur-capellen",
+        Names("Meyer zur Capellen", "Meyer zur Capellen"),
+        Names("symmetric double rocker, lambda = 5/6, AK = 1", "symmetrische Doppelschwinge, lambda = 5/6, AK = 1"),
+        _four_bar(*_ROCKER_PINS, drive="R(crank-coupler)"),
+        (0, degrees(_ROCKER.phi0), 120),
+        0.0,
+    ),
+    Guidance(
+        "isosceles",
+        Names("Meyer zur Capellen, crank-rocker", "Meyer zur Capellen, Kurbelschwinge"),
+        Names("1 : 5/2 sqrt 3 : 5/2 sqrt 3 : 4, AK = 25/3", "1 : 5/2 Wurzel 3 : 5/2 Wurzel 3 : 4, AK = 25/3"),
+        _sized(_CAPELLEN.size, _CAPELLEN.u, _CAPELLEN.v),
+        (90, 180, 270),
+        _CAPELLEN.kappa,
+    ),
+)

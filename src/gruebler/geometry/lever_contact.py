@@ -1,0 +1,147 @@
+"""How closely the path of a coupler lever touches its tangent: in closed form, by power series in the crank's angle.
+
+A series is the array of the coefficients of 1, t, t^2, ..., t the crank angle from the point looked at. For linkages of
+any kind there is `gruebler.geometry.contact`, by another way.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.errors import LinkageError
+from gruebler.geometry.relative import Complexes
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage
+from gruebler.linkages.quantities import as_branch, as_finite
+
+__all__ = ["LeverContact", "LeverPose", "lever_contact", "lever_pose"]
+
+_ORDER = 9
+_ZERO = 1e-9  # of the linkage's size: smaller coefficients are roundings
+
+
+class LeverContact(NamedTuple):
+    """The path as y = c x^n + ... in the frame of its point and its tangent."""
+
+    points: int
+    """n: the curve and the tangent have so many points in common there (2: an ordinary point, 3: an inflection)."""
+    coefficient: float
+    """c, per length^(n - 1); positive if the curve is to the left of the tangent, as it is run through."""
+    direction: float
+    """Of the tangent, in radians; the way the point moves."""
+    place: complex
+
+
+class LeverPose(NamedTuple):
+    """A linkage of one loop by its usual lengths, with a coupler point (u along AB, v to its left), in one position."""
+
+    size: FourBar | InvertedSliderCrank
+    u: float
+    v: float
+    phi: float
+    """The crank's angle against A0B0."""
+    branch: int
+
+
+def lever_pose(linkage: Linkage, point: str, drive: float) -> LeverPose:
+    """A four-bar or a central inverted slider-crank (joints in the order A0, A, B, B0), wherever its frame lies.
+
+    Raises `LinkageError` for other linkages, and a drive value that is out of reach.
+
+    >>> pose = lever_pose(FourBar(25, 70, 40, 70).linkage({"K": (45, 40)}), "K", 1.0)
+    >>> round(pose.size.c, 9), round(pose.u, 9), round(pose.phi, 9), pose.branch
+    (40.0, 45.0, 1.0, 1)
+    """
+    motion = move(linkage, drive)
+    if not motion.complete:
+        raise LinkageError(motion.message())
+    names = linkage.mechanism.chain.joint_names()
+    turning = [complex(motion.complex_point(name)[0]) for name in names if name.startswith("R")]
+    if len(names) != 4 or len(turning) not in (3, 4):
+        raise LinkageError("this is known of linkages with one loop and at most one slide only")
+    a0, a, *b, b0 = turning
+    along, crank = (b[0] if b else b0) - a, (a - a0) / (b0 - a0)
+    arm = (complex(motion.complex_point(point)[0]) - a) / along * abs(along)
+    phi = math.atan2(crank.imag, crank.real)
+    if not b:
+        return LeverPose(InvertedSliderCrank(abs(a - a0), abs(b0 - a0)), arm.real, arm.imag, phi, 1)
+    size = FourBar(abs(a - a0), abs(along), abs(b[0] - b0), abs(b0 - a0))
+    return LeverPose(size, arm.real, arm.imag, phi, 1 if ((b0 - a).conjugate() * along).imag >= 0 else -1)
+
+
+def lever_contact(
+    size: FourBar | InvertedSliderCrank, u: float, v: float, phi: float, *, branch: int = 1
+) -> LeverContact:
+    """The contact of a coupler point's path with its tangent at a crank angle.
+
+    Error: the coefficients are sums of products of doubles; what is below 1e-9 of the linkage's size counts as zero.
+
+    Raises `LinkageError` where the path has a cusp or is straight to order 8, in dead centres of the output, and out of
+    reach.
+
+    >>> found = lever_contact(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576, math.pi)
+    >>> found.points, round(abs(found.coefficient) * 1e4, 9)
+    (6, 1.550067728)
+    """
+    side, angle, arm = as_branch(branch), as_finite("phi", phi), complex(as_finite("u", u), as_finite("v", v))
+    where = f"at the crank angle {math.degrees(angle):g} degrees"
+    crank = size.a * np.exp(1j * angle) * 1j ** np.arange(_ORDER) / np.cumprod([1.0, *range(1, _ORDER)])
+    to_b0 = -crank
+    to_b0[0] += size.d
+    path = crank + arm * _coupler(size, to_b0, side, where)
+    largest = max(size.a, size.d, abs(arm))
+    if abs(path[1]) < _ZERO * largest:
+        raise LinkageError(f"the path has a cusp {where}, and no tangent")
+    heading = path[1] / abs(path[1])
+    seen = path[1:] / heading
+    high = np.flatnonzero(np.abs(seen.imag) > _ZERO * largest)
+    if not len(high):
+        raise LinkageError(f"the path is straight to order {_ORDER - 1} {where}")
+    points = int(high[0]) + 1
+    slope = float(seen.imag[points - 1] / seen.real[0] ** points)
+    return LeverContact(points, slope, float(np.angle(heading)), complex(path[0]))
+
+
+def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, where: str) -> Complexes:
+    """The unit vector along the coupler, from the vector A to B0."""
+    square = _times(to_b0, np.conj(to_b0))
+    if isinstance(size, InvertedSliderCrank):
+        way = side * _root(_plus(square, -(size.e**2)), where)
+        return _over(to_b0, _plus(way, 1j * size.e))
+    b, c = size.b, size.c
+    area = _root(_times(_plus(-square, (b + c) ** 2), _plus(square, -((b - c) ** 2))), where)
+    return _over(_times(to_b0, _plus(square + 1j * side * area, b**2 - c**2)), 2 * b * square)
+
+
+# --- series -----------------------------------------------------------------------------------------
+
+
+def _plus(a: Complexes, constant: complex) -> Complexes:
+    out = a.copy()
+    out[0] += constant
+    return out
+
+
+def _times(a: Complexes, b: Complexes) -> Complexes:
+    return np.convolve(a, b)[: len(a)]
+
+
+def _over(a: Complexes, b: Complexes) -> Complexes:
+    out = np.zeros_like(a)
+    for n in range(len(a)):
+        out[n] = (a[n] - out[:n] @ b[n:0:-1]) / b[0]
+    return out
+
+
+def _root(a: Complexes, where: str) -> Complexes:
+    """The square root of a real series that begins with a positive number."""
+    if not a[0].real > 0:
+        raise LinkageError(f"the output is in a dead centre or out of reach {where}")
+    out = np.zeros_like(a)
+    out[0] = math.sqrt(a[0].real)
+    for n in range(1, len(a)):
+        out[n] = (a[n] - out[1:n] @ out[n - 1 : 0 : -1]) / (2 * out[0])
+    return out

@@ -1,0 +1,135 @@
+"""How large a straight-line linkage has to be: its relative deviation over the window, and the size for a task."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gruebler.errors import LinkageError
+from gruebler.geometry.relative import Complexes, Reals
+from gruebler.geometry.straight import Path, Piece, piece
+from gruebler.linkages.quantities import as_finite, as_positive
+
+__all__ = ["RatioCurve", "Sizing", "Window", "ratio_curve", "sized", "widest_piece"]
+
+
+class Window(NamedTuple):
+    """Parts of a path about a value of its parameter, growing to both ends in one ratio."""
+
+    start: float
+    centre: float
+    end: float
+    direction: float
+    """Of the line, in radians."""
+
+    @property
+    def width(self) -> float:
+        """Of the whole of it."""
+        return self.end - self.start
+
+    def ends(self, width: Any) -> tuple[Any, Any]:
+        """Beginning and end of the part that is so wide; of parts, for an array."""
+        part = width / self.width
+        return self.centre - part * (self.centre - self.start), self.centre + part * (self.end - self.centre)
+
+
+class RatioCurve(NamedTuple):
+    """The relative deviation Q_G and the length over windows that grow; arrays (n,)."""
+
+    widths: Reals
+    """phi_G, growing, without 0."""
+    starts: Reals
+    """phi_A."""
+    lengths: Reals
+    ratios: Reals
+
+
+class Sizing(NamedTuple):
+    """The size of a linkage for a task."""
+
+    factor: float
+    """By which all its lengths are multiplied."""
+    piece: Piece
+    """The piece of the path that is used, before that."""
+
+
+def ratio_curve(path: Path, window: Window, samples: int = 721) -> RatioCurve:
+    """Q_G and L over the windows of a path; error of the second order in the spacing where extremes lie inside.
+
+    Raises `LinkageError` where the path has no points.
+
+    >>> from gruebler.geometry import coupler_path
+    >>> from gruebler.linkages import FourBar
+    >>> lever = coupler_path(FourBar(20, 50, 50, 40), 100, 0)
+    >>> curve = ratio_curve(lever, Window(np.pi / 2, np.pi, 3 * np.pi / 2, 0.0))
+    >>> round(float(curve.lengths[-1]), 6), round(float(curve.ratios[-1]), 6)
+    (80.0, 0.002438)
+    """
+    widths = np.linspace(0, window.width, samples)
+    both = np.array([_points(path, end) for end in window.ends(widths)])
+    seen = (both - both[0, 0]) * np.exp(-1j * window.direction)
+    lengths, bands = (_growing(part)[1:] for part in (seen.real, seen.imag))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ratios = np.where(lengths > 0, bands / lengths, np.inf)
+    return RatioCurve(widths[1:], window.ends(widths[1:])[0], lengths, ratios)
+
+
+def _points(path: Path, parameters: Reals) -> Complexes:
+    points = path(parameters)
+    if not np.isfinite(points).all():
+        raise LinkageError(f"the path has no point at {parameters[~np.isfinite(points)][0]:.6g}")
+    return points
+
+
+def _growing(both: Reals) -> Reals:
+    """The range of values of windows that grow from the middle to both sides; (2, n) to (n,)."""
+    return np.asarray(np.maximum.accumulate(both.max(axis=0)) - np.minimum.accumulate(both.min(axis=0)))
+
+
+def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -> Piece:
+    """The widest window whose relative deviation is at most the given one; the whole if all are.
+
+    Raises `LinkageError` if not even the smallest is so straight.
+
+    >>> from gruebler.geometry import coupler_path
+    >>> from gruebler.linkages import FourBar
+    >>> lever = coupler_path(FourBar(20, 50, 50, 40), 100, 0)
+    >>> found = widest_piece(lever, Window(0, np.pi, 2 * np.pi, 0.0), 0.003)
+    >>> round(float(np.degrees(found.start)), 2), round(found.length, 2)
+    (73.46, 89.72)
+    """
+    wanted = as_positive("ratio", ratio)
+    curve = ratio_curve(path, window, samples)
+    good = np.flatnonzero(curve.ratios <= wanted)
+    if not len(good):
+        raise LinkageError(f"no window of the path has a relative deviation of {ratio:g} or less")
+    last = int(good[-1])
+    width = float(curve.widths[last])
+    if last + 1 < len(curve.widths):
+        from scipy.optimize import brentq
+
+        def excess(wide: float) -> float:
+            made = piece(path, *window.ends(wide), window.direction)
+            return made.band - wanted * made.length
+
+        beyond = float(curve.widths[last + 1])
+        if excess(width) < 0 < excess(beyond):
+            width = float(brentq(excess, width, beyond, xtol=1e-14, rtol=1e-14))
+    return piece(path, *window.ends(width), window.direction)
+
+
+def sized(path: Path, window: Window, length: float, tolerance: float) -> Sizing:
+    """The factor that makes a path straight within a tolerance over a length: the smallest linkage that does it.
+
+    Both in one unit. Raises `LinkageError` like `widest_piece`.
+
+    >>> from gruebler.geometry import coupler_path
+    >>> from gruebler.linkages import FourBar
+    >>> lenker = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)
+    >>> round(sized(lenker, Window(0, np.pi, 2 * np.pi, np.radians(15.79316904826399)), 15, 0.075).factor, 4)
+    3.8389
+    """
+    wanted = as_positive("length", length)
+    found = widest_piece(path, window, as_positive("tolerance", as_finite("tolerance", tolerance)) / wanted)
+    return Sizing(wanted / found.length, found)

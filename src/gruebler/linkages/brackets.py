@@ -1,0 +1,84 @@
+"""Real numbers between two bounds: arithmetic that never loses the true value, at any precision.
+
+A bracket (low, high) at the precision p stands for low/2^p <= x <= high/2^p; every operation rounds outwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from fractions import Fraction
+from math import isqrt
+
+__all__ = ["OPERATIONS", "Bracket", "Unsettled", "of_fraction", "pi", "power", "root"]
+
+Bracket = tuple[int, int]
+
+
+class Unsettled(Exception):
+    """The precision does not tell whether a divisor is zero; ``at`` is where."""
+
+    def __init__(self, at: int = 0) -> None:
+        super().__init__(at)
+        self.at = at
+
+
+def of_fraction(value: Fraction, p: int) -> Bracket:
+    """A rational number."""
+    low, rest = divmod(value.numerator << p, value.denominator)
+    return low, low + (rest > 0)
+
+
+def pi(p: int) -> Bracket:
+    """Machin's formula, 16 arctan(1/5) - 4 arctan(1/239), with 32 bits to spare."""
+    near = 16 * _arctan_of_inverse(5, p + 32) - 4 * _arctan_of_inverse(239, p + 32)
+    return (near >> 32) - 1, (near >> 32) + 2
+
+
+def _arctan_of_inverse(x: int, p: int) -> int:
+    total, term, n, sign = 0, (1 << p) // x, 1, 1
+    while term:
+        total += sign * (term // n)
+        term, n, sign = term // (x * x), n + 2, -sign
+    return total
+
+
+def _sum(a: Bracket, b: Bracket, _: int) -> Bracket:
+    return a[0] + b[0], a[1] + b[1]
+
+
+def _difference(a: Bracket, b: Bracket, _: int) -> Bracket:
+    return a[0] - b[1], a[1] - b[0]
+
+
+def _product(a: Bracket, b: Bracket, p: int) -> Bracket:
+    ends = [x * y for x in a for y in b]
+    return min(ends) >> p, -(-max(ends) >> p)
+
+
+def _quotient(a: Bracket, b: Bracket, p: int) -> Bracket:
+    if b[0] <= 0 <= b[1]:
+        raise Unsettled
+    ends = [Fraction(x << p, y) for x in a for y in b]
+    return min(ends).__floor__(), max(ends).__ceil__()
+
+
+def root(a: Bracket, p: int) -> Bracket:
+    """The square root; of what may be negative, that of the part that is not."""
+    low, high = isqrt(max(a[0], 0) << p), isqrt(a[1] << p)
+    return low, high + (high * high < a[1] << p)
+
+
+OPERATIONS: dict[str, Callable[[Bracket, Bracket, int], Bracket]] = {
+    "+": _sum,
+    "-": _difference,
+    "*": _product,
+    "/": _quotient,
+}
+
+
+def power(a: Bracket, exponent: int, p: int) -> Bracket:
+    """A whole power."""
+    out: Bracket = (1 << p, 1 << p)
+    for _ in range(abs(exponent)):
+        out = _product(out, a, p)
+    return out if exponent >= 0 else _quotient((1 << p, 1 << p), out, p)

@@ -1,0 +1,137 @@
+"""Sums of square roots with rational factors, exactly: the numbers q1 sqrt(d1) + q2 sqrt(d2) + ... .
+
+A number is a table from whole numbers without square factors to rational factors that are not zero; 1 stands for the
+rational part. The roots of different such numbers are linearly independent over the rationals (Besicovitch 1940), so
+two numbers are equal if, and only if, their tables are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from fractions import Fraction
+from math import gcd, isqrt
+
+__all__ = ["OPERATIONS", "Surd", "inverse", "power", "product", "rational", "root", "written"]
+
+Surd = Mapping[int, Fraction]
+
+_LARGEST = 10**10  # under a root: its factors are found by trial
+_MOST = 16  # terms
+_LONGEST = 4000  # bits of a factor
+
+
+def rational(value: Fraction) -> Surd:
+    """A rational number."""
+    return {1: value} if value else {}
+
+
+def product(a: Surd, b: Surd) -> Surd | None:
+    """A times b; None if that is too large to be handled.
+
+    >>> product({2: Fraction(1)}, {6: Fraction(1), 1: Fraction(3)})
+    {3: Fraction(2, 1), 2: Fraction(3, 1)}
+    """
+    return _collected(
+        (d // common * (e // common), p * q * common)
+        for d, p in a.items()
+        for e, q in b.items()
+        for common in [gcd(d, e)]
+    )
+
+
+def power(a: Surd, exponent: int) -> Surd | None:
+    """A whole power; negative ones of what is not zero."""
+    made: Surd | None = {1: Fraction(1)}
+    for _ in range(abs(exponent)):
+        made = None if made is None else product(made, a)
+    return made if exponent >= 0 or made is None else inverse(made)
+
+
+def inverse(a: Surd) -> Surd | None:
+    """1/a for a that is not zero: multiplied with its conjugates until no root is left.
+
+    >>> inverse({1: Fraction(1), 2: Fraction(1)})
+    {1: Fraction(-1, 1), 2: Fraction(1, 1)}
+    """
+    roots = [d for d in a if d > 1]
+    if not roots:
+        return {1: 1 / a[1]}
+    prime = _least_factor(roots[0])
+    conjugate = {d: -q if d % prime == 0 else q for d, q in a.items()}
+    norm = product(a, conjugate)
+    rest = None if norm is None else inverse(norm)
+    return None if rest is None else product(conjugate, rest)
+
+
+def root(a: Surd) -> Surd | None:
+    """The square root of a rational number that is not negative; None of any other.
+
+    >>> root({1: Fraction(8, 3)})
+    {6: Fraction(2, 3)}
+    """
+    if not a:
+        return {}
+    if set(a) != {1} or a[1] < 0:
+        return None
+    under = a[1].numerator * a[1].denominator
+    whole = isqrt(under)
+    if whole * whole == under:
+        return {1: Fraction(whole, a[1].denominator)}
+    if under > _LARGEST:
+        return None
+    outside, free = _square_free(under)
+    return {free: Fraction(outside, a[1].denominator)}
+
+
+def _quotient(a: Surd, b: Surd) -> Surd | None:
+    over = inverse(b)
+    return None if over is None else product(a, over)
+
+
+OPERATIONS: dict[str, Callable[[Surd, Surd], Surd | None]] = {
+    "+": lambda a, b: _collected([*a.items(), *b.items()]),
+    "-": lambda a, b: _collected([*a.items(), *((d, -q) for d, q in b.items())]),
+    "*": product,
+    "/": _quotient,
+}
+"""None where a number would be too large to be handled."""
+
+
+def written(a: Surd) -> str:
+    """In print, the largest root first.
+
+    >>> written({22: Fraction(5, 3), 6: Fraction(-3)})
+    '5/3·√22 − 3·√6'
+    """
+    terms = sorted(a.items(), reverse=True)
+    said = ""
+    for d, q in terms:
+        sign = ("− " if q < 0 else "+ ") if said else ("−" if q < 0 else "")
+        size = abs(q)
+        word = str(size) if d == 1 else f"√{d}" if size == 1 else f"{size}·√{d}"
+        said += (" " if said else "") + sign + word
+    return said or "0"
+
+
+def _collected(terms: Iterable[tuple[int, Fraction]]) -> Surd | None:
+    """The number of these terms; None if it would be too large to be handled."""
+    out: dict[int, Fraction] = {}
+    for d, q in terms:
+        out[d] = out.get(d, Fraction(0)) + q
+    out = {d: q for d, q in out.items() if q}
+    long = any(max(q.numerator.bit_length(), q.denominator.bit_length()) > _LONGEST for q in out.values())
+    return None if long or len(out) > _MOST or max(out, default=1) > _LARGEST else out
+
+
+def _least_factor(number: int) -> int:
+    return next((p for p in range(2, isqrt(number) + 1) if number % p == 0), number)
+
+
+def _square_free(number: int) -> tuple[int, int]:
+    """(s, f) with number = s^2 f and no square in f."""
+    outside, free, p = 1, number, 2
+    while p * p <= free:
+        while free % (p * p) == 0:
+            outside, free = outside * p, free // (p * p)
+        p += 1
+    return outside, free

@@ -1,0 +1,166 @@
+"""A page of paper: words, rules and pictures at places; as SVG, HTML, PDF and PNG, always on light ground."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+from xml.sax.saxutils import escape
+
+from gruebler.drawing.figure import Figure
+from gruebler.drawing.files import suffix_of
+from gruebler.drawing.styles import COLOURS
+from gruebler.drawing.svg import element, number, style_sheet
+
+__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "Page", "Placed", "Rule", "Words", "suffix_of"]
+
+WIDTH, HEIGHT = 793.7, 1122.5
+"""Of A4, in pixels of 1/96 inch."""
+SUFFIXES = ("svg", "html", "pdf", "png")
+_POINTS = 72 / 96
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """A line of text; ``y`` is its base line, the role one of the colours."""
+
+    x: float
+    y: float
+    text: str
+    size: float = 11.5
+    bold: bool = False
+    role: str = "ink"
+    anchor: str = "start"
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """A level line."""
+
+    x: float
+    y: float
+    length: float
+    width: float = 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A picture with its upper left corner there."""
+
+    x: float
+    y: float
+    scale: float
+    figure: Figure
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Items on a page of A4."""
+
+    items: tuple[Words | Rule | Placed, ...]
+    title: str
+    description: str
+    lang: str
+
+    def svg(self) -> str:
+        """The page as SVG of the size of the paper, text as text."""
+        used = sorted({shape.style for item in self._pictures() for shape in item.figure.shapes})
+        rules = style_sheet(used).partition("@media")[0]
+        return "\n".join(
+            [
+                f'<svg xmlns="http://www.w3.org/2000/svg" class="gr" role="img" lang="{self.lang}" width="210mm" '
+                f'height="297mm" viewBox="0 0 {WIDTH} {HEIGHT}">',
+                f"<title>{escape(self.title)}</title><desc>{escape(self.description)}</desc>",
+                f"<style>{rules}</style>",
+                f'<rect width="{WIDTH}" height="{HEIGHT}" fill="{COLOURS["paper"][0]}"/>',
+                *(_SVG[type(item)](item) for item in self.items),
+                "</svg>\n",
+            ]
+        )
+
+    def html(self) -> str:
+        """A document that holds the page alone and is printed on A4 without margins."""
+        return (
+            f'<!DOCTYPE html>\n<html lang="{self.lang}"><head><meta charset="utf-8"><title>{escape(self.title)}</title>'
+            "<style>@page{size:A4;margin:0}body{margin:0;background:#fff}"
+            "svg{display:block;margin:0 auto;max-width:100%;height:auto}"
+            "@media print{svg{width:210mm;height:297mm}}</style></head><body>\n"
+            f"{self.svg()}</body></html>\n"
+        )
+
+    def written(self, suffix: str) -> bytes:
+        """The content of a file of this kind; `GrueblerError` if matplotlib is needed and missing."""
+        if suffix in ("svg", "html"):
+            return (self.svg() if suffix == "svg" else self.html()).encode("utf-8")
+        from gruebler.drawing.plotting import painted
+
+        canvas = painted(Figure((), WIDTH, HEIGHT, self.title, self.description))
+        for item in self.items:
+            _PAINT[type(item)](canvas, item)
+        memory = io.BytesIO()
+        metadata: dict[str, Any] = {"Title": self.title}
+        metadata |= {"CreationDate": None, "Creator": None} if suffix == "pdf" else {"Software": None}
+        canvas.savefig(memory, format=suffix, dpi=192, metadata=metadata)
+        return memory.getvalue()
+
+    def _pictures(self) -> Iterable[Placed]:
+        return (item for item in self.items if isinstance(item, Placed))
+
+
+# --- SVG --------------------------------------------------------------------------------------------
+
+
+def _words_svg(item: Words) -> str:
+    style = f'font-size="{item.size:g}" fill="{COLOURS[item.role][0]}"' + ' font-weight="bold"' * item.bold
+    anchor = "" if item.anchor == "start" else f' text-anchor="{item.anchor}"'
+    return f'<text x="{number(item.x)}" y="{number(item.y)}" {style}{anchor}>{escape(item.text)}</text>'
+
+
+def _rule_svg(item: Rule) -> str:
+    line = f"M{number(item.x)} {number(item.y)}h{number(item.length)}"
+    return f'<path d="{line}" stroke="{COLOURS["ink"][0]}" stroke-width="{item.width:g}" fill="none"/>'
+
+
+def _placed_svg(item: Placed) -> str:
+    place = f"translate({number(item.x)} {number(item.y)}) scale({item.scale:.4g})"
+    shapes = "\n".join(map(element, item.figure.shapes))
+    return f'<g transform="{place}"><title>{escape(item.figure.title)}</title>\n{shapes}\n</g>'
+
+
+_SVG: dict[type, Any] = {Words: _words_svg, Rule: _rule_svg, Placed: _placed_svg}
+
+
+# --- matplotlib -------------------------------------------------------------------------------------
+
+
+def _paint_words(canvas: Any, item: Words) -> None:
+    canvas.text(
+        item.x / WIDTH,
+        1 - item.y / HEIGHT,
+        item.text,
+        fontsize=item.size * _POINTS,
+        fontweight="bold" if item.bold else "normal",
+        color=COLOURS[item.role][0],
+        ha={"start": "left", "middle": "center", "end": "right"}[item.anchor],
+        va="baseline",
+        parse_math=False,
+    )
+
+
+def _paint_rule(canvas: Any, item: Rule) -> None:
+    from matplotlib.lines import Line2D
+
+    ends, level = (item.x / WIDTH, (item.x + item.length) / WIDTH), 1 - item.y / HEIGHT
+    canvas.add_artist(Line2D(ends, (level, level), linewidth=item.width * _POINTS, color=COLOURS["ink"][0]))
+
+
+def _paint_placed(canvas: Any, item: Placed) -> None:
+    from gruebler.drawing.plotting import paint_on
+
+    wide, high = item.scale * item.figure.width, item.scale * item.figure.height
+    axes = canvas.add_axes((item.x / WIDTH, 1 - (item.y + high) / HEIGHT, wide / WIDTH, high / HEIGHT))
+    paint_on(axes, item.figure, scale=item.scale)
+
+
+_PAINT: dict[type, Any] = {Words: _paint_words, Rule: _paint_rule, Placed: _paint_placed}

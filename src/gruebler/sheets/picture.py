@@ -1,0 +1,86 @@
+"""The mechanism of a sheet to scale, with its coupler curve, the axis of symmetry and the tangent."""
+
+from __future__ import annotations
+
+import cmath
+import math
+
+from gruebler.drawing.figure import Circle, Figure, Lines, Point, Shape, Text, figure_of
+from gruebler.drawing.labels import noted
+from gruebler.drawing.linkage_picture import draw_linkage
+from gruebler.drawing.stage import Stage, staged
+from gruebler.sheets.prose import lowered
+from gruebler.sheets.sheet import Sheet
+
+__all__ = ["scale_picture"]
+
+_BEYOND = 22.0  # pixels
+_DASH, _GAP = 9.0, 4.0
+
+
+def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
+    """The linkage in the sheet's pose with joints and marked points by their names, tangent g and axis of symmetry."""
+    pose = math.radians(sheet.record.picture.pose)
+    point = sheet.record.names[sheet.record.point]
+    plain = draw_linkage(sheet.linkage, pose, curves=[point], lang=lang, name=sheet.record.title.said(lang))
+    stage = staged(sheet.linkage, pose)
+    by = _offset(plain, stage)
+    shapes = [*plain.shapes, *(_moved(shape, by) for shape in _lines(sheet, stage))]
+    motion = sheet.motion(sheet.record.picture.pose)
+    for name in sheet.record.names:
+        if name != sheet.record.point:
+            at = stage.local(sheet.place(motion, name)).plus(by)
+            shapes.append(noted(at, lowered(name), "value", shapes))
+    for name, degrees in sheet.record.picture.marks.items():
+        at = stage.local(sheet.place(sheet.motion(degrees), sheet.record.point)).plus(by)
+        shapes.append(Circle(at, 3.0, "dot"))
+        shapes.append(noted(at, name, "value", shapes))
+    return figure_of(shapes, plain.title, plain.description)
+
+
+def _offset(figure: Figure, stage: Stage) -> Point:
+    """How the figure was moved against the stage: by the places of its turning joints."""
+    names = stage.linkage.mechanism.chain.joint_names()
+    pins = [stage.place(stage.linkage.named(name)[0]) for name in names if name.startswith("R")]
+    rings = [shape.at for shape in figure.shapes if isinstance(shape, Circle) and shape.style == "joint"]
+    return Point(
+        min(ring.x for ring in rings) - min(pin.x for pin in pins),
+        min(ring.y for ring in rings) - min(pin.y for pin in pins),
+    )
+
+
+def _lines(sheet: Sheet, stage: Stage) -> list[Shape]:
+    """The tangent g along the piece of the example, and the axis across it."""
+    piece, window = sheet.example.sizing.piece, sheet.window
+    touch = sheet.place(sheet.motion(math.degrees(window.centre)), sheet.record.point)
+    along = cmath.rect(1.0, window.direction)
+    half = 0.75 * piece.length * sheet.unit_length
+    ends = [stage.local(touch + side * half * along) for side in (-1, 1)]
+    shapes: list[Shape] = [
+        Lines((tuple(ends),), "measure"),
+        Text(ends[1].plus(ends[1].minus(ends[0]).unit, 9.0), "g", "value"),
+    ]
+    name = sheet.record.picture.axis_through
+    if name is not None:
+        foot = sheet.place(sheet.motion(math.degrees(window.centre)), name)
+        marks = [sheet.place(sheet.motion(at), sheet.record.point) for at in sheet.record.picture.marks.values()]
+        low, high = stage.local(foot), stage.local(max([touch, *marks], key=lambda z: abs(z - foot)))
+        way = high.minus(low).unit
+        shapes.insert(0, _dashed(low.plus(way, -_BEYOND), high.plus(way, _BEYOND)))
+    return shapes
+
+
+def _dashed(a: Point, b: Point) -> Lines:
+    """A line of dashes, itself no style: as a centre line has them."""
+    way, length = b.minus(a).unit, b.minus(a).length
+    starts = [k * (_DASH + _GAP) for k in range(int(length / (_DASH + _GAP)) + 1)]
+    return Lines(tuple((a.plus(way, s), a.plus(way, min(s + _DASH, length))) for s in starts), "measure")
+
+
+def _moved(shape: Shape, by: Point) -> Shape:
+    match shape:
+        case Lines(parts, style, closed):
+            return Lines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
+        case Text(at, words, style, anchor):
+            return Text(at.plus(by), words, style, anchor)
+    return shape

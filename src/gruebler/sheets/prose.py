@@ -1,0 +1,128 @@
+"""The words of a sheet in both languages, and numbers as each of them writes them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from gruebler.sheets.sheet import Sheet
+
+__all__ = ["Number", "example_lines", "explained", "lowered", "value_lines", "words_of"]
+
+_WORDS: dict[str, dict[str, str]] = {
+    "en": {
+        "collection": "Collection of mechanisms",
+        "sheet": "Sheet {id}",
+        "scale": "To scale at φ = {pose}, coupler curve, tangent g, axis of symmetry",
+        "scale_plain": "To scale at φ = {pose}, coupler curve, straight line g",
+        "structure": "Structure, {drive}, output: {output}",
+        "driven": "driven joint: arrow",
+        "features": "Access features",
+        "dimensions": "Dimensions (unit of length {unit})",
+        "explanation": "Explanation",
+        "values": "Values",
+        "diagram": "Relative deviation from the line",
+        "ratio": "Q_G = Δy/L for windows φ_G about φ = {centre}",
+        "example": "Example: L = {length} {unit} within {tolerance} {unit}",
+        "window": "crank from {start}° to {end}°",
+        "printed": "the source has {text}",
+        "literature": "Literature",
+        "source": "Structure, lengths and values derived from the model; source {source}.",
+    },
+    "de": {
+        "collection": "Getriebesammlung",
+        "sheet": "Blatt {id}",
+        "scale": "Maßstäblich bei φ = {pose}, Koppelkurve, Tangente g, Symmetrieachse",
+        "scale_plain": "Maßstäblich bei φ = {pose}, Koppelkurve, Gerade g",
+        "structure": "Strukturbild, {drive}, Abtrieb: {output}",
+        "driven": "Antriebsgelenk: Pfeil",
+        "features": "Zugriffsmerkmale",
+        "dimensions": "Abmessungen (Längeneinheit {unit})",
+        "explanation": "Erläuterung",
+        "values": "Werte",
+        "diagram": "Bezogene Geradführungsabweichung",
+        "ratio": "Q_G = Δy/L für Kurbelwinkel φ_G beiderseits von φ = {centre}",
+        "example": "Beispiel: L = {length} {unit} innerhalb von {tolerance} {unit}",
+        "window": "Kurbel von {start}° bis {end}°",
+        "printed": "in der Vorlage {text}",
+        "literature": "Literatur",
+        "source": "Struktur, Längen und Werte aus dem Modell abgeleitet; Vorlage {source}.",
+    },
+}
+
+_INDICES = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+_EQUALS = "\u00a0=\u00a0"  # without a break
+
+
+def words_of(lang: str) -> Mapping[str, str]:
+    """The words of a language; formats take `Number`."""
+    return _WORDS[lang]
+
+
+def lowered(name: str) -> str:
+    """A name with its digits as indices.
+
+    >>> lowered("A0B0")
+    'A₀B₀'
+    """
+    return name.translate(_INDICES)
+
+
+class Number(float):
+    """A number that is written with a decimal comma where the language has one.
+
+    >>> f"{Number(2.5, 'de'):.2f} {Number(2.5, 'en')}"
+    '2,50 2.5'
+    """
+
+    lang: str
+
+    def __new__(cls, value: float, lang: str) -> Number:
+        """The number in a language."""
+        made = super().__new__(cls, value)
+        made.lang = lang
+        return made
+
+    def __format__(self, form: str) -> str:
+        """As a float, but for the comma and the minus sign."""
+        said = format(float(self), form or "g").replace("-", "−")
+        return said.replace(".", ",") if self.lang == "de" else said
+
+
+def explained(sheet: Sheet, lang: str) -> list[str]:
+    """The paragraphs of the explanation, with derived values in their places."""
+    values = {told.id: Number(told.derived, lang) for told in sheet.quantities}
+    return [text.said(lang).format_map(values).replace(" = ", _EQUALS) for text in sheet.record.explanation]
+
+
+def value_lines(sheet: Sheet, lang: str) -> list[str]:
+    """Each value that the sheet tells: symbol, exact, decimal, and what the source has instead."""
+    out = []
+    for told in sheet.quantities:
+        said = f"{Number(told.derived, lang):.6f}" + told.unit
+        if told.exact is not None and told.exact.text.isdigit():
+            said = f"{told.exact.text}: {told.name.said(lang)}" if told.name else told.exact.text
+        elif told.exact is not None:
+            said = f"{told.exact.typeset} = {said}"
+        if not told.is_as_printed and told.printed is not None:
+            said += f" ({words_of(lang)['printed'].format(text=told.printed.typeset)})"
+        out.append(f"{told.symbol} = {said}")
+    return out
+
+
+def example_lines(sheet: Sheet, lang: str) -> list[str]:
+    """The sizing of the sheet's task, step by step."""
+    found = sheet.example
+    unit, scale = sheet.record.guide.unit, sheet.dimensions[0].symbol
+    start, end = (Number(math.degrees(angle), lang) for angle in found.sizing.piece[:2])
+
+    def n(value: float) -> Number:
+        return Number(value, lang)
+
+    return [
+        f"Q_G = {n(found.tolerance):g}/{n(found.length):g} = {n(found.tolerance / found.length):g}",
+        f"φ_G = {n(end - start):.4f}°, φ_A = {start:.4f}°, φ_E = {end:.4f}°",
+        f"L/{scale} = {n(found.ratio):.6f}",
+        f"{scale} = {n(found.length):g}/{n(found.ratio):.6f} = {n(found.scale):.4f} {unit}",
+        ", ".join(f"{symbol}{_EQUALS}{n(value):.3f}" for symbol, value in found.lengths[1:]) + f"\u00a0{unit}",
+    ]

@@ -1,0 +1,176 @@
+"""What stands in the file of a collection sheet: words, exact dimensions, printed values, and how to derive each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Literal
+
+import msgspec
+
+from gruebler.catalog import Text
+from gruebler.errors import CatalogError, GrueblerError
+from gruebler.linkages.documents import fitted, load
+from gruebler.linkages.expressions import Expression
+
+__all__ = ["CognateLength", "Dimension", "Guide", "Picture", "Quantity", "SheetRecord", "read_sheet"]
+
+
+class Dimension(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A length of the mechanism."""
+
+    symbol: str
+    of: tuple[str, str]
+    """Two of the sheet's names, on one link."""
+    value: str
+    """An exact expression, with the sheet's scale as unit."""
+
+
+class CognateLength(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A length of a cognate: of the second or the third, a to d."""
+
+    number: Literal[2, 3]
+    length: Literal["a", "b", "c", "d"]
+
+
+class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A value that the sheet tells, derived in one of five ways."""
+
+    id: str
+    symbol: str
+    name: Text
+    angle: tuple[str, str, str] | None = None
+    """The angle at the second of three names, from the first to the third, in degrees."""
+    cosine: tuple[str, str, str] | None = None
+    """Its cosine."""
+    distance: tuple[str, str] | None = None
+    contact_at: float | None = None
+    """Points in common with the tangent, at this drive value."""
+    cognate: CognateLength | None = None
+    at: float = 0.0
+    """The drive value, in degrees."""
+    less_at: float | None = None
+    """A drive value whose own value is taken off."""
+    value: str | None = None
+    """The exact expression."""
+    printed: str | None = None
+    """What the source prints: an expression, or a number with as many digits."""
+    reason: Text | None = None
+    """Why what is printed is not so."""
+    unit: str = ""
+
+
+class Guide(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Where the point runs straight (drive values in degrees), and a task to be sized."""
+
+    centre: float
+    start: float
+    end: float
+    length: float
+    tolerance: float
+    unit: str
+    printed: dict[str, str] = {}
+    """What the source prints of phi_G, phi_A, ratio and scale."""
+
+
+class Picture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The picture to scale."""
+
+    pose: float
+    """The drive value, in degrees."""
+    axis_through: str | None = None
+    """A frame joint on the axis of symmetry of the path, if it has one."""
+    marks: dict[str, float] = {}
+    """Names for the point at drive values in degrees."""
+
+
+class SheetRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One collection sheet."""
+
+    id: str
+    machine: str
+    """The catalog entry that has structure and dimensions."""
+    source: str
+    title: Text
+    tasks: tuple[Text, ...]
+    point: str
+    scale: tuple[str, str]
+    """The length that is the sheet's unit."""
+    names: dict[str, str]
+    """What the sheet calls joints and points."""
+    picture: Picture
+    guide: Guide
+    dimensions: tuple[Dimension, ...]
+    quantities: tuple[Quantity, ...] = ()
+    explanation: tuple[Text, ...] = ()
+    """Words with ``{id:.3f}`` for derived values."""
+    literature: tuple[str, ...] = ()
+
+
+_PRINTED = ("phi_G", "phi_A", "ratio", "scale")
+_WAYS = ("angle", "cosine", "distance", "contact_at", "cognate")
+
+
+def read_sheet(path: Path) -> SheetRecord:
+    """The sheet in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
+
+    def fail(message: str) -> CatalogError:
+        return CatalogError(f"{path}: {message}")
+
+    record = fitted(load(path, fail), SheetRecord, fail)
+    for wrong in _faults(record):
+        raise fail(wrong)
+    return record
+
+
+def _faults(record: SheetRecord) -> Iterator[str]:
+    """What the shape of a record cannot say."""
+    named: list[tuple[str, tuple[str, ...]]] = [
+        ("scale", record.scale),
+        *((f"dimensions {d.symbol}", d.of) for d in record.dimensions),
+    ]
+    if record.picture.axis_through is not None:
+        named.append(("picture.axis_through", (record.picture.axis_through,)))
+    for quantity in record.quantities:
+        ways = [way for way in _WAYS if getattr(quantity, way) is not None]
+        if len(ways) != 1:
+            yield f"quantities {quantity.id}: expected one of {', '.join(_WAYS)}, but found {len(ways)}"
+        if ways[0] in ("angle", "cosine", "distance"):
+            named.append((f"quantities {quantity.id}", getattr(quantity, ways[0])))
+    for where, names in named:
+        for name in names:
+            if name not in record.names:
+                yield f"{where}: {name!r} is none of the names {', '.join(record.names)}"
+    for where, text in _expressions(record):
+        try:
+            Expression(text)
+        except GrueblerError as error:
+            yield f"{where}: {error}"
+    for key in record.guide.printed:
+        if key not in _PRINTED:
+            yield f"guide.printed: {key!r} is none of {', '.join(_PRINTED)}"
+    if not record.guide.start < record.guide.centre < record.guide.end <= record.guide.start + 360:
+        yield "guide: expected start < centre < end, at most a turn apart"
+    yield from _wrong_words(record)
+
+
+def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
+    for dimension in record.dimensions:
+        yield f"dimensions {dimension.symbol}", dimension.value
+    for quantity in record.quantities:
+        for text in (quantity.value, quantity.printed):
+            if text is not None:
+                yield f"quantities {quantity.id}", text
+    for text in record.guide.printed.values():
+        yield "guide.printed", text
+
+
+def _wrong_words(record: SheetRecord) -> Iterator[str]:
+    """Places in the explanation are those of quantities, with a number of digits."""
+    known = [quantity.id for quantity in record.quantities]
+    for text in (said for both in record.explanation for said in (both.en, both.de)):
+        for place in re.findall(r"\{[^}]*\}?|\}", text):
+            form = re.fullmatch(r"\{(\w+):\.\df\}", place)
+            if form is None or form[1] not in known:
+                yield f"explanation: {place!r} is no place such as {{id:.3f}} with one of {', '.join(known)}"

@@ -1,0 +1,228 @@
+"""A collection sheet: the words of its record, and everything else derived from the mechanism."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from gruebler.catalog import Entry, Text, entry
+from gruebler.catalog.features import AccessFeatures, access_features
+from gruebler.errors import CatalogError
+from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, sized
+from gruebler.geometry.straight import Path, linkage_path
+from gruebler.kinematics import Motion, move
+from gruebler.linkages import Linkage
+from gruebler.linkages.expressions import Expression
+from gruebler.sheets.derived import derive
+from gruebler.sheets.records import SheetRecord
+
+__all__ = ["Sheet", "Sized", "Told"]
+
+_CLOSE = 1e-9  # relative: derived and exact value
+
+_EXAMPLE = {
+    "phi_G": Text("example: crank angle over the straight line", "Beispiel: Kurbelwinkel über der Geradführung"),
+    "phi_A": Text("example: where it begins", "Beispiel: deren Anfang"),
+    "ratio": Text("example: length by the unit of the sheet", "Beispiel: bezogene Länge"),
+    "scale": Text("example: unit of the sheet", "Beispiel: Längeneinheit"),
+}
+
+
+def _expression(text: str | None) -> Expression | None:
+    return None if text is None else Expression(text)
+
+
+@dataclass(frozen=True)
+class Told:
+    """A value of the sheet: what it is, exactly, as derived from the mechanism, and as the source prints it."""
+
+    id: str
+    symbol: str
+    derived: float
+    exact: Expression | None
+    printed: Expression | None
+    name: Text | None = None
+    reason: Text | None = None
+    """Why what is printed is not so."""
+    unit: str = ""
+    of: tuple[str, ...] = ()
+    """The points of a distance."""
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the exact value is the derived one."""
+        return self.exact is None or math.isclose(self.derived, self.exact.value, rel_tol=_CLOSE, abs_tol=_CLOSE)
+
+    @property
+    def is_as_printed(self) -> bool:
+        """Whether the source prints the derived value, with the digits it prints."""
+        if self.printed is None:
+            return True
+        if not self.printed.text.replace(".", "").isdigit():
+            return math.isclose(self.derived, self.printed.value, rel_tol=_CLOSE, abs_tol=_CLOSE)
+        digits = len(self.printed.text.partition(".")[2])
+        return abs(self.derived - self.printed.value) <= 0.5 * 10.0**-digits * (1 + _CLOSE)
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is exact, and printed right or its misprint explained."""
+        return self.is_exact and self.is_as_printed is (self.reason is None)
+
+
+@dataclass(frozen=True)
+class Sized:
+    """The mechanism for a straight line of a length within a tolerance."""
+
+    length: float
+    tolerance: float
+    sizing: Sizing
+    lengths: tuple[tuple[str, float], ...]
+    """Of the mechanism, by symbol."""
+
+    @property
+    def scale(self) -> float:
+        """The sheet's unit of length, in the unit of the task."""
+        return self.sizing.factor
+
+    @property
+    def ratio(self) -> float:
+        """L by the sheet's unit."""
+        return self.length / self.scale
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A mechanism on one page.
+
+    >>> from gruebler.sheets import sheet
+    >>> found = sheet("mzc").sized(15, 0.075)
+    >>> round(found.scale, 4), round(found.ratio, 6)
+    (3.8389, 3.907352)
+    """
+
+    record: SheetRecord
+
+    @property
+    def id(self) -> str:
+        """Its name."""
+        return self.record.id
+
+    @cached_property
+    def entry(self) -> Entry:
+        """The machine in the catalog."""
+        return entry(self.record.machine)
+
+    @cached_property
+    def linkage(self) -> Linkage:
+        """The machine with its dimensions."""
+        return self.entry.linkage()
+
+    @cached_property
+    def features(self) -> AccessFeatures:
+        """The access features."""
+        return access_features(self.linkage.mechanism, self.entry.outputs)
+
+    def motion(self, *degrees: float) -> Motion:
+        """The linkage at drive values in degrees, with velocities."""
+        return move(self.linkage, np.radians(degrees), speed=1.0)
+
+    def place(self, motion: Motion, name: str, row: int = 0) -> complex:
+        """Where one of the sheet's points is."""
+        if name not in self.record.names:
+            known = ", ".join(self.record.names)
+            raise CatalogError(f"sheet {self.id}: {name!r} is none of the names {known}")
+        return complex(motion.complex_point(self.record.names[name])[row])
+
+    @cached_property
+    def unit_length(self) -> float:
+        """The sheet's unit of length, in that of the linkage."""
+        motion = self.motion(self.record.guide.centre)
+        first, second = (self.place(motion, name) for name in self.record.scale)
+        return abs(first - second)
+
+    @cached_property
+    def dimensions(self) -> tuple[Told, ...]:
+        """The lengths of the mechanism, exact and as it has them."""
+        motion = self.motion(self.record.guide.centre)
+        out = []
+        for row in self.record.dimensions:
+            first, second = (self.place(motion, name) for name in row.of)
+            exact = Expression(row.value)
+            derived = abs(first - second) / self.unit_length
+            out.append(Told(row.symbol, row.symbol, derived, exact, exact, of=row.of))
+        return tuple(out)
+
+    @cached_property
+    def quantities(self) -> tuple[Told, ...]:
+        """All values that the sheet tells beside."""
+        return tuple(
+            Told(
+                row.id,
+                row.symbol,
+                derive(self, row),
+                _expression(row.value),
+                _expression(row.printed),
+                row.name,
+                row.reason,
+                row.unit,
+            )
+            for row in self.record.quantities
+        )
+
+    @property
+    def wrong(self) -> tuple[Told, ...]:
+        """Values that do not hold: not exact, or neither printed right nor explained."""
+        return tuple(told for told in (*self.dimensions, *self.quantities, *self.example_values) if not told.holds)
+
+    @property
+    def path(self) -> Path:
+        """The path of the point over the drive's values, in the sheet's unit."""
+        path = linkage_path(self.linkage, self.record.names[self.record.point])
+        return lambda values: path(values) / self.unit_length
+
+    @cached_property
+    def window(self) -> Window:
+        """The drive values about the point of contact, and the direction of the tangent there."""
+        guide = self.record.guide
+        motion = self.motion(guide.centre)
+        slope = complex(motion.complex_point(self.record.names[self.record.point], 1)[0])
+        start, centre, end = (math.radians(angle) for angle in (guide.start, guide.centre, guide.end))
+        return Window(start, centre, end, math.atan2(slope.imag, slope.real) % math.pi)
+
+    @cached_property
+    def curve(self) -> RatioCurve:
+        """Q_G and L over the window."""
+        return ratio_curve(self.path, self.window)
+
+    def sized(self, length: float, tolerance: float) -> Sized:
+        """The smallest mechanism whose point is straight over a length within a tolerance, both in one unit.
+
+        Raises `LinkageError` if no window is so straight.
+        """
+        sizing = sized(self.path, self.window, length, tolerance)
+        lengths = tuple((told.symbol, told.derived * sizing.factor) for told in self.dimensions)
+        return Sized(length, tolerance, sizing, lengths)
+
+    @cached_property
+    def example(self) -> Sized:
+        """The task of the sheet."""
+        return self.sized(self.record.guide.length, self.record.guide.tolerance)
+
+    @cached_property
+    def example_values(self) -> tuple[Told, ...]:
+        """What comes out of the task, beside what the source prints of it."""
+        found, guide, scale = self.example, self.record.guide, self.record.dimensions[0].symbol
+        start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
+        rows = (
+            ("phi_G", "φ_G", end - start, "°", _EXAMPLE["phi_G"]),
+            ("phi_A", "φ_A", start, "°", _EXAMPLE["phi_A"]),
+            ("ratio", f"L/{scale}", found.ratio, "", _EXAMPLE["ratio"]),
+            ("scale", scale, found.scale, f" {guide.unit}", _EXAMPLE["scale"]),
+        )
+        return tuple(
+            Told(key, symbol, value, None, _expression(guide.printed.get(key)), name=name, unit=unit)
+            for key, symbol, value, unit, name in rows
+        )

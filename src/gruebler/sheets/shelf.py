@@ -1,0 +1,35 @@
+"""The collection sheets that come with the library."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from gruebler.catalog import catalog_folder
+from gruebler.errors import CatalogError, nearest
+from gruebler.sheets.records import read_sheet
+from gruebler.sheets.sheet import Sheet
+
+__all__ = ["sheet", "sheets"]
+
+
+@cache
+def sheets() -> dict[str, Sheet]:
+    """All sheets by id, in alphabetical order.
+
+    >>> sheets()["mzc"].features.drive_joints
+    1
+    """
+    out = {}
+    for path in sorted((catalog_folder() / "sheets").glob("*.toml")):
+        record = read_sheet(path)
+        if record.id != path.stem:
+            raise CatalogError(f"{path}: id: {record.id!r} should be the name of the file, {path.stem!r}")
+        out[record.id] = Sheet(record)
+    return out
+
+
+def sheet(id: str) -> Sheet:
+    """The sheet of this id; `CatalogError` with the nearest one for any other word."""
+    if id not in sheets():
+        raise CatalogError(f"there is no sheet {id!r}{nearest(id, sheets())}; known are {', '.join(sheets())}")
+    return sheets()[id]

@@ -1,0 +1,152 @@
+"""`gruebler sheet` and `gruebler guidance` as a user meets them."""
+
+import argparse
+import json
+
+import pytest
+
+from gruebler.cli import guidance, guidance_commands, sheet, sheet_commands
+from gruebler.errors import GrueblerError
+
+MODULES = {"sheet": sheet, "guidance": guidance}
+
+
+def run(capsys, *arguments):
+    parser = argparse.ArgumentParser()
+    commands = parser.add_subparsers(dest="command")
+    sheet_commands.add(commands)
+    guidance_commands.add(commands)
+    try:
+        made = parser.parse_args(arguments)
+        status = MODULES[made.command].run(made)
+    except SystemExit as stop:
+        status = stop.code
+    except GrueblerError as error:
+        return 2, "", str(error)
+    return status, *capsys.readouterr()
+
+
+def test_list(capsys):
+    status, out, _ = run(capsys, "sheet", "list", "--lang", "de")
+    assert status == 0
+    assert "Kurbelschwinge als Ersatzgetriebe eines Meyer zur Capellen-Lenkers" in out
+    assert [one["id"] for one in json.loads(run(capsys, "sheet", "list", "--json")[1])] == ["lambda", "mzc"]
+
+
+def test_show(capsys):
+    status, out, _ = run(capsys, "sheet", "show", "mzc")
+    assert status == 0
+    assert "Drive joints: 1, 1 of them at the frame" in out
+    rows = [line.split() for line in out.splitlines() if line.startswith(("κ", "l₄*", "h"))]
+    assert rows[0][-4:] == ["15.793169°", "15.79", "as", "printed"]
+    assert "0.468890" in rows[1]
+    assert rows[2][3:6] == ["40/9·√3", "7.698004", "40/3·√3"]
+    assert "φ_G = 163.3248°, from φ_A = 98.3376° to φ_E = 261.6624°, L/l₁ = 3.907352" in out
+    german = run(capsys, "sheet", "show", "mzc", "--lang", "de")[1]
+    assert "davon 4 Drehgelenke (D)" in german
+    assert "κ = 15,79°" in german.replace("\u00a0", " ")
+
+
+def test_show_as_json(capsys):
+    status, out, _ = run(capsys, "sheet", "show", "mzc", "--json")
+    found = json.loads(out)
+    assert status == 0
+    assert found["features"]["links_by_joints"] == {"2": 4}
+    assert found["dimensions"][1]["exact"] == "5/2*sqrt(3)"
+    assert [row["symbol"] for row in found["quantities"] if not row["as_printed"]] == ["cos ψ_II", "l₄*"]
+    assert len(found["diagram"]["phi_G_deg"]) == len(found["diagram"]["ratio"]) == len(found["diagram"]["length"])
+
+
+@pytest.mark.parametrize("wanted", [("--ratio", "0.005"), ("--tolerance", "0.75mm"), ("--tolerance", "0.075")])
+def test_size(capsys, wanted):
+    """L = 15 cm: l1 = 3.8389 cm."""
+    status, out, _ = run(capsys, "sheet", "size", "mzc", "--length", "15cm", *wanted)
+    assert status == 0
+    assert "l₁ = 3.8389 cm\nl₂ = 5/2·√3·l₁ = 16.6230 cm" in out
+    found = json.loads(run(capsys, "sheet", "size", "mzc", "--length", "15cm", *wanted, "--json")[1])
+    assert abs(found["lengths"]["l₁"] - 3.838916653) < 1e-8
+    assert found["unit"] == "cm"
+
+
+@pytest.mark.parametrize("suffix", ["html", "pdf"])
+def test_draw(capsys, tmp_path, suffix):
+    path = tmp_path / f"sheet.{suffix}"
+    assert run(capsys, "sheet", "draw", "mzc", "-o", str(path), "--lang", "de")[0] == 0
+    assert path.stat().st_size > 10_000
+
+
+def test_draw_to_standard_output(capsys):
+    status, out, _ = run(capsys, "sheet", "draw", "lambda")
+    assert status == 0
+    assert out.startswith("<svg")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "words"),
+    [
+        (("sheet", "show", "mzk"), 2, "did you mean 'mzc'"),
+        (("sheet", "draw", "mzc", "-o", "x.gif"), 2, ".svg, .html, .pdf or .png"),
+        (("sheet", "draw", "mzc", "-o", "/nowhere/x.svg"), 2, "cannot be written"),
+        (("sheet", "size", "mzc", "--length", "15 parsec", "--ratio", "0.1"), 2, "a positive length such as 15cm"),
+        (("sheet", "size", "mzc", "--length", "0", "--ratio", "0.1"), 2, "a positive length"),
+        (("sheet", "size", "mzc", "--length", "1..2", "--ratio", "0.1"), 2, "a positive length"),
+        (("sheet", "size", "mzc", "--length", "1", "--ratio", "nan"), 2, "between 0 and 1"),
+        (("sheet", "size", "mzc", "--length", "1", "--tolerance", "1mm"), 2, "the other has no unit"),
+        (("sheet", "size", "mzc", "--length", "1", "--ratio", "1e-30"), 1, "1e-30 or less"),
+        (("guidance", "wat"), 2, "did you mean 'watt'"),
+        (("guidance", "watt", "--length", "5"), 2, "both --length and --tolerance"),
+        (("guidance", "--lambda", "1.5"), 2, "between 0.5 and 1.5"),
+        (("guidance", "--lambda", "0.7", "--kappa", "20"), 2, "one of --lambda and --kappa"),
+        (("guidance", "--phi0", "50"), 2, "--phi0 goes with --lambda"),
+        (("guidance", "--kappa", "20", "--phi0", "50"), 2, "leave --phi0 out"),
+        (("guidance", "--kappa", "95"), 2, "from 0 to below 90 degrees"),
+        (("guidance", "watt", "--kappa", "20"), 2, "without name and task"),
+        (("guidance", "--lambda", "0.7", "--diameter", "-1"), 2, "D must be positive"),
+        (("guidance", "--length", "5", "--tolerance", "1"), 2, "give its name"),
+        (("guidance", "watt", "--length", "5", "--tolerance", "1e-40"), 1, "or less"),
+    ],
+)
+def test_what_is_wrong(capsys, arguments, status, words):
+    found, out, err = run(capsys, *arguments)
+    assert found == status
+    assert words in out + err
+
+
+def test_guidance_table(capsys):
+    status, out, _ = run(capsys, "guidance", "--lang", "de")
+    rows = {line.split()[0]: line for line in out.splitlines()}
+    assert status == 0
+    assert "exakt" in rows["peaucellier"]
+    assert "6-punktig" in rows["meyer-zur-capellen"]
+    found = json.loads(run(capsys, "guidance", "--json")[1])
+    assert {one["name"] for one in found if one["exact"]} == {"scott-russell", "peaucellier", "hart"}
+
+
+def test_construction(capsys):
+    """Lambda = 3/4: 1 : 2 sqrt 6 : 2 sqrt 6 : 5, k = 9; kappa = 20 degrees has two solutions."""
+    status, out, _ = run(capsys, "guidance", "--lambda", "0.75", "--lang", "de")
+    assert status == 0
+    row = next(line for line in out.splitlines() if line.startswith("Ersatzgetriebe")).split()
+    assert row[1:] == [
+        "1.000000",
+        "4.898979",
+        "4.898979",
+        "5.000000",
+        "9.000000",
+        "4.898979",
+        "23.283732°",
+        "Kurbelschwinge",
+    ]
+    both = json.loads(run(capsys, "guidance", "--kappa", "20", "--json")[1])
+    assert [round(one["lambda"], 9) for one in both] == [0.786803233, 1.186241638]
+    assert [round(one["rocker"]["kappa_deg"], 6) for one in both] == [20, -20]
+    assert "4 points" in run(capsys, "guidance", "--lambda", "0.8", "--phi0", "50", "--diameter", "10")[1]
+
+
+def test_guidance_sized(capsys):
+    status, out, _ = run(capsys, "guidance", "lambda", "--length", "15cm", "--tolerance", "0.75mm")
+    assert status == 0
+    assert "Lengths: frame = 7.5, crank = 3.75, coupler = 9.375, rocker = 9.375 cm." in out
+    found = json.loads(run(capsys, "guidance", "hart", "--length", "1", "--tolerance", "0.1", "--json")[1])
+    assert found["contact"] is None
+    assert abs(found["sized"]["factor"] - 1 / found["length"]) < 1e-12

@@ -1,0 +1,201 @@
+"""Collection sheets: what is printed against what is derived; the page."""
+
+import cmath
+import math
+import re
+from functools import cache
+from itertools import pairwise
+from xml.etree import ElementTree
+
+import pytest
+
+from gruebler.catalog import catalog_folder
+from gruebler.errors import CatalogError, LinkageError
+from gruebler.linkages.expressions import Expression
+from gruebler.sheets import sheet, sheets
+from gruebler.sheets.layout import page
+from gruebler.sheets.prose import Number, explained, value_lines
+from gruebler.sheets.records import read_sheet
+from gruebler.sheets.sheet import Sheet, Told
+
+MZC = (catalog_folder() / "sheets" / "mzc.toml").read_text(encoding="utf-8")
+
+drawn = cache(lambda id, lang: page(sheet(id), lang))
+
+# Document 001, recomputed with 40 digits.
+FIGURES = {
+    "kappa": 15.79316904826399,
+    "cos_kappa": 0.9622504486493763,
+    "near": 8.16496580927726,
+    "h": 0.4688903713561814,
+    "cos_psi_near": 0.5773502691896258,
+    "cos_psi_far": 0.34641016151377546,
+    "contact": 6,
+    "l1_star": 8.333333333333334,
+    "l2_star": 1.9245008972987525,
+    "l4_star": 7.69800358919501,
+    "phi_G": 163.32477378,
+    "phi_A": 98.33761311,
+    "ratio": 3.907352348,
+    "scale": 3.838916653,
+}
+
+
+def test_figures_of_the_sheet_001():
+    one = sheet("mzc")
+    found = {told.id: told.derived for told in (*one.quantities, *one.example_values)}
+    assert found.keys() == FIGURES.keys()
+    for key, value in FIGURES.items():
+        assert abs(found[key] - value) < (2e-7 if key in ("phi_G", "phi_A") else 1e-8), key
+    assert abs(abs(one.place(one.motion(0), "K") - 4) - 8.633856180633442) < 1e-12
+    axis = one.place(one.motion(0), "K") - one.place(one.motion(180), "K")
+    assert abs(math.degrees(cmath.phase(axis)) - 105.79316904826399) < 1e-10
+    assert abs(one.place(one.motion(180), "K") - (1.7777777777777777 + 7.856742013183862j)) < 1e-12
+    assert abs(one.place(one.motion(0), "K") - (1.6501619827636897 + 8.30793198338872j)) < 1e-12
+    assert [round(told.derived, 9) for told in one.dimensions] == [
+        1,
+        4.330127019,
+        4.330127019,
+        4,
+        8.333333333,
+        4.330127019,
+    ]
+
+
+def test_misprints_are_told():
+    wrong = {told.id for told in sheet("mzc").quantities if not told.is_as_printed}
+    assert wrong == {"cos_psi_far", "l4_star"}
+    lines = value_lines(sheet("mzc"), "en")
+    assert "l₄* = 40/9·√3 = 7.698004 (the source has 40/3·√3)" in lines
+
+
+@pytest.mark.parametrize("id", sheets())
+def test_every_sheet_holds(id):
+    one = sheet(id)
+    assert one.wrong == ()
+    for told in one.dimensions:
+        assert told.exact is not None
+        assert told.exact.exact is not None
+    for lang in ("en", "de"):
+        assert all("{" not in text for text in explained(one, lang))
+
+
+def test_sizing_law():
+    """Twice the length and the tolerance, twice the mechanism; the exact dimensions are kept."""
+    one = sheet("mzc")
+    small, large = one.sized(15, 0.075), one.sized(30, 0.15)
+    for (symbol, length), (other, longer), told in zip(small.lengths, large.lengths, one.dimensions, strict=True):
+        assert symbol == other == told.symbol
+        assert abs(longer - 2 * length) < 1e-9 * length
+        assert abs(length / small.scale - told.exact.value) < 1e-9
+    with pytest.raises(LinkageError, match="relative deviation of 1e-20 or less"):
+        one.sized(1, 1e-20)
+
+
+@pytest.mark.parametrize(
+    ("printed", "derived", "as_printed"),
+    [("15.79", 15.793169, True), ("15.8", 15.793169, True), ("15.7", 15.793169, False), ("40/3*sqrt(3)", 7.7, False)],
+)
+def test_printed_digits(printed, derived, as_printed):
+    assert Told("x", "x", derived, None, Expression(printed)).is_as_printed is as_printed
+
+
+@pytest.mark.parametrize("lang", ["en", "de"])
+@pytest.mark.parametrize("id", sheets())
+def test_the_page(id, lang):
+    made = drawn(id, lang)
+    tree = ElementTree.fromstring(made.svg())
+    assert (tree.get("width"), tree.get("height"), tree.get("lang")) == ("210mm", "297mm", lang)
+    texts = ["".join(node.itertext()) for node in tree.iter("{http://www.w3.org/2000/svg}text")]
+    wide, high = (float(word) for word in tree.get("viewBox").split()[2:])
+    places = [(float(n.get("x")), float(n.get("y"))) for n in tree.findall("{http://www.w3.org/2000/svg}text")]
+    assert all(0 < x < wide and 0 < y < high for x, y in places)
+    assert any(("Zugriffsmerkmale" if lang == "de" else "Access features") in text for text in texts)
+    assert made.svg() == page(sheet(id), lang).svg()
+    assert "prefers-color-scheme" not in made.svg()
+    html = made.html()
+    assert html.startswith("<!DOCTYPE html>")
+    assert "@page{size:A4;margin:0}" in html
+    assert "<script" not in html
+
+
+def test_the_lines_of_the_page_stay_apart():
+    """Base lines in one column are a line apart, and the lowest keeps clear of the foot."""
+    for one in sheets().values():
+        for lang in ("en", "de"):
+            words = [item for item in drawn(one.id, lang).items if hasattr(item, "text")]
+            for x in {item.x for item in words if item.anchor == "start"}:
+                column = sorted(item.y for item in words if item.x == x)
+                assert all(b - a > 11 for a, b in pairwise(column))
+
+
+def test_the_page_on_paper():
+    made = drawn("mzc", "de")
+    pdf, png = made.written("pdf"), made.written("png")
+    assert pdf.startswith(b"%PDF")
+    assert re.search(rb"/MediaBox \[ 0 0 595\.\d+ 841\.\d+ \]", pdf)
+    assert png[:8] == b"\x89PNG\r\n\x1a\n"
+    assert made.written("svg") == made.svg().encode()
+
+
+def test_a_name_stays_text(tmp_path):
+    path = tmp_path / "mzc.toml"
+    path.write_text(MZC.replace("Planar four-bar with", "<script>alert(1)</script> &"), encoding="utf-8")
+    made = page(Sheet(read_sheet(path)), "en").html()
+    assert "<script" not in made
+    assert "&lt;script&gt;" in made
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "words"),
+    [
+        ('value = "25/3"', 'value = "25/x"', "dimensions k: '25/x', column 4: unknown name 'x'"),
+        ('of = ["A", "B"]', 'of = ["A", "C"]', "dimensions l₂: 'C' is none of the names A0, A, B, B0, K"),
+        ("contact_at = 180\n", "", "quantities contact: expected one of angle, cosine, distance, contact_at, cognate"),
+        ("contact_at = 180\n", 'contact_at = 180\ndistance = ["A", "B"]\n', "but found 2"),
+        ("{kappa:.2f}", "{kapa:.2f}", "explanation: '{kapa:.2f}' is no place"),
+        ("{kappa:.2f}", "{kappa.__class__}", "explanation: '{kappa.__class__}' is no place"),
+        ("{kappa:.2f}", "{kappa:.2f", "is no place such as {id:.3f}"),
+        ('axis_through = "B0"', 'axis_through = "C0"', "picture.axis_through: 'C0' is none of the names"),
+        ("number = 2", "number = 4", "number"),
+        ("centre = 180", "centre = 400", "expected start < centre < end"),
+        ("phi_G =", "phi_X =", "'phi_X' is none of phi_G, phi_A, ratio, scale"),
+        ("point =", "pount =", "unknown key 'pount'; did you mean 'point'"),
+        ('printed = "0.469"', 'printed = "2**99**9"', "quantities h: '2"),
+    ],
+)
+def test_records_that_do_not_fit(tmp_path, old, new, words):
+    assert old in MZC
+    path = tmp_path / "mzc.toml"
+    path.write_text(MZC.replace(old, new, 1), encoding="utf-8")
+    with pytest.raises(CatalogError, match=re.escape(words)):
+        read_sheet(path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "id"),
+    [
+        ('value = "4"', 'value = "4.01"', "l₄"),
+        ('printed = "8.165"', 'printed = "8.164"', "near"),
+        ('printed = "40/3*sqrt(3)"', 'printed = "40/9*sqrt(3)"', "l4_star"),
+        ('phi_G = "163.3"', 'phi_G = "163.4"', "phi_G"),
+    ],
+)
+def test_values_that_do_not_hold_are_found(tmp_path, old, new, id):
+    """A wrong dimension, a wrong print without reason, a reason where the print is right, a wrong example."""
+    assert old in MZC
+    path = tmp_path / "mzc.toml"
+    path.write_text(MZC.replace(old, new, 1), encoding="utf-8")
+    assert [told.id for told in Sheet(read_sheet(path)).wrong] == [id]
+
+
+def test_unknown_sheets():
+    with pytest.raises(CatalogError, match="did you mean 'mzc'"):
+        sheet("mzk")
+    with pytest.raises(CatalogError, match="'Q' is none of the names"):
+        sheet("mzc").place(sheet("mzc").motion(0), "Q")
+
+
+def test_numbers_of_a_language():
+    assert f"{Number(-1.25, 'de'):.1f}" == "−1,2"
+    assert f"{Number(-1.25, 'en'):.2f}" == "−1.25"
