@@ -19,9 +19,11 @@ FLOORS = [
     {"chain"},
     {"mobility", "isomorphism"},
     {"enumeration", "mechanism"},
-    {"assur", "inversion", "linkages", "gears", "cams", "geneva"},
+    {"assur", "inversion", "linkages", "gears", "cams", "geneva", "screws"},
     {"transformation", "specialisation", "kinematics"},
-    {"drawing", "geometry", "realisation", "catalog"},
+    {"drawing", "geometry", "realisation", "freedoms", "statics"},
+    {"catalog"},
+    {"exercises", "sheets"},
     {"cli"},
 ]
 ENTRANCES = {"", "__main__"}  # the front door looks into every room, lazily; python -m opens the command line

@@ -14,12 +14,15 @@ import msgspec
 
 from gruebler.chain import Chain
 from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
+from gruebler.freedoms import known
+from gruebler.freedoms.files import Screws, screwed
 from gruebler.linkages import Linkage
 from gruebler.linkages.documents import fitted, load
 from gruebler.linkages.records import Dimensions, dimensioned
 from gruebler.mechanism import Mechanism
+from gruebler.screws import SpatialLinkage
 
-__all__ = ["Case", "Claims", "Entry", "Exercise", "Group", "Sizes", "Text", "read_entry", "read_exercise"]
+__all__ = ["Asked", "Case", "Claims", "Entry", "Exercise", "Group", "Sizes", "Text", "read_entry", "read_exercise"]
 
 
 class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -71,6 +74,13 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Drive values between which it moves, in degrees or in the unit."""
 
 
+class HomeScrews(Screws, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The joints of an entry in one position (`gruebler.freedoms.files`), and where their places come from."""
+
+    assumed: bool = False
+    source: str = ""
+
+
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """One machine of the catalog."""
 
@@ -89,6 +99,8 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     remark: Text | None = None
     claims: Claims = Claims()
     dimensions: Sizes | None = None
+    screws: HomeScrews | None = None
+    """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
 
     def chain(self) -> Chain:
         """The chain of the entry, its links in the order of the file."""
@@ -104,6 +116,14 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         mechanism = Mechanism(chain, self.frame or chain.links[0], drives)
         return dimensioned(self.dimensions, mechanism, self.outputs)
 
+    def placed(self) -> Linkage | SpatialLinkage | None:
+        """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
+        if self.screws is not None:
+            chain = self.chain()
+            return screwed(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
+        linkage = None if self.dimensions is None else self.linkage()
+        return linkage if linkage is not None and known(linkage) else None
+
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """One chain of an exercise: a machine of the catalog, with what the exercise says of it."""
@@ -114,14 +134,33 @@ class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
     claims: Claims = Claims()
 
 
+class Asked(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One thing that an exercise asks, and what is printed for it."""
+
+    key: str
+    """The key of the result in the solution."""
+    printed: str | None = None
+    """The printed answer digit for digit, such as ``66.4``; its last digit tells how exact it is. Or a word."""
+    unit: str = ""
+    """The unit of the printed number, where it is not that of the result."""
+    reason: Text | None = None
+    """Why the printed answer differs from the computed one, where it does."""
+
+
 class Exercise(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """One exercise of the seeds, the task in our own words."""
+    """One exercise or worked example, the task in our own words; the answer is computed when it is asked for."""
 
     id: str
     name: Text
     source: str
     task: Text
-    cases: tuple[Case, ...]
+    cases: tuple[Case, ...] = ()
+    method: str | None = None
+    """What solves it, such as ``dead_centres.slider_crank`` (`gruebler.exercises`); None: the cases are all."""
+    given: dict[str, float | str] = {}
+    """The given quantities, as the method names them; angles in degrees."""
+    asked: tuple[Asked, ...] = ()
+    remark: Text | None = None
 
 
 Record = TypeVar("Record", Entry, Exercise)
@@ -167,6 +206,13 @@ def _check(entry: Entry, path: Path) -> None:
             raise CatalogError(
                 f"{path}: drives: {drive!r} is not one of the joints; they are {', '.join(chain.joint_names())}"
             )
+    if entry.screws is not None:
+        if entry.screws.assumed == bool(entry.screws.source):
+            raise CatalogError(f"{path}: screws: either assumed = true, or a source that prints them")
+        try:
+            entry.placed()
+        except GrueblerError as error:
+            raise CatalogError(f"{path}: {error}") from None
     if entry.dimensions is not None:
         _check_dimensions(entry, entry.dimensions, chain, path)
 

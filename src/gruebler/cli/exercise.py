@@ -1,0 +1,113 @@
+"""`gruebler exercise`: tasks listed, shown, solved, made and marked."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from typing import Any
+
+from gruebler.catalog import Exercise, Text
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.exercises import (
+    Mark,
+    Marked,
+    all_exercises,
+    exercise,
+    fresh,
+    mark,
+    plain_key,
+    plain_marks,
+    plain_solution,
+    plain_task,
+    said_source,
+    said_value,
+    solution_text,
+    solve,
+    task_text,
+)
+
+__all__ = ["run"]
+
+_HEADERS = {"en": ("id", "name", "source"), "de": ("Kennung", "Name", "Quelle")}
+_MARKS = {
+    Mark.RIGHT: Text("right", "richtig"),
+    Mark.NEAR: Text("nearly right", "fast richtig"),
+    Mark.WRONG: Text("wrong", "falsch"),
+}
+_MISSING = Text("Not answered: {}", "Nicht beantwortet: {}")
+_SUMMARY = Text("{right} of {all} answers right.", "{right} von {all} Antworten richtig.")
+_MOST = 1000
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List, show, solve, make or mark; 1 if an answer is wrong."""
+    match arguments.action:
+        case "list":
+            _list(arguments)
+        case "show":
+            _tell([exercise(id) for id in arguments.ids], arguments, solved=False)
+        case "solve":
+            _tell([exercise(id) for id in arguments.ids], arguments, solved=True)
+        case "new":
+            if not 1 <= arguments.count <= _MOST:
+                raise GrueblerError(f"--count is a number from 1 to {_MOST}, not {arguments.count}")
+            seeds = range(arguments.seed, arguments.seed + arguments.count)
+            made = [fresh(arguments.kind, seed, arguments.level) for seed in seeds]
+            _tell(made, arguments, solved=arguments.solutions)
+        case "check":
+            return _mark(exercise(arguments.id), arguments)
+    return 0
+
+
+def _print_json(document: Any) -> None:
+    print(json.dumps(document, ensure_ascii=False, indent=2))
+
+
+def _list(arguments: argparse.Namespace) -> None:
+    found = all_exercises().values()
+    if arguments.json:
+        _print_json([plain_task(one) for one in found])
+        return
+    lang = arguments.lang
+    print_table(_HEADERS[lang], [(one.id, one.name.said(lang), said_source(one.source, lang)) for one in found])
+
+
+def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
+    if arguments.json:
+        _print_json([plain_solution(one, solve(one)) if solved else plain_task(one) for one in found])
+        return
+    texts = [
+        solution_text(one, solve(one), arguments.lang) if solved else task_text(one, arguments.lang, solve(one))
+        for one in found
+    ]
+    print("\n\n".join(texts))
+
+
+def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
+    answers: dict[str, str] = {}
+    for word in arguments.answers:
+        key, equals, answer = word.partition("=")
+        if not equals or not key.strip() or not answer.strip():
+            raise GrueblerError(f"an answer is written KEY=ANSWER, such as H=40, not {word!r}")
+        answers[key.strip()] = answer
+    marks = mark(task, answers)
+    right = all(one.mark is Mark.RIGHT for one in marks)
+    if arguments.json:
+        _print_json({"id": task.id, "right": right, "answers": plain_marks(marks)})
+    else:
+        _say(task, marks, arguments.lang)
+    return 0 if right else 1
+
+
+def _say(task: Exercise, marks: list[Marked], lang: str) -> None:
+    for one in marks:
+        line = f"{plain_key(one.key)} = {one.answer}: {_MARKS[one.mark].said(lang)}"
+        if one.mark is Mark.RIGHT:
+            line += f" ({said_value(one.result.value, one.result.unit, lang)})"
+        print(line + (f". {one.hint.said(lang)}" if one.hint else ""))
+    answered = {one.key for one in marks}
+    missing = [plain_key(asked.key) for asked in task.asked if asked.key not in answered]
+    if missing:
+        print(_MISSING.said(lang).format(", ".join(missing)))
+    print(_SUMMARY.said(lang).format(right=sum(one.mark is Mark.RIGHT for one in marks), all=len(marks)))

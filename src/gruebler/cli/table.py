@@ -1,0 +1,20 @@
+"""`gruebler table`: teaching tables."""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from gruebler.exercises import lines_of_table, plain_table, teaching_table
+
+__all__ = ["run"]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the tables of a name."""
+    found = teaching_table(arguments.name)
+    if arguments.json:
+        print(json.dumps([plain_table(table) for table in found], ensure_ascii=False, indent=2))
+    else:
+        print("\n\n".join("\n".join(lines_of_table(table, arguments.lang)) for table in found))
+    return 0

@@ -1,0 +1,151 @@
+"""Chains extended by a dyad or a coupler: how F changes, and how many different chains there are, step by step."""
+
+from __future__ import annotations
+
+from gruebler.catalog import Text
+from gruebler.chain import Chain
+from gruebler.exercises.solution import Solution, Step, Value, Way
+from gruebler.inversion import family
+from gruebler.mechanism import Mechanism
+from gruebler.mobility import count, counted, mobility_report
+from gruebler.transformation import Extension, extend
+
+__all__ = ["coupler", "dyad"]
+
+_BEFORE = Text("degree of freedom before", "Freiheitsgrad vorher")
+_AFTER = Text("degree of freedom after", "Freiheitsgrad nachher")
+
+
+def dyad(chain: str, form: str = "RRR") -> Solution:
+    """A chain extended by a dyad in every essentially different way.
+
+    >>> dyad("R(1-2) R(2-3) R(3-4) R(1-4)")["chains"]
+    2
+    """
+    way = Way()
+    start = Chain.parse(chain)
+    before = _add_before(way, start)
+    way.say(
+        "A dyad brings two links and three joints with f = 1:",
+        "Ein Zweischlag bringt zwei Glieder und drei Gelenke mit f = 1:",
+        "ΔF = 3·2 - 2·3 = 0",
+    )
+    found = extend(start, dyad=form)
+    _add_after(way, found)
+    way.say("A dyad leaves F unchanged.", "Ein Zweischlag lässt F unverändert.")
+    hint = (
+        "Besides the two links three joints are added: 3·2 - 2·3 = 0.",
+        "Zu den zwei Gliedern kommen drei Gelenke: 3·2 - 2·3 = 0.",
+    )
+    way.mistake(
+        "F_after",
+        before - 2,
+        "Two links without a joint between them are two couplers; in a dyad they are joined.",
+        "Zwei Glieder ohne gemeinsames Gelenk sind zwei Koppeln; im Zweischlag sind sie verbunden.",
+    )
+    way.mistake("F_after", before + 2, *hint)
+    way.mistake("F_after", before + 6, *hint)
+    _add_places(way, found)
+    return way.done()
+
+
+def coupler(chain: str) -> Solution:
+    """A chain extended by a coupler in every essentially different way; those that lock a loop are told apart.
+
+    >>> coupler("R(1-2) R(2-3) R(3-4) R(4-5) R(1-5)")["F_after"]
+    1
+    """
+    way = Way()
+    start = Chain.parse(chain)
+    before = _add_before(way, start)
+    way.say(
+        "A coupler brings one link and two joints with f = 1:",
+        "Eine Koppel bringt ein Glied und zwei Gelenke mit f = 1:",
+        "ΔF = 3·1 - 2·2 = -1",
+    )
+    found = extend(start, coupler="RR")
+    sound = [one for one in found if not mobility_report(one.chain).rigid_clusters]
+    _add_after(way, sound)
+    way.say("A coupler lowers F by one.", "Eine Koppel erniedrigt F um eins.")
+    for one in found:
+        if one not in sound:
+            way.say(
+                f"Between {' and '.join(map(str, one.places[0]))} it makes a rigid triangle: these links become one.",
+                f"Zwischen {' und '.join(map(str, one.places[0]))} entsteht ein starres Dreieck: Die Glieder werden "
+                "zu einem.",
+            )
+    way.mistake(
+        "F_after",
+        before,
+        "That holds for a dyad; a coupler takes one away.",
+        "Das gilt für den Zweischlag; eine Koppel nimmt einen Freiheitsgrad weg.",
+    )
+    way.mistake(
+        "F_after",
+        before + 1,
+        "The coupler has two joints, and each takes two freedoms: 3 - 4 = -1.",
+        "Die Koppel hat zwei Gelenke, jedes nimmt zwei Freiheiten: 3 - 4 = -1.",
+    )
+    _add_places(way, sound)
+    return way.done()
+
+
+def _add_before(way: Way, start: Chain) -> int:
+    parts = count(start).formula().removeprefix("F = ").split(" = ")
+    way.parts.append(
+        Step(Text(f"Before: {start}", f"Vorher: {start.text('german')}"), f"F = {parts[0]}", parts[1], counted(start))
+    )
+    way.keep("F_before", _BEFORE, counted(start), symbol="F")
+    return counted(start)
+
+
+def _add_after(way: Way, found: list[Extension]) -> None:
+    first = found[0].chain
+    parts = count(first).formula().removeprefix("F = ").split(" = ")
+    way.parts.append(Step(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
+    way.keep("F_after", _AFTER, counted(first), symbol="F'")
+    way.keep("n", Text("links after", "Glieder nachher"), first.n)
+    way.keep("g1", Text("joints with f = 1 after", "Gelenke mit f = 1 nachher"), first.joints_by_freedom.get(1, 0))
+    way.keep("chains", Text("essentially different chains", "wesentlich verschiedene Ketten"), len(found), symbol="k")
+    rows: list[tuple[Value, ...]] = []
+    for one in found:
+        name = family(Mechanism(one.chain, one.chain.links[0]))
+        rows.append((name.split()[0] if name else "", Text(str(one.chain), one.chain.text("german")), len(one.places)))
+    agreeing = sum(counted(one.chain) == mobility_report(one.chain).generic for one in found)
+    way.check(
+        "Chains, and those whose F agrees with the rank of the constraints at random sizes",
+        "Ketten, und solche, deren F mit dem Rang der Bindungen bei zufälligen Abmessungen übereinstimmt",
+        float(len(found)),
+        float(agreeing),
+        "",
+    )
+    way.check(
+        "Different chains by canonical codes, and by comparing graphs pair by pair",
+        "Verschiedene Ketten nach kanonischen Codes, und durch paarweisen Vergleich der Graphen",
+        float(len(found)),
+        float(_classes(found)),
+        "",
+    )
+    headers = (Text("name", "Name"), Text("chain", "Kette"), Text("places", "Stellen"))
+    way.table(Text("The different chains", "Die verschiedenen Ketten"), headers, rows)
+
+
+def _add_places(way: Way, found: list[Extension]) -> None:
+    way.mistake(
+        "chains",
+        sum(len(one.places) for one in found),
+        "Many places give the same chain up to the names of its links.",
+        "Viele Stellen ergeben bis auf die Namen der Glieder dieselbe Kette.",
+    )
+
+
+def _classes(found: list[Extension]) -> int:
+    """How many of the chains are different, each compared with each."""
+    import networkx as nx
+
+    kept: list[nx.MultiGraph] = []
+    for one in found:
+        graph = one.chain.link_graph()
+        if not any(nx.is_isomorphic(graph, other) for other in kept):
+            kept.append(graph)
+    return len(kept)

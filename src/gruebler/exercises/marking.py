@@ -1,0 +1,188 @@
+"""A student's answers marked: right, nearly right, or wrong with a hint at the likely mistake."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from gruebler.catalog import Exercise, Text
+from gruebler.catalog.records import Asked
+from gruebler.errors import GrueblerError, nearest
+from gruebler.exercises.solution import Mistake, Result, Value
+from gruebler.exercises.solving import last_place, scale_of, solve
+
+__all__ = ["Mark", "Marked", "mark", "plain_key"]
+
+_FINE = 1e-3  # relative difference of an answer that is right whatever its digits
+_NEAR = 0.02  # of one that is nearly right: rounded on the way
+_WORDS = {"yes": True, "ja": True, "true": True, "no": False, "nein": False, "false": False}
+
+
+class Mark(StrEnum):
+    """What an answer is worth."""
+
+    RIGHT = "right"
+    NEAR = "near"
+    WRONG = "wrong"
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """One answer beside the result."""
+
+    key: str
+    answer: str
+    result: Result
+    mark: Mark
+    hint: Text | None = None
+    """What may have gone wrong."""
+
+
+# What goes wrong anywhere: the answer as a function of the right number, where it applies (by unit), and the hint.
+_ANYWHERE = (
+    (lambda x: -x, "", Text("Look at the sign.", "Auf das Vorzeichen achten.")),
+    (
+        math.radians,
+        "°",
+        Text(
+            "That is the angle in radians; degrees are asked for.", "Das ist der Winkel im Bogenmaß; gefragt sind Grad."
+        ),
+    ),
+    (
+        lambda x: math.degrees(math.sin(math.radians(x))) if abs(x) < 360 else math.nan,
+        "°",
+        Text("The inverse function is missing (arcsin, arccos).", "Die Umkehrfunktion fehlt (arcsin, arccos)."),
+    ),
+    (
+        lambda x: 180 - x,
+        "°",
+        Text("That is the supplementary angle, 180° less it.", "Das ist der Ergänzungswinkel zu 180°."),
+    ),
+    (lambda x: 90 - x, "°", Text("That is the complement, 90° less it.", "Das ist der Ergänzungswinkel zu 90°.")),
+    (lambda x: x / 10, "", Text("Look at the unit: a factor of 10.", "Auf die Einheit achten: Faktor 10.")),
+    (lambda x: 10 * x, "", Text("Look at the unit: a factor of 10.", "Auf die Einheit achten: Faktor 10.")),
+    (lambda x: x / 1000, "", Text("Look at the unit: a factor of 1000.", "Auf die Einheit achten: Faktor 1000.")),
+    (lambda x: 1000 * x, "", Text("Look at the unit: a factor of 1000.", "Auf die Einheit achten: Faktor 1000.")),
+    (lambda x: 2 * x, "", Text("That is twice as much.", "Das ist das Doppelte.")),
+    (lambda x: x / 2, "", Text("That is half of it.", "Das ist die Hälfte.")),
+)
+
+
+def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
+    """Mark the answers, given as texts by the keys of the results.
+
+    A number is right within half a unit of its last digit or a thousandth; decimal comma or point. Raises
+    `GrueblerError` for a key that is not asked and for an answer that is no number where one is asked.
+
+    >>> from gruebler.exercises.fresh import fresh
+    >>> [m.mark.value for m in mark(fresh("dead-centre", 7), {"H": "60", "l_a": "130"})]
+    ['right', 'right']
+    >>> mark(fresh("dead-centre", 7), {"H": "30"})[0].hint.en
+    'The stroke is twice the crank, not once.'
+    """
+    solution = solve(exercise)
+    found = []
+    plain = {plain_key(key): key for key in solution.results}
+    for word, answer in answers.items():
+        key = plain.get(plain_key(word), word)
+        if key not in solution.results:
+            asked = [plain_key(a.key) for a in exercise.asked] or list(plain)
+            raise GrueblerError(
+                f"{exercise.id} does not ask for {key!r}{nearest(key, asked)}; it asks for {', '.join(asked)}"
+            )
+        printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
+        known = [*printed, *(m for m in solution.mistakes if m.key == key)]
+        found.append(_marked(known, solution.results[key], answer.strip()))
+    return found
+
+
+def plain_key(key: str) -> str:
+    """A key in letters that every keyboard has.
+
+    >>> plain_key("Δφ"), plain_key("μ_I*"), plain_key("H")
+    ('Deltaphi', 'mu_I*', 'H')
+    """
+    return "".join(_GREEK.get(letter, letter) for letter in key)
+
+
+_GREEK = {
+    "α": "alpha",
+    "β": "beta",
+    "δ": "delta",
+    "Δ": "Delta",
+    "ε": "epsilon",
+    "θ": "theta",
+    "λ": "lambda",
+    "μ": "mu",
+    "φ": "phi",
+    "ψ": "psi",
+    "ω": "omega",
+}
+
+
+def _misprint(asked: Asked, result: Result) -> Iterator[Mistake]:
+    """The printed answer as a mistake, where it is one."""
+    if asked.printed is not None and asked.reason is not None:
+        why = asked.reason
+        hint = Text(f"That is the printed answer. {why.en}", f"Das ist die gedruckte Antwort. {why.de}")
+        yield Mistake(asked.key, float(asked.printed) * scale_of(asked, result), hint)
+
+
+def _marked(known: Sequence[Mistake], result: Result, answer: str) -> Marked:
+    worth = _worth(result.value, answer)
+    if worth is Mark.RIGHT and not any(_rather(m.value, result.value, answer) for m in known):
+        return Marked(result.key, answer, result, worth)
+    hints = [m.hint for m in known if _worth(m.value, answer) is Mark.RIGHT]
+    if not hints and isinstance(result.value, int | float) and not isinstance(result.value, bool):
+        hints = [
+            hint
+            for change, unit, hint in _ANYWHERE
+            if (not unit or unit == result.unit) and _worth(change(float(result.value)), answer) is Mark.RIGHT
+        ]
+    if hints:
+        worth = Mark.WRONG
+    near = Text(
+        "Right in principle; carry more digits on the way.", "Im Ansatz richtig; unterwegs mit mehr Stellen rechnen."
+    )
+    return Marked(result.key, answer, result, worth, hints[0] if hints else near if worth is Mark.NEAR else None)
+
+
+def _rather(mistake: Value, right: Value, answer: str) -> bool:
+    """Whether an answer that rounding would excuse is just that of a known mistake, such as H = 50 for 50.3."""
+    if not isinstance(mistake, float) or not isinstance(right, float):
+        return False
+    given = float(_number(answer))
+    return abs(given - mistake) <= 1e-5 * abs(mistake) and abs(given - right) > _FINE * abs(right)
+
+
+def _number(answer: str) -> str:
+    return answer.replace(",", ".").rstrip("°").strip()
+
+
+def _worth(value: Value, answer: str) -> Mark:
+    if isinstance(value, bool):
+        if answer.casefold() not in _WORDS:
+            raise GrueblerError(f"expected yes or no (ja, nein), not {answer!r}")
+        return Mark.RIGHT if _WORDS[answer.casefold()] == value else Mark.WRONG
+    if isinstance(value, str | Text):
+        names = [value] if isinstance(value, str) else [value.en, value.de]
+        plain = [_plain(name) for name in names]
+        return Mark.RIGHT if _plain(answer) in plain else Mark.WRONG
+    text = _number(answer)
+    try:
+        given, place = float(text), last_place(text)
+    except ValueError:
+        raise GrueblerError(f"expected a number, not {answer!r}") from None
+    off, size = abs(given - value), abs(value)
+    if isinstance(value, int):
+        return Mark.RIGHT if off == 0 else Mark.WRONG
+    if off <= _FINE * size or (off <= 0.5 * place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
+        return Mark.RIGHT
+    return Mark.NEAR if off <= _NEAR * size else Mark.WRONG
+
+
+def _plain(name: str) -> str:
+    """A name as it is compared: what stands in brackets, hyphens and capitals do not count."""
+    return " ".join(name.partition("(")[0].casefold().replace("-", " ").split())

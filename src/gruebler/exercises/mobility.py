@@ -1,0 +1,163 @@
+"""Counting freedoms: links, joints, F, and the count checked by the rank of the constraints, step by step."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from gruebler.catalog import Text, entry
+from gruebler.chain import Chain
+from gruebler.exercises.solution import Heading, Solution, Step, Way
+from gruebler.mobility import count, mobility_report
+from gruebler.mobility.prose import verdict_word
+from gruebler.pairs import Alphabet
+
+__all__ = ["chain", "machines"]
+
+_LINKS = Text("number of links, the frame included", "Anzahl der Glieder einschließlich Gestell")
+_FREEDOM = Text("degree of freedom", "Getriebefreiheitsgrad")
+_BY_RANK = Text(
+    "F (at least 0) by the rank of the constraints at random sizes",
+    "F (mindestens 0) aus dem Rang der Bindungen bei zufälligen Abmessungen",
+)
+_CRITERION = {
+    True: Text("Criterion of constrained motion holds (0)", "Zwangslaufkriterium erfüllt (0)"),
+    False: Text("Criterion of constrained motion does not hold (not 0)", "Zwangslaufkriterium nicht erfüllt (nicht 0)"),
+}
+_TIMES = {2: Text("twice", "zweifach"), 3: Text("three times", "dreifach")}
+
+
+def chain(chain: str, space: str = "planar") -> Solution:
+    """The count of a chain written as text.
+
+    >>> chain("R(0-1) R(1-2-3) R(2-4) R(3-5) P(0-4) P(0-5)")["F"]
+    1
+    """
+    way = Way()
+    _add_count(way, Chain.parse(chain, space), _Mark("", None), {})
+    return way.done()
+
+
+def machines(machines: str) -> Solution:
+    """The counts of machines of the catalog, ids with blanks between; keys end in ``.id`` if there are several.
+
+    >>> machines("vcomp")["g1"]
+    7
+    """
+    ids = machines.split()
+    way = Way()
+    for id in ids:
+        record = entry(id)
+        if len(ids) > 1:
+            way.parts.append(Heading(record.name))
+        if record.figure_lost:
+            way.say(
+                "The figure is lost; the structure is an assumption.", "Das Bild fehlt; die Struktur ist angenommen."
+            )
+        mark = _Mark(f".{id}", record.name) if len(ids) > 1 else _Mark("", None)
+        _add_count(way, record.chain(), mark, record.links)
+    return way.done()
+
+
+class _Mark(NamedTuple):
+    """What tells the results of one of several machines from those of the others."""
+
+    key: str
+    name: Text | None
+
+    def named(self, text: Text) -> Text:
+        return text if self.name is None else Text(f"{self.name.en}: {text.en}", f"{self.name.de}: {text.de}")
+
+    def __str__(self) -> str:
+        return self.key
+
+
+def _add_count(way: Way, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
+    numbered = all(link.isdigit() for link in structure.links)
+    links = sorted(structure.links, key=int) if numbered else structure.links
+    names = Text(", ".join(links), ", ".join(german.get(link, link) for link in links))
+    way.parts.append(Step(Text(f"Links: {names.en}.", f"Glieder: {names.de}."), "n", "", structure.n))
+    way.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
+    _add_joints(way, structure, mark, german)
+    formula = count(structure)
+    parts = formula.formula().removeprefix("F = ").split(" = ")
+    way.parts.append(Step(_FREEDOM, f"F = {parts[0]}", parts[1], formula.value))
+    way.keep(f"F{mark}", mark.named(_FREEDOM), formula.value, symbol="F")
+    sides = formula.criterion().split(" = ")
+    way.parts.append(Step(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
+    report = mobility_report(structure)
+    verdict = Text(*(verdict_word(report.verdict, lang) for lang in ("en", "de")))
+    drives = "one drive is" if report.generic == 1 else f"{report.generic} drives are"
+    antriebe = "ist ein Antrieb" if report.generic == 1 else f"sind {report.generic} Antriebe"
+    need = (f": {drives} needed", f": nötig {antriebe}") if report.generic > 0 else ("", "")
+    way.say(f"The chain is {verdict.en}{need[0]}.", f"Die Kette ist {verdict.de}{need[1]}.")
+    check = mark.named(_BY_RANK)
+    way.check(
+        check.en,
+        check.de,
+        float(max(formula.value, 0)),
+        float(report.generic),
+        "",
+    )
+    _add_mistakes(way, structure, mark)
+
+
+def _add_joints(way: Way, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
+    short = structure.renamed(_short(structure, german)) if german else structure
+    by_freedom = {1: 0, 2: 0} | structure.joints_by_freedom
+    for f, number in by_freedom.items():
+        which = [k for k, joint in enumerate(structure.joints) if joint.pair.f(structure.space) == f]
+        words = Text(
+            ", ".join(structure.joint_names(Alphabet.INTERNATIONAL)[k] for k in which) or "none",
+            ", ".join(short.joint_names(Alphabet.GERMAN)[k] for k in which) or "keine",
+        )
+        text = Text(f"Joints with f = {f}: {words.en}.", f"Gelenke mit f = {f}: {words.de}.")
+        way.parts.append(Step(text, f"g{f}", "", number))
+        name = Text(f"number of joints with f = {f}", f"Anzahl der Gelenke mit f = {f}")
+        way.keep(f"g{f}{mark}", mark.named(name), number, symbol=f"g{f}")
+    for joint, named in zip(structure.multiple_joints, short.multiple_joints, strict=True):
+        k = len(joint.links)
+        times = _TIMES.get(k - 1, Text(f"{k - 1} times", f"{k - 1}-fach"))
+        way.say(
+            f"The joint {'-'.join(joint.links)} connects {k} links and counts {times.en}.",
+            f"Das Gelenk {'-'.join(named.links)} verbindet {k} Glieder und zählt {times.de}.",
+        )
+
+
+def _short(structure: Chain, german: Mapping[str, str]) -> dict[str, str]:
+    """The German names of the links cut short to one word, where they stay different."""
+    names = {link: re.sub(r"^Glied | \(.*| mit .*| ", "", german.get(link, link)) for link in structure.links}
+    return names if len(set(names.values())) == len(names) else {link: german.get(link, link) for link in names}
+
+
+def _add_mistakes(way: Way, structure: Chain, mark: _Mark) -> None:
+    b, n = structure.space.b, structure.n
+    right = count(structure).value
+    extra = [(joint, joint.count - 1) for joint in structure.multiple_joints]
+    lost = sum((b - joint.pair.f(structure.space)) * more for joint, more in extra)
+    if extra:
+        hint = (
+            "A joint of three links is a double joint and counts twice, one of four three times.",
+            "Ein Gelenk dreier Glieder ist ein Doppelgelenk und zählt zweifach, eines von vier Gliedern dreifach.",
+        )
+        way.mistake(f"F{mark}", right + lost, *hint)
+        simple = sum(1 for joint in structure.joints if joint.pair.f(structure.space) == 1)
+        way.mistake(f"g1{mark}", simple, *hint)
+    frame = ("The frame is a link too: n counts it.", "Das Gestell ist auch ein Glied und zählt in n mit.")
+    way.mistake(f"n{mark}", n - 1, *frame)
+    way.mistake(f"F{mark}", right - b, *frame)
+    way.mistake(
+        f"F{mark}",
+        right + b,
+        "The frame does not move: the formula has n - 1 free links, not n.",
+        "Das Gestell bewegt sich nicht: In der Formel stehen n - 1 bewegliche Glieder, nicht n.",
+    )
+    higher = structure.joints_by_freedom.get(2, 0)
+    if b == 3 and higher:
+        hint = (
+            "A joint that rolls and slides has f = 2 and takes away one motion only.",
+            "Ein Gleitwälzgelenk hat f = 2 und nimmt nur eine Bewegung weg.",
+        )
+        way.mistake(f"F{mark}", right - higher, *hint)
+        way.mistake(f"g2{mark}", 0, *hint)

@@ -1,0 +1,242 @@
+"""What a solution is made of: steps with formula and numbers, tables, results by key, checks by a second way.
+
+A solution is computed from the given quantities, in the units in which they are given, angles in degrees. A `Way`
+collects it: one call of `Way.find` is a step and, if it has a key, a result.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from gruebler.catalog import Text
+
+__all__ = [
+    "Check",
+    "Heading",
+    "Mistake",
+    "Part",
+    "Result",
+    "Solution",
+    "Step",
+    "Table",
+    "Value",
+    "Way",
+    "angle",
+    "filled",
+    "number",
+]
+
+Value = float | bool | str | Text
+"""A number, yes or no, a name that is the same in both languages, or one that is not."""
+
+_SYMBOL = re.compile(r"[^\W\d_][^\W²³]*(?:\*|''|')?")
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step: what is done, the formula, the formula with its numbers, the value."""
+
+    text: Text
+    formula: str = ""
+    numbers: str = ""
+    value: Value | None = None
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Rows of values under headers."""
+
+    title: Text
+    headers: tuple[Text, ...]
+    rows: tuple[tuple[Value, ...], ...]
+    decimals: int = 3
+    """Of the numbers that are not whole."""
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """Where a new part of the solution begins, with steps counted from 1 again."""
+
+    text: Text
+
+
+Part = Step | Table | Heading
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A quantity that the solution has found."""
+
+    key: str
+    name: Text
+    value: Value
+    unit: str = ""
+    symbol: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One quantity found in two ways."""
+
+    text: Text
+    first: float
+    second: float
+    unit: str = ""
+    tolerance: float = 1e-8
+    """Largest difference allowed, relative to the larger of the two (and to 1)."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether both ways agree."""
+        size = max(1.0, abs(self.first), abs(self.second))
+        return abs(self.first - self.second) <= self.tolerance * size
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """A wrong answer that is often given, and the hint that helps."""
+
+    key: str
+    value: Value
+    hint: Text
+
+
+@dataclass(frozen=True, slots=True)
+class Solution:
+    """The way to the answer, the answers by key, and what speaks for them."""
+
+    parts: tuple[Part, ...]
+    results: Mapping[str, Result]
+    checks: tuple[Check, ...] = ()
+    mistakes: tuple[Mistake, ...] = ()
+
+    def __getitem__(self, key: str) -> Value:
+        """The value of a result."""
+        return self.results[key].value
+
+    def number(self, key: str) -> float:
+        """The value of a result that is a number; TypeError for any other."""
+        value = self.results[key].value
+        if not isinstance(value, int | float):
+            raise TypeError(f"{key} is {value!r}, not a number")
+        return float(value)
+
+    @property
+    def tables(self) -> tuple[Table, ...]:
+        """The tables among the parts."""
+        return tuple(part for part in self.parts if isinstance(part, Table))
+
+
+def number(value: float) -> str:
+    """A number with up to six digits, as people write it.
+
+    >>> number(40.0), number(78.46304096718453), number(-1e-14), number(2024475.3)
+    ('40', '78.463', '0', '2024475')
+    """
+    if abs(value) < 5e-10:
+        return "0"
+    return f"{value:.0f}" if abs(value) >= 1e5 else f"{value:.6g}"
+
+
+def angle(value: float) -> str:
+    """An angle in degrees with its sign.
+
+    >>> angle(50.478803)
+    '50.4788°'
+    """
+    return f"{number(value)}°"
+
+
+def filled(formula: str, values: Mapping[str, float | str]) -> str:
+    """The formula with numbers in place of its symbols; a negative one in brackets where something stands before it.
+
+    >>> filled("√((a + b)² - e²)", {"a": 1.7, "b": 6, "e": -1.5})
+    '√((1.7 + 6)² - (-1.5)²)'
+    """
+
+    def put(match: re.Match[str]) -> str:
+        if match[0] not in values:
+            return match[0]
+        given = values[match[0]]
+        text = given if isinstance(given, str) else number(given)
+        before, after = formula[: match.start()].rstrip()[-1:], formula[match.end() : match.end() + 1]
+        return f"({text})" if text.startswith("-") and (before not in ("", "(", "|") or after == "²") else text
+
+    return _SYMBOL.sub(put, formula)
+
+
+@dataclass(slots=True)
+class Way:
+    """A solution on its way."""
+
+    unit: str = ""
+    parts: list[Part] = field(default_factory=list)
+    results: dict[str, Result] = field(default_factory=dict)
+    checks: list[Check] = field(default_factory=list)
+    mistakes: list[Mistake] = field(default_factory=list)
+
+    def find(
+        self,
+        key: str,
+        name: Text,
+        formula: str,
+        value: float,
+        *,
+        unit: str | None = None,
+        symbol: str | None = None,
+        text: Text | None = None,
+        values: Mapping[str, float | str] | None = None,
+        **more: float | str,
+    ) -> float:
+        """A step with a result: ``symbol = formula = formula with numbers = value``; returns the value.
+
+        ``text`` is said instead of the name; ``values`` and ``more`` are the numbers for the symbols of the formula.
+        """
+        shown = self.unit if unit is None else unit
+        sign = key if symbol is None else symbol
+        value = float(value)
+        self.parts.append(
+            Step(text or name, f"{sign} = {formula}", filled(formula, {**(values or {}), **more}), value, shown)
+        )
+        self.keep(key, name, value, unit=shown, symbol=sign)
+        return value
+
+    def keep(self, key: str, name: Text, value: Value, *, unit: str = "", symbol: str = "") -> None:
+        """A result without a step of its own."""
+        self.results[key] = Result(key, name, value, unit, symbol or key)
+
+    def number(self, key: str) -> float:
+        """A result found before, which is a number."""
+        return self.done().number(key)
+
+    def say(self, en: str, de: str, formula: str = "") -> None:
+        """A step in words."""
+        self.parts.append(Step(Text(en, de), formula))
+
+    def table(
+        self, title: Text, headers: Sequence[Text], rows: Iterable[Sequence[Value]], *, decimals: int = 3
+    ) -> None:
+        """A table."""
+        self.parts.append(Table(title, tuple(headers), tuple(tuple(row) for row in rows), decimals))
+
+    def check(self, en: str, de: str, first: float, second: float, unit: str | None = None) -> None:
+        """The same quantity by the way above and by a second one."""
+        self.checks.append(Check(Text(en, de), first, second, self.unit if unit is None else unit))
+
+    def mistake(self, key: str, value: Value, en: str, de: str) -> None:
+        """A wrong answer that is often given; left out where it happens to be right."""
+        right = self.results[key].value
+        alike = isinstance(right, float | int) and isinstance(value, float | int) and abs(right - value) < 1e-9
+        if right != value and not alike:
+            value = float(value) if isinstance(right, float) and isinstance(value, int) else value
+            self.mistakes.append(Mistake(key, value, Text(en, de)))
+
+    def done(self) -> Solution:
+        """The solution."""
+        return Solution(
+            tuple(self.parts), MappingProxyType(dict(self.results)), tuple(self.checks), tuple(self.mistakes)
+        )

@@ -1,0 +1,125 @@
+"""Which method solves an exercise, and how the printed answers compare with what it finds."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache, lru_cache
+from importlib import import_module
+
+from gruebler.catalog import Exercise, Text
+from gruebler.catalog.records import Asked
+from gruebler.errors import CatalogError, nearest
+from gruebler.exercises.solution import Result, Solution, Value
+
+__all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve"]
+
+Method = Callable[..., Solution]
+
+_THEORIES = (
+    "mobility",
+    "dyads",
+    "grashof",
+    "dead_centres",
+    "transmission_angle",
+    "coupler_points",
+    "straight_guides",
+    "velocities",
+    "transfer",
+)
+
+
+@cache
+def methods() -> dict[str, Method]:
+    """Every method by the name that exercises use: theory and function."""
+    theories = {theory: import_module(f"gruebler.exercises.{theory}") for theory in _THEORIES}
+    return {f"{theory}.{name}": getattr(room, name) for theory, room in theories.items() for name in room.__all__}
+
+
+_SCALE = {("cm", "mm"): 10.0, ("mm", "cm"): 0.1, ("m", "mm"): 1000.0, ("s", "ms"): 1000.0}
+
+
+def solve(exercise: Exercise) -> Solution:
+    """The solution of an exercise, computed from its given quantities; the same exercise is solved once only.
+
+    Raises `CatalogError` for an unknown method or given quantities that do not fit it, and what the method raises.
+
+    >>> from gruebler.catalog import exercises
+    >>> solve(exercises()["exercise-6"])["F"]
+    1
+    """
+    return _solve(exercise.id, exercise.method or "", tuple(exercise.given.items()), exercise.cases)
+
+
+@lru_cache(maxsize=256)
+def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], cases: tuple[object, ...]) -> Solution:
+    if name not in methods():
+        raise CatalogError(f"{id}: unknown method {name!r}{nearest(name, methods())}")
+    method, given = methods()[name], dict(quantities)
+    if name == "mobility.machines" and not given:
+        given = {"machines": " ".join(case.machine for case in cases)}  # type: ignore[attr-defined]
+    try:
+        inspect.signature(method).bind(**given)
+    except TypeError as error:
+        raise CatalogError(f"{id}: given: {error} of {name}") from None
+    return method(**given)
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A printed answer beside the computed one."""
+
+    asked: Asked
+    result: Result
+    agrees: bool | None
+    """Whether they agree within the printed digits; None if nothing is printed."""
+
+    @property
+    def explained(self) -> bool:
+        """Whether they agree, or a reason is given why not; a reason without a difference does not explain."""
+        return self.agrees is None or self.agrees != (self.asked.reason is not None)
+
+
+def compare(exercise: Exercise, solution: Solution) -> list[Comparison]:
+    """Every answer that is asked, with what is printed for it.
+
+    Raises `CatalogError` for a key that the solution does not have.
+    """
+    found = []
+    for asked in exercise.asked:
+        if asked.key not in solution.results:
+            keys = ", ".join(solution.results)
+            raise CatalogError(f"{exercise.id}: asked: the solution has no result {asked.key!r}; it has {keys}")
+        result = solution.results[asked.key]
+        found.append(Comparison(asked, result, None if asked.printed is None else _agrees(asked, result)))
+    return found
+
+
+def _agrees(asked: Asked, result: Result) -> bool:
+    assert asked.printed is not None
+    value: Value = result.value
+    if isinstance(value, bool):
+        return asked.printed == ("yes" if value else "no")
+    if isinstance(value, str | Text):
+        return asked.printed == (value.en if isinstance(value, Text) else value)
+    scale = scale_of(asked, result)
+    return abs(float(asked.printed) * scale - value) <= last_place(asked.printed) * scale * (0.5 + 1e-9)
+
+
+def scale_of(asked: Asked, result: Result) -> float:
+    """What one unit of the printed number is worth in units of the result."""
+    return _SCALE.get((asked.unit, result.unit), 1.0) if asked.unit else 1.0
+
+
+def last_place(text: str) -> float:
+    """What one unit of the last written digit is worth.
+
+    >>> last_place("66.4"), last_place("40"), last_place("2e3")
+    (0.1, 1.0, 1000.0)
+    """
+    match = re.fullmatch(r"\s*[-+]?\d*\.?(\d*)(?:[eE]([-+]?\d+))?\s*", text)
+    if match is None:
+        raise ValueError(text)
+    return float(10.0 ** (int(match[2] or 0) - len(match[1] if "." in text else "")))

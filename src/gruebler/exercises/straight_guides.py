@@ -1,0 +1,279 @@
+"""Straight-line guides: lambda linkage, Watt's linkage, the crane's double rocker, Scott Russell's linkage."""
+
+from __future__ import annotations
+
+import cmath
+from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
+
+import numpy as np
+
+from gruebler.catalog import Text
+from gruebler.errors import LinkageError
+from gruebler.exercises.coupler_points import BY_SOLVER, PATH, check_path, headers
+from gruebler.exercises.solution import Solution, Way, number
+from gruebler.geometry import Path, coupler_path, piece
+from gruebler.kinematics import degrees as turns
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar, SliderCrank
+
+__all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
+
+
+def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float = 30, unit: str = "mm") -> Solution:
+    """The Chebyshev lambda linkage with b = c = e: path of C beyond B, its height h, and how straight it is.
+
+    >>> found = lambda_linkage(20, 50, 50, 40, 50)
+    >>> round(found.number("h"), 9), round(found.number("band"), 6)
+    (80.0, 0.195075)
+    """
+    if not b == c == e or a + d >= 2 * b:
+        raise LinkageError(f"the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}")
+    size = FourBar(a, b, c, d)
+    way = Way(unit)
+    way.say(
+        "B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one.",
+        "B ist von A, B0 und C gleich weit entfernt (b = c = e): Nach Thales ist der Winkel A-B0-C ein rechter.",
+        "|B0C| = √((b + e)² - |AB0|²)",
+    )
+    text = Text(
+        "height of C at φ = 180°, where A lies on the frame line and C straight above B0",
+        "Abstand h bei φ = 180°: A liegt auf der Gestellgeraden, C senkrecht über B0",
+    )
+    name = Text("height of C above the frame line", "Abstand des Punktes C von der Gestellgeraden")
+    height = way.find(
+        "h", name, "√((b + e)² - (a + d)²)", sqrt((b + e) ** 2 - (a + d) ** 2), text=text, a=a, b=b, d=d, e=e
+    )
+    drives = turns(0, 360, step)
+    motion = size.motion(drives)
+    points = motion.point(b + e).value
+    rows = [
+        (round(degrees(p), 9), *map(float, (*c_, *b_)))
+        for p, c_, b_ in zip(drives, points, motion.B.value, strict=True)
+    ]
+    way.table(PATH, headers("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
+    _add_straight(way, size, b + e)
+    check_path(way, size.linkage({"C": (b + e, 0)}), drives, points, "+")
+    way.check(
+        "h, from the path at φ = 180°",
+        "h, aus der Bahn bei φ = 180°",
+        height,
+        float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag),
+    )
+    way.mistake(
+        "h",
+        sqrt((b + e) ** 2 - (d - a) ** 2),
+        "That is the height at φ = 0°, where the path is not straight.",
+        "Das ist die Höhe bei φ = 0°; dort ist die Bahn nicht gerade.",
+    )
+    way.mistake(
+        "h", b + e, "C is not vertically above A but above B0.", "C liegt nicht senkrecht über A, sondern über B0."
+    )
+    return way.done()
+
+
+def _add_straight(way: Way, size: FourBar, reach: float) -> None:
+    """The straight stretch of the lambda linkage's path, over half a turn of the crank."""
+    half = piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
+    text = Text(
+        "straight stretch: from φ = 90° to 270° C runs along a length of",
+        "gerades Stück: Von φ = 90° bis 270° läuft C über eine Länge von",
+    )
+    way.find(
+        "length",
+        Text("length of the straight stretch", "Länge des geraden Stücks"),
+        "|C_x(90°) - C_x(270°)|",
+        half.length,
+        symbol="L",
+        text=text,
+    )
+    name = Text("deviation from the straight line there", "Abweichung von der Geraden dort")
+    way.find("band", name, "max C_y - min C_y", half.band, symbol="Δ")
+    name = Text("deviation by length", "bezogene Abweichung")
+    way.find("ratio", name, "Δ/L", half.ratio, unit="", symbol="Q", Δ=half.band, L=half.length)
+
+
+def watt_linkage(
+    rocker: float, coupler: float, start: float = -35, stop: float = 25, step: float = 5, unit: str = "mm"
+) -> Solution:
+    """Watt's linkage, equal rockers level in the mid position, coupler upright: path of the coupler's middle F.
+
+    >>> found = watt_linkage(60, 30)
+    >>> [round(x, 6) for x in found.tables[0].rows[0]]
+    [-35.0, -1.848841, -31.413059, 28.263391]
+    """
+    width, height = 2 * rocker, coupler
+    size = FourBar(rocker, coupler, rocker, hypot(width, height))
+    tilt = -atan2(height, width)
+    left = complex(-rocker, height / 2)
+    way = Way(unit)
+    way.say(
+        "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, -c/2), "
+        "the coupler upright with its middle F in the origin.",
+        "Mittellage (angenommen, das Bild fehlt): beide Schwingen waagerecht, Drehpunkte A0 = (-a; c/2) und B0 = (a; "
+        "-c/2), die Koppel senkrecht mit ihrer Mitte F im Ursprung.",
+    )
+    way.say(
+        "For each angle t of the left rocker: A by t, B on both circles, F in the middle.",
+        "Zu jedem Winkel t der linken Schwinge: A aus t, B auf beiden Kreisen, F in der Mitte.",
+        "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
+    )
+    values = turns(start, stop, step)
+    motion = size.motion(values - tilt, branch=-1)
+    if not motion.complete:
+        raise LinkageError(f"the left rocker cannot reach these angles: {motion.message}")
+    local = motion.point(coupler / 2).value
+    path = left + (local[:, 0] + 1j * local[:, 1]) * cmath.exp(1j * tilt)
+    right = np.degrees(motion.output.value + tilt) % 360 - 180
+    rows = [
+        (round(degrees(t), 9), float(z.real), float(z.imag), float(r))
+        for t, z, r in zip(values, path, right, strict=True)
+    ]
+    last = Text("right rocker [°]", "rechte Schwinge [°]")
+    way.table(PATH, [*headers("t [°]", "F_x", "F_y"), last], rows)
+    _add_watt_stroke(way, size, tilt, left, coupler)
+    moved = move(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
+    way.check(*BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
+    return way.done()
+
+
+def _add_watt_stroke(way: Way, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+    """How far F goes up and down while it keeps within so many hundredths of the rocker beside the straight line."""
+    from scipy.optimize import brentq
+
+    side = size.a / 600
+    path = coupler_path(size, coupler / 2, 0, branch=-1)
+
+    def at(t: float) -> complex:
+        return left + complex(path(np.array([t - tilt]))[0]) * cmath.exp(1j * tilt)
+
+    ends = [float(brentq(lambda t, s=sign: s * at(t).real - side, 0, sign * radians(28))) for sign in (-1, 1)]
+    low, high = (at(t).imag for t in ends)
+    name = Text(f"stroke with |F_x| ≤ {number(side)} {way.unit}", f"Hub mit |F_x| ≤ {number(side)} {way.unit}")
+    way.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
+    way.keep("t_low", Text("rocker at the lower end", "Schwinge am unteren Ende"), degrees(ends[0]), unit="°")
+    way.keep("t_high", Text("rocker at the upper end", "Schwinge am oberen Ende"), degrees(ends[1]), unit="°")
+    way.say(
+        "About the middle F_x grows with the fifth power of F_y only: the tangent touches the path in six points run "
+        "together.",
+        "Um die Mittellage wächst F_x nur mit der fünften Potenz von F_y: Die Tangente berührt die Koppelkurve "
+        "sechspunktig.",
+    )
+
+
+def double_rocker(
+    a: float,
+    b: float,
+    c: float,
+    d: float,
+    ac: float,
+    frame: float,
+    start: float = 10,
+    stop: float = 30,
+    step: float = 5,
+    unit: str = "mm",
+) -> Solution:
+    """The crane's double rocker: coupler a, rockers b and d, frame c at an angle; C on the coupler, ac from A.
+
+    >>> found = double_rocker(30, 80, 60, 100, 60, frame=-47)
+    >>> [round(x, 6) for x in found.tables[0].rows[0][5:]]
+    [84.071616, 43.677859]
+    """
+    size = FourBar(d, a, b, c)
+    way = Way(unit)
+    pair = f"{number(c * cos(radians(frame)))}, {number(c * sin(radians(frame)))}"
+    way.say(
+        f"Pivot of the rocker d in the origin, of the rocker b at ({pair}): the frame c lies at {number(frame)}° to "
+        "the horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
+        "lost).",
+        f"Drehpunkt der Schwinge d im Ursprung, der Schwinge b bei ({pair.replace(',', ';')}): Das Gestell c liegt "
+        f"unter {number(frame)}° zur Waagerechten. D ist das Gelenk von d, A das von b; C liegt auf der Geraden A-D "
+        "jenseits von D (angenommen, das Bild fehlt).",
+    )
+    way.say(
+        "D follows from φ; A lies on the circle of radius a about D and that of radius b about the other pivot:",
+        "D folgt aus φ; A liegt auf dem Kreis um D mit Radius a und dem um den anderen Drehpunkt mit Radius b:",
+        "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
+    )
+    values = turns(start, stop, step)
+    tilt = radians(frame)
+    motion = size.motion(values - tilt)
+    if not motion.complete:
+        raise LinkageError(f"the rocker d cannot reach these angles: {motion.message}")
+    spin = cmath.exp(1j * tilt)
+    local = motion.point(a - ac).value
+    columns = [spin * (z[:, 0] + 1j * z[:, 1]) for z in (motion.B.value, motion.A.value, local)]
+    rows = [
+        (round(degrees(phi), 9), *(float(x) for column in columns for x in (column[k].real, column[k].imag)))
+        for k, phi in enumerate(values)
+    ]
+    way.table(PATH, headers("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
+    _add_strip(way, size, coupler_path(size, a - ac, 0), (radians(start) - tilt, radians(stop) - tilt), frame)
+    check_path(way, size.linkage({"C": (a - ac, 0)}), values - tilt, local, "+")
+    return way.done()
+
+
+def _add_strip(way: Way, size: FourBar, path: Path, ends: tuple[float, float], frame: float) -> None:
+    """How straight C runs, and which angles the rocker could reach with a horizontal frame."""
+    unit = way.unit
+    found = piece(path, *ends)
+    name = Text("width of the strip in which C keeps", "Breite des Streifens, in dem C bleibt")
+    way.keep("band", name, found.band, unit=unit, symbol="Δ")
+    way.keep(
+        "length", Text("length of the path along it", "Länge der Bahn längs des Streifens"), found.length, unit=unit
+    )
+    direction = (degrees(found.direction) + frame) % 180
+    way.keep("direction", Text("direction of the strip", "Richtung des Streifens"), direction, unit="°")
+    way.say(
+        f"C keeps in a strip of {number(found.band)} {unit} over {number(found.length)} {unit}, at "
+        f"{number(direction)}° to the horizontal. Turned by a right angle that is the level way of the load.",
+        f"C bleibt über {number(found.length)} {unit} in einem Streifen von {number(found.band)} {unit} Breite, unter "
+        f"{number(direction)}° zur Waagerechten. Um 90° gedreht ist das der waagerechte Lastweg.",
+    )
+    arc = size.limits[0]
+    way.keep(
+        "lowest",
+        Text("smallest angle of rocker and frame", "kleinster Winkel zwischen Schwinge d und Gestell"),
+        degrees(arc.start),
+        unit="°",
+    )
+    way.keep(
+        "highest",
+        Text("largest angle of rocker and frame", "größter Winkel zwischen Schwinge d und Gestell"),
+        degrees(arc.end),
+        unit="°",
+    )
+    way.say(
+        f"With a horizontal frame the chain would close only for φ from {number(degrees(arc.start))}° to "
+        f"{number(degrees(arc.end))}°.",
+        f"Bei waagerechtem Gestell schlösse sich die Kette nur für φ von {number(degrees(arc.start))}° bis "
+        f"{number(degrees(arc.end))}°.",
+    )
+
+
+def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "mm") -> Solution:
+    """The slider-crank with a = b = e: C, beyond A on the line B-A, runs exactly on the line through A0.
+
+    >>> scott_russell(1, 1, 1).number("deviation")
+    0.0
+    """
+    if not a == b == e:
+        raise LinkageError(f"an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}")
+    size = SliderCrank(a, b)
+    way = Way(unit)
+    way.say(
+        "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line through "
+        "A0 at right angles to the slider's way.",
+        "A ist von A0, B und C gleich weit entfernt: Nach Thales ist der Winkel B-A0-C ein rechter; C liegt also auf "
+        "der Geraden durch A0 senkrecht zum Schieberweg.",
+        "C = A - e·(B - A)/b = (0, 2·a·sin φ)",
+    )
+    drives = turns(-60, 60, step)
+    points = size.motion(drives).point(-e).value
+    rows = [(round(degrees(p), 9), round(float(z[0]), 12), float(z[1])) for p, z in zip(drives, points, strict=True)]
+    way.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)
+    name = Text("largest deviation from the straight line", "größte Abweichung von der Geraden")
+    way.find("deviation", name, "max |C_x|", max(abs(row[1]) for row in rows), symbol="Δ")
+    check_path(way, size.linkage({"C": (-e, 0)}), drives, points, "+")
+    expected = max(abs(z[1] - 2 * a * sin(p)) for p, z in zip(drives.tolist(), points.tolist(), strict=True))
+    way.check("Largest difference from 2a·sin φ", "Größter Unterschied zu 2a·sin φ", 0.0, expected)
+    return way.done()

@@ -1,0 +1,51 @@
+"""The linear transfer function of a pair of wheels, step by step."""
+
+from __future__ import annotations
+
+from gruebler.catalog import Text
+from gruebler.exercises.solution import Solution, Way, number
+from gruebler.gears import read_train, speeds
+
+__all__ = ["gear_pair"]
+
+
+def gear_pair(i: float, step: float = 90) -> Solution:
+    """The transfer function of one pair of gears with the ratio i, over as many turns as the wheel needs for one.
+
+    >>> gear_pair(2).number("slope")
+    0.5
+    """
+    way = Way()
+    name = Text("slope of the transfer function", "Steigung der Übertragungsfunktion")
+    way.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
+    way.say(
+        "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in opposite "
+        "senses; with signs the line falls, ψ = -φ/i.",
+        "ψ wächst gleichmäßig mit φ: Die Übertragungsfunktion ist eine Gerade durch den Ursprung. Ein Außenradpaar "
+        "dreht gegenläufig; mit Vorzeichen fällt die Gerade, ψ = -φ/i.",
+        "ψ = φ/i",
+    )
+    rows = [(k * step, k * step / i) for k in range(int(360 * i / step + 1e-9) + 1)]
+    title = Text("Transfer function, magnitudes", "Übertragungsfunktion, Beträge")
+    way.table(title, [Text("φ [°]", "φ [°]"), Text("ψ [°]", "ψ [°]")], rows)
+    way.keep(
+        "turns", Text("turns of the drive for one of the output", "Umdrehungen des Antriebs für eine des Abtriebs"), i
+    )
+    teeth = 20
+    reading = read_train(f"drive:{teeth} wheel:{number(teeth * i)}; drive=1") if float(teeth * i).is_integer() else None
+    if reading is not None:
+        speed = speeds(reading.train, {"drive": 1}).values["wheel"]
+        way.check(
+            f"Slope by the gear train {teeth}:{number(teeth * i)}",
+            f"Steigung aus dem Räderpaar {teeth}:{number(teeth * i)}",
+            1 / i,
+            abs(float(speed or 0)),
+            "",
+        )
+    way.mistake(
+        "slope",
+        float(i),
+        "i is input by output; the slope is output by input, 1/i.",
+        "i ist Antrieb durch Abtrieb; die Steigung ist Abtrieb durch Antrieb, 1/i.",
+    )
+    return way.done()

@@ -1,0 +1,102 @@
+"""`gruebler exercise` and `gruebler table` as a student meets them."""
+
+import json
+
+import pytest
+
+from gruebler.cli import main
+from gruebler.cli.exercise_commands import _KINDS, _TABLES
+from gruebler.exercises import KINDS, TABLES
+
+
+def run(capsys, *arguments):
+    try:
+        status = main(arguments)
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_the_parser_knows_what_there_is():
+    assert tuple(KINDS) == _KINDS
+    assert tuple(TABLES) == _TABLES
+
+
+def test_list_and_show(capsys):
+    status, out, err = run(capsys, "exercise", "list", "--lang", "de")
+    assert (status, err) == (0, "")
+    assert "exercise-15" in out
+    assert "000/003, Aufgabe 21" in out
+    status, out, _ = run(capsys, "exercise", "show", "15", "3.6.2")
+    assert status == 0
+    assert "Asked:\n  H: stroke, the distance of the dead centres" in out
+    assert "71.66" not in out  # the answer stays hidden
+
+
+def test_solve(capsys):
+    status, out, err = run(capsys, "exercise", "solve", "15", "--lang", "de")
+    assert (status, err) == (0, "")
+    assert "H = l_a - l_i = 133,51 - 61,8466 = 71,6637 mm" in out
+    assert "[gedruckt 7,2 cm: stimmt]" in out
+    assert "[gedruckt 18,4°: abweichend. Aus einer Zeichnung abgelesen" in out
+    assert "stimmt überein" in out
+    status, out, _ = run(capsys, "exercise", "solve", "15", "16", "--json")
+    fifteen, sixteen = json.loads(out)
+    assert fifteen["results"]["H"]["value"] == pytest.approx(71.66371484392198)
+    assert fifteen["results"]["phi_max"]["symbol"] == "φ_max"
+    assert all(check["holds"] for check in fifteen["checks"])
+    assert [one["agrees"] for one in fifteen["printed"]] == [True, False]
+    assert len(sixteen["steps"][-1]["table"]["rows"]) == 25
+
+
+def test_new_and_check(capsys):
+    status, out, err = run(capsys, "exercise", "new", "--kind", "dead-centre", "--seed", "7", "--count", "2")
+    assert (status, err) == (0, "")
+    assert "(dead-centre-1-7)" in out
+    assert "(dead-centre-1-8)" in out
+    assert run(capsys, "exercise", "new", "--kind", "dead-centre", "--seed", "7", "--count", "2")[1] == out
+    given = json.loads(run(capsys, "exercise", "show", "dead-centre-1-7", "--json")[1])[0]["given"]
+    stroke = 2 * given["a"]
+    assert run(capsys, "exercise", "check", "dead-centre-1-7", f"H={stroke}")[0] == 0
+    status, out, _ = run(capsys, "exercise", "check", "dead-centre-1-7", f"H={stroke / 2}", "--lang", "de")
+    assert status == 1
+    assert "falsch. Der Hub ist zweimal die Kurbellänge" in out
+    assert "Nicht beantwortet: l_a, l_i" in out
+    solved = run(capsys, "exercise", "new", "--kind", "grashof", "--level", "2", "--solutions", "--json")[1]
+    assert json.loads(solved)[0]["results"]
+
+
+def test_check_as_json(capsys):
+    status, out, _ = run(capsys, "exercise", "check", "6", "F=3", "n=6", "--json")
+    found = json.loads(out)
+    assert status == 1
+    assert found["right"] is False
+    assert [one["mark"] for one in found["answers"]] == ["wrong", "right"]
+    assert "Doppelgelenk" in found["answers"][0]["hint"]["de"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("solve", "99"), "there is no exercise '99'"),
+        (("check", "11", "H"), "KEY=ANSWER"),
+        (("check", "11", "H=forty"), "expected a number"),
+        (("check", "11", "q=1"), "does not ask for 'q'"),
+        (("new", "--kind", "grashof", "--seed", "-3"), "seed is a whole number"),
+        (("new", "--kind", "grashof", "--count", "0"), "--count is a number"),
+        (("new", "--kind", "gear"), "invalid choice"),
+    ],
+)
+def test_wrong_usage(capsys, arguments, words):
+    status, out, err = run(capsys, "exercise", *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_tables(capsys, name):
+    status, out, err = run(capsys, "table", name, "--lang", "de")
+    assert (status, err) == (0, "")
+    assert out.splitlines()
+    assert json.loads(run(capsys, "table", name, "--json")[1])[0]["rows"]
