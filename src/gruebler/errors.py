@@ -9,7 +9,22 @@ from difflib import get_close_matches
 
 
 class GrueblerError(ValueError):
-    """The common parent: catching it catches every refusal of this library, and nothing else."""
+    """The common parent: catching it catches every refusal of this library, and nothing else.
+
+    Sentences that users of the command line meet often are there in German too.
+    """
+
+    def __init__(self, text: str = "", de: str | None = None) -> None:
+        super().__init__(text)
+        self.de = de
+
+    def said(self, lang: str) -> str:
+        """The sentence in a language, in English where there is no other.
+
+        >>> LinkageError("it cannot move", "es lässt sich nicht bewegen").said("de")
+        'es lässt sich nicht bewegen'
+        """
+        return self.de if lang == "de" and self.de is not None else str(self)
 
 
 class PairError(GrueblerError):

@@ -188,3 +188,42 @@ def test_refusals(capsys, arguments, words):
     assert (status, out) == (2, "")
     assert words in err
     assert err.count("\n") == 1
+
+
+def test_who_turns_fully_is_told(capsys):
+    _, out, _ = run(capsys, "lambda", "--lang", "de")
+    assert "R(crank-coupler) volle Umläufe, R(coupler-rocker) 50.6659°" in out
+    document, _ = table(capsys, "lambda")
+    assert [row["full"] for row in document["rotatability"]] == [True, True, False, False]
+
+
+def test_a_linkage_with_one_position_says_so_in_both_languages(capsys):
+    assert run(capsys, "four-bar:10,20,30,60")[:2] == (
+        1,
+        "The drive cannot move: all that can be assembled is one position, drive = 0°.\n",
+    )
+    assert run(capsys, "four-bar:10,20,30,60", "--lang", "de")[1].startswith("Der Antrieb ist unbeweglich: ")
+
+
+def test_rounding_noise_is_shown_as_zero(capsys):
+    _, out, _ = run(capsys, "four-bar:1,1,1,1")
+    rows = [line.split() for line in out.splitlines() if line.split() and line.split()[0].isdigit()]
+    assert {row[3] for row in rows} == {"0"}
+
+
+def test_several_drives_with_speeds(capsys, tmp_path):
+    """A five-bar that is a parallelogram with a kink: both cranks at one speed carry the coupler pins as translations."""
+    from gruebler.linkages import Linkage
+    from gruebler.mechanism import Mechanism
+
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
+    write_linkage(
+        tmp_path / "five.toml", Linkage.drawn(mechanism, {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)})
+    )
+    five = [str(tmp_path / "five.toml"), "--at", "90", "--at", "90", "--output", "2", "--point", "R(2-3)"]
+    _, found = table(capsys, *five, "--speed", "60", "--speed", "60")
+    assert found["ω 2 rad/s"][0] == pytest.approx(0, abs=1e-9)
+    assert found["R(2-3) vx mm/s"][0] == pytest.approx(-2 * 2 * math.pi)
+    status, _, err = run(capsys, *five, "--speed", "60")
+    assert status == 2
+    assert "once for each drive: 2 times, not 1" in err

@@ -58,4 +58,4 @@ def test_several_drives(capsys, tmp_path):
     write_linkage(tmp_path / "five.toml", Linkage.drawn(mechanism, places))
     status, _, err = run(capsys, str(tmp_path / "five.toml"), "--at", "90", "--at", "90", "--poles")
     assert status == 2
-    assert "--poles and --curvature are those of one drive" in err
+    assert "--poles and --curvature are those of linkages with one drive" in err

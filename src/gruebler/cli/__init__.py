@@ -28,7 +28,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = int(import_module(arguments.run).run(arguments))
         sys.stdout.flush()
     except GrueblerError as error:
-        print(f"gruebler {arguments.command}: {error}", file=sys.stderr)
+        print(f"gruebler {arguments.command}: {error.said(getattr(arguments, 'lang', 'en'))}", file=sys.stderr)
         return 2
     except BrokenPipeError:
         # The reader has gone (| head): what is still buffered has nowhere to go.

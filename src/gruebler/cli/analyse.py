@@ -17,7 +17,7 @@ from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.kinematics import Motion, move
+from gruebler.kinematics import Motion, motion_roles, move, rotatability
 from gruebler.kinematics.branches import all_branches, read_branch
 from gruebler.kinematics.moving import planned
 from gruebler.kinematics.outputs import Output, find_output
@@ -26,8 +26,9 @@ from gruebler.linkages import Linkage
 from gruebler.linkages.files import to_json
 
 if TYPE_CHECKING:
+    from gruebler.kinematics.circuits import Circuit
     from gruebler.kinematics.measuring import Measures
-    from gruebler.mechanism import Role
+    from gruebler.kinematics.turning import Rotatability
 
 __all__ = ["run"]
 
@@ -37,12 +38,18 @@ _MOST_BRANCHES = 16
 _WORDS = {
     "en": {
         "roles": "Roles: {roles}.",
+        "pairs": "Neighbours against each other: {pairs}.",
+        "full": "full turns",
+        "unknown": "Roles and rotatability are not known: {why}",
         "branch": "Assembly mode: {branch}.",
         "others": "Other assembly modes there: {others}.",
         "mu": "transmission angle",
     },
     "de": {
         "roles": "Rollen: {roles}.",
+        "pairs": "Nachbarn gegeneinander: {pairs}.",
+        "full": "volle Umläufe",
+        "unknown": "Rollen und Umlauffähigkeit sind nicht bekannt: {why}",
         "branch": "Einbaulage: {branch}.",
         "others": "Andere Einbaulagen dort: {others}.",
         "mu": "Übertragungswinkel",
@@ -55,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
     linkage, shown_range = linkage_of(arguments.linkage)
     turning = turning_drives(linkage)
     plan = planned(linkage)
-    speed = _speed(arguments.speed, turning)
+    speeds = _speeds(arguments.speed, turning)
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
     for name in arguments.point:
         linkage.named(name)
@@ -64,24 +71,24 @@ def run(arguments: argparse.Namespace) -> int:
     given = given_rows(arguments.drive, arguments.at, turning)
     if len(turning) > 1:
         if arguments.poles or arguments.curvature:
-            raise GrueblerError(
-                "--poles and --curvature are those of one drive; with several drives there are poses only"
-            )
+            raise GrueblerError("--poles and --curvature are those of linkages with one drive")
         if given is None:
             raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
-        motion = move(linkage, given, branch=arguments.branch, order=0)
+        motion = move(linkage, given, branch=arguments.branch, speed=speeds or None)
         made = columns(motion, outputs, arguments.point) if len(motion) else []
         return _tell(linkage, None, motion, made, arguments)
     try:
         found = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
-        print(error)
+        text = error.said(arguments.lang)
+        print(text[:1].upper() + text[1:] + "." * (not text.endswith(".")))
         return 1
     rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, found, rows, arguments.branch)
     made = []
     if len(motion):
         angle = None if found.transmission is None else transmission_angle(motion, found.output.name)
+        speed = speeds[0] if speeds else None
         made = columns(motion, outputs, arguments.point, speed, angle, _WORDS[arguments.lang]["mu"])
         made += _geometry(motion, outputs, arguments)
     return _tell(linkage, found, motion, [column.without(before) for column in made], arguments)
@@ -90,15 +97,14 @@ def run(arguments: argparse.Namespace) -> int:
 # --- what was asked for ----------------------------------------------------------------------------
 
 
-def _speed(speed: float | None, turning: Sequence[bool]) -> float | None:
-    """Of the drive, in radians a second, or lengths a second; given in revolutions a minute, or lengths a second."""
-    if speed is None:
-        return None
-    if not math.isfinite(speed) or not 0 < abs(speed) < 1e12:
-        raise GrueblerError(f"--speed: expected a number that is not 0, but found {speed:g}")
-    if len(turning) > 1:
-        raise GrueblerError("--speed is that of one drive; with several drives there are poses only")
-    return speed * math.pi / 30 if turning[0] else speed
+def _speeds(given: Sequence[float], turning: Sequence[bool]) -> list[float]:
+    """Of the drives, in radians a second, or lengths a second; given in revolutions a minute, or lengths a second."""
+    if given and len(given) != len(turning):
+        raise GrueblerError(f"--speed is given once for each drive: {len(turning)} times, not {len(given)}")
+    for speed in given:
+        if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1):
+            raise GrueblerError(f"--speed: expected a number that is not 0, but found {speed:g}")
+    return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
 
 
 # --- what is found ---------------------------------------------------------------------------------
@@ -107,7 +113,8 @@ def _speed(speed: float | None, turning: Sequence[bool]) -> float | None:
 def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argparse.Namespace) -> Measures:
     from gruebler.kinematics.measuring import measures
 
-    return measures(linkage, arguments.speed if turning else None, arguments.branch, output.name)
+    rpm = arguments.speed[0] if turning and arguments.speed else None
+    return measures(linkage, rpm, arguments.branch, output.name)
 
 
 def _moved(linkage: Linkage, found: Measures, rows: Reals, branch: str | None) -> tuple[Motion, int]:
@@ -135,8 +142,9 @@ def _listed(arguments: argparse.Namespace) -> bool:
 
 
 def _others(linkage: Linkage, found: Measures) -> list[str]:
-    branches = islice(all_branches(planned(linkage), np.array([found.start])), _MOST_BRANCHES)
-    return [_label(branch) for branch in branches if branch != tuple(found.branch)]
+    branches = all_branches(planned(linkage), np.array([found.start]))
+    others = [_label(branch) for branch in islice(branches, _MOST_BRANCHES) if branch != tuple(found.branch)]
+    return [*others, "…"] if next(branches, None) is not None else others
 
 
 def _label(branch: Sequence[str]) -> str:
@@ -177,9 +185,15 @@ def _tell(
 
 def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
     print(found.explain(lang))
-    if roles := _roles(linkage, found):
-        moving = (f"{link} = {role.said(lang)}" for link, role in roles.items() if link != linkage.mechanism.frame)
+    made = _circuit(linkage, found)
+    if isinstance(made, LinkageError):
+        print(words["unknown"].format(why=made.said(lang)))
+    else:
+        roles = motion_roles(made).items()
+        moving = (f"{link} = {role.said(lang)}" for link, role in roles if link != linkage.mechanism.frame)
         print(words["roles"].format(roles=", ".join(moving)))
+        pairs = (f"{row.joint} {_extent(row, linkage.unit, words)}" for row in rotatability(made))
+        print(words["pairs"].format(pairs=", ".join(pairs)))
     if found.branch:
         print(words["branch"].format(branch=_label(found.branch)))
         if others := _others(linkage, found):
@@ -187,14 +201,22 @@ def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) ->
     print()
 
 
-def _roles(linkage: Linkage, found: Measures) -> dict[str, Role] | None:
-    """What each link turns out to be; None where the measures begin in a place that no circuit can start from."""
-    from gruebler.kinematics.turning import motion_roles
+def _circuit(linkage: Linkage, found: Measures) -> Circuit | LinkageError:
+    """The circuit of the measures' branch, or why it cannot be followed."""
+    from gruebler.kinematics.circuits import circuit
 
     try:
-        return motion_roles(linkage, branch=found.branch)
-    except LinkageError:
-        return None
+        return circuit(linkage, branch=found.branch)
+    except LinkageError as error:
+        return error
+
+
+def _extent(row: Rotatability, unit: str, words: dict[str, str]) -> str:
+    if row.full:
+        return words["full"]
+    if row.freedom == "turn":
+        return f"{round(math.degrees(row.range), 6) + 0:.6g}°"
+    return f"{row.range:.6g} {unit}"
 
 
 def _document(
@@ -203,8 +225,12 @@ def _document(
     document: dict[str, Any] = {"linkage": to_json(linkage)}
     if found is not None:
         document |= {"measures": found.to_json(), "other_branches": _others(linkage, found)}
-        roles = _roles(linkage, found)
-        document["roles"] = None if roles is None else {link: str(role) for link, role in roles.items()}
+        around = _circuit(linkage, found)
+        if isinstance(around, LinkageError):
+            document |= {"roles": None, "rotatability": None}
+        else:
+            document["roles"] = {link: str(role) for link, role in motion_roles(around).items()}
+            document["rotatability"] = [row._asdict() | {"range": row.range} for row in rotatability(around)]
     rows = zip(*(column.values for column in made), strict=True)
     return document | {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],

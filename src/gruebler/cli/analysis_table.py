@@ -30,6 +30,8 @@ class Column(NamedTuple):
     unit: str
     values: Reals
     """(rows,); NaN where it is not defined."""
+    natural: float = 0.0
+    """What such a quantity usually is: a value 12 digits below is rounding noise."""
 
     @property
     def header(self) -> str:
@@ -52,10 +54,10 @@ def columns(
     """Drives, outputs with derivatives by the drive and in time, transmission angle, points.
 
     Args:
-        motion: solved for speed 1, to the second order; several drives: to order 0.
+        motion: of one drive solved for speed 1, of several for their speeds, to the second order; or to order 0.
         outputs: what is looked at.
         points: names of points or joints.
-        speed: of the drive, in radians or units of length a second; None: rates by the drive only.
+        speed: of one drive, in radians or units of length a second; None: rates by the drive only.
         transmission: (rows,) angle in radians, if there is one.
         word: the name of that column.
     """
@@ -64,34 +66,41 @@ def columns(
     for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
         turning = drive.direction.startswith("R")
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
-    per = "rad" if mechanism.drives[0].direction.startswith("R") else linkage.unit
+    turning = mechanism.drives[0].direction.startswith("R")
+    per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
+    timed = 1.0 if len(mechanism.drives) > 1 else speed
     for output in outputs:
-        own = "rad" if output.turning else linkage.unit
+        own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         out.append(_scaled(output.name, output.turning, linkage, output.track(motion)))
-        if motion.order < 2:
-            continue
-        for order in (1, 2):
-            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), output.track(motion, order)))
-        if speed is not None:
-            for order, letter in ((1, "ω"), (2, "α")) if output.turning else ((1, "v"), (2, "a")):
-                seconds = "s" if order == 1 else "s²"
-                rates = output.track(motion, order) * speed**order
-                out.append(Column(f"{letter} {output.name}", f"{own}/{seconds}", rates))
+        for order in (1, 2) if motion.order >= 2 and len(mechanism.drives) == 1 else ():
+            rates = output.track(motion, order)
+            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), rates, natural / unit**order))
+        for order, letter in enumerate("ωα" if output.turning else "va", 1) if motion.order >= 2 and timed else ():
+            rates = output.track(motion, order) * timed**order
+            name = f"{letter} {output.name}"
+            out.append(Column(name, f"{own}/{_seconds(order)}", rates, natural * (abs(timed) / unit) ** order))
     if transmission is not None:
-        out.append(Column(word, "°", transmission * _DEGREES))
+        out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))
     for name in points:
         at = motion.point(name)
-        out += [Column(f"{name} {axis}", linkage.unit, at[:, k]) for k, axis in enumerate(_POSE)]
+        out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
         for order, axes in enumerate(_RATES, 1) if motion.order >= 2 else ():
-            rates = motion.point(name, order) * (1.0 if speed is None else speed) ** order
-            timed = f"{linkage.unit}/{'s' if order == 1 else 's²'}"
-            unit = timed if speed is not None else _by(linkage.unit, per, order)
-            out += [Column(f"{name} {axis}", unit, rates[:, k]) for k, axis in enumerate(axes)]
+            factor = timed or 1.0
+            rates = motion.point(name, order) * factor**order
+            written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
+            natural = linkage.size * (abs(factor) / unit) ** order
+            out += [Column(f"{name} {axis}", written, rates[:, k], natural) for k, axis in enumerate(axes)]
     return out
 
 
+def _seconds(order: int) -> str:
+    return "s" if order == 1 else "s²"
+
+
 def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column:
-    return Column(name, "°", values * _DEGREES) if turning else Column(name, linkage.unit, values)
+    if turning:
+        return Column(name, "°", values * _DEGREES, _DEGREES)
+    return Column(name, linkage.unit, values, linkage.size)
 
 
 def _by(own: str, per: str, order: int) -> str:
@@ -110,7 +119,7 @@ def shown(made: Sequence[Column]) -> list[list[str]]:
     cells = []
     for column in made:
         finite = np.abs(column.values[np.isfinite(column.values)])
-        noise = 1e-12 * max(finite.max(initial=0.0), 1e-300)
+        noise = 1e-12 * max(finite.max(initial=0.0), column.natural)
         values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
         cells.append([_cell(value) for value in values])
     return [list(row) for row in zip(*cells, strict=True)]

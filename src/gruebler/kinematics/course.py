@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from math import pi
+from math import degrees, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -32,6 +32,7 @@ _BACK = 1e-7  # how near it is then
 _WELL = 1e-3  # a start with a root below it is near a change point or limit
 _END = 0.3  # how far from an end (of pi for the range) the nodes for values at it lie
 _NODES = 10
+_NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
 _ROUND = 1e-11  # radians: a full turn less than that is none
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
@@ -97,7 +98,10 @@ class Course:
         path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
         found, rows = _run(self.plan, path, order, self.start)
         if not found.complete:
-            raise LinkageError(f"the branch is lost within its range. {found.message()}")
+            raise LinkageError(
+                f"the branch is lost within its range. {found.message()}",
+                f"die Einbaulage geht innerhalb des Bereichs verloren. {found.message('de')}",
+            )
         return _rows(found, rows[1 + np.argsort(order_of, kind="stable")])
 
     def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
@@ -128,12 +132,20 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
     plan = planned(linkage)
     count = len(plan.lower.mechanism.drives)
     if count != 1:
-        raise LinkageError(f"measures are those of linkages with one drive; this one has {count}")
+        raise LinkageError(
+            f"measures are those of linkages with one drive; this one has {count}",
+            f"Kenngrößen gehören zu Getrieben mit einem Antrieb; dieses hat {count}",
+        )
     start = _begun(plan, branch)
     span = _span(plan, start)
     size = 1.0 if _turns(plan) else plan.lower.size
-    if span.width < 1e-9 * size:
-        raise LinkageError(f"the drive cannot move: all that can be assembled is one position, drive = {span.low:.9g}")
+    if span.width < _NARROW * size:
+        middle = (span.low + span.high) / 2
+        at = f"{round(degrees(middle), 4) + 0:g}°" if _turns(plan) else f"{middle:.9g} {linkage.unit}"
+        raise LinkageError(
+            f"the drive cannot move: all that can be assembled is one position, drive = {at}",
+            f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
+        )
     course = Course(plan, start, span, np.array([span.low, span.high]))
     return replace(course, grid=_grid(course))
 
@@ -183,7 +195,10 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
             break
     assert best is not None
     if not len(best):
-        raise LinkageError(f"there is no position of the drive in which it can be assembled so. {best.message()}")
+        raise LinkageError(
+            f"there is no position of the drive in which it can be assembled so. {best.message()}",
+            f"es gibt keine Antriebslage, in der es sich so zusammenbauen lässt. {best.message('de')}",
+        )
     return best
 
 

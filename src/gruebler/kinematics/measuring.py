@@ -201,7 +201,7 @@ def measures(
     try:
         transmission, notes = measure_transmission(course, looked_at), {"en": "", "de": ""}
     except NoTransmissionAngleError as why:
-        transmission, notes = None, why.texts
+        transmission, notes = None, {lang: why.said(lang) for lang in ("en", "de")}
     return Measures(
         linkage,
         looked_at,

@@ -41,8 +41,7 @@ class NoTransmissionAngleError(LinkageError):
     """The output has no transmission angle; why, in English and German."""
 
     def __init__(self, en: str, de: str) -> None:
-        super().__init__(f"there is no transmission angle: {en}")
-        self.texts = {"en": str(self), "de": f"es gibt keinen Übertragungswinkel: {de}"}
+        super().__init__(f"there is no transmission angle: {en}", f"es gibt keinen Übertragungswinkel: {de}")
 
 
 Element = tuple[str, complex, complex]
