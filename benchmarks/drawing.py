@@ -1,5 +1,6 @@
-"""Layouts of all chains with F = 1 up to ten links, beside the general layouts of networkx."""
+"""Layouts of all chains with F = 1 up to ten links, and of some with 40, beside the general layouts of networkx."""
 
+import random
 import time
 import warnings
 from collections.abc import Callable, Iterable
@@ -90,31 +91,58 @@ def clearance(points: np.ndarray, outlines: list[tuple[int, ...]]) -> float:
     return float(best / np.ptp(points, axis=0).max())
 
 
-def main() -> None:
-    warnings.simplefilter("ignore")
-    found = [chain for links in (4, 6, 8, 10) for chain in chains(links)]
-    ours(found[0])  # kernels compiled and loaded
+def large(links: int, seed: int, reach: int) -> Chain:
+    """A four-bar chain and dyads, each between two of so many links that came last: few of them keep it planar."""
+    choice = random.Random(seed)
+    edges, n = [(0, 1), (1, 2), (2, 3), (3, 0)], 4
+    while n < links:
+        a, b = choice.sample(range(max(0, n - reach), n), 2)
+        edges += [(a, n), (n, n + 1), (n + 1, b)]
+        n += 2
+    return Chain.parse(" ".join(f"R({a}-{b})" for a, b in edges))
+
+
+METHODS = {
+    "ours": ours,
+    "networkx spring": theirs(lambda graph: nx.spring_layout(graph, seed=1)),
+    "networkx kamada_kawai": theirs(nx.kamada_kawai_layout),
+    "networkx planar": theirs(nx.planar_layout),
+}
+
+
+def compare(found: list[Chain]) -> None:
+    """A row for each method."""
     header = f"{'layout':22}{'chains':>7}{'crossings':>10}{'covered':>8}{'smallest':>9}{'median':>8}{'a second':>9}"
     print(f"{header}   (of processor time)")
-    methods = {
-        "ours": ours,
-        "networkx spring": theirs(lambda graph: nx.spring_layout(graph, seed=1)),
-        "networkx kamada_kawai": theirs(nx.kamada_kawai_layout),
-        "networkx planar": theirs(nx.planar_layout),
-    }
-    for name, method in methods.items():
+    for name, method in METHODS.items():
         start = time.process_time()
         drawings = [drawing for drawing in map(method, found) if len(drawing[0])]
         seconds = time.process_time() - start
+        if not drawings:
+            print(f"{name:22}{0:>7}")
+            continue
         gaps = [clearance(*drawing) for drawing in drawings]
         print(
             f"{name:22}{len(drawings):>7}{sum(crossings(*d) for d in drawings):>10}"
             f"{sum(covered(*d) for d in drawings):>8}{min(gaps):>9.3f}{np.median(gaps):>8.3f}"
-            f"{len(found) / seconds:>9.0f}"
+            f"{len(found) / seconds:>9.3g}"
         )
+
+
+def main() -> None:
+    warnings.simplefilter("ignore")
+    found = [chain for links in (4, 6, 8, 10) for chain in chains(links)]
+    ours(found[0])  # kernels compiled and loaded
+    ours(large(40, 0, 40))
+    compare(found)
     start = time.process_time()
     page = gallery_html("", [Section("", tuple(Item(draw(chain), "") for chain in found))])
     print(f"{len(found)} pictures on a page of {len(page) / 1e6:.2f} MB: {time.process_time() - start:.1f} s")
+    for words, reach in (("planar", 3), ("not planar", 40)):
+        many = [large(40, seed, reach) for seed in range(1, 20)]
+        alike = [chain for chain in many if nx.check_planarity(chain.link_graph())[0] == (words == "planar")]
+        print(f"\n40 links, {words}")
+        compare(alike[:5])
 
 
 if __name__ == "__main__":

@@ -25,17 +25,27 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from gruebler.assur import assur_groups, decompose
     from gruebler.cams import Cam, CamError
+    from gruebler.catalog.features import AccessFeatures, access_features
     from gruebler.chain import Chain, Joint
     from gruebler.drawing import draw, gallery_html
     from gruebler.drawing.animation import animated_svg
+    from gruebler.drawing.animation_frames import animated_frames
+    from gruebler.drawing.animation_page import animated_page
+    from gruebler.drawing.curve_plots import coupler_plot, family_plot, hodograph
     from gruebler.drawing.linkage_picture import draw_linkage
+    from gruebler.drawing.motion_picture import draw_motion
+    from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
+    from gruebler.drawing.plots import ratio_diagram
     from gruebler.enumeration import chains, count_chains
     from gruebler.errors import CatalogError, ChainError, GrueblerError, LinkageError, NotationError, PairError
+    from gruebler.exercises import exercise, fresh, solve, teaching_table
     from gruebler.gears import GearError, Train, read_train
     from gruebler.geneva import Geneva, GenevaError
     from gruebler.geometry import (
+        CouplerCurve,
         centrodes,
         cognates,
+        coupler_curve,
         coupler_sextic,
         inflection_circle,
         longest_piece,
@@ -44,7 +54,10 @@ if TYPE_CHECKING:
         piece_of_ratio,
         poles,
         slider_cognates,
+        tangent_contact,
     )
+    from gruebler.geometry.guidance import GUIDANCES, guidance
+    from gruebler.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
     from gruebler.inversion import driven_mechanisms, inversions
     from gruebler.isomorphism import code, decode, find_isomorphism, is_isomorphic, symmetry
     from gruebler.kinematics import (
@@ -62,15 +75,20 @@ if TYPE_CHECKING:
         rotatability,
     )
     from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, read_linkage, write_linkage
+    from gruebler.linkages.expressions import Expression
     from gruebler.mechanism import Mechanism, check_drives
     from gruebler.mobility import counted, generic_mobility, mobility_report
     from gruebler.pairs import PAIRS, Alphabet, Pair, Space, pair
     from gruebler.realisation import Realisation, realise
+    from gruebler.sheets import sheet
     from gruebler.specialisation import Requirements, joint_types, variants
+    from gruebler.statics import Loads, Statics, slide_friction, slider_friction
     from gruebler.transformation import derive, extend
 
 __all__ = [
+    "GUIDANCES",
     "PAIRS",
+    "AccessFeatures",
     "Alphabet",
     "Cam",
     "CamError",
@@ -78,6 +96,8 @@ __all__ = [
     "Chain",
     "ChainError",
     "Circuit",
+    "CouplerCurve",
+    "Expression",
     "FourBar",
     "GearError",
     "Geneva",
@@ -87,6 +107,7 @@ __all__ = [
     "Joint",
     "Linkage",
     "LinkageError",
+    "Loads",
     "Measures",
     "Mechanism",
     "Motion",
@@ -97,7 +118,11 @@ __all__ = [
     "Requirements",
     "SliderCrank",
     "Space",
+    "Statics",
     "Train",
+    "access_features",
+    "animated_frames",
+    "animated_page",
     "animated_svg",
     "assur_groups",
     "centrodes",
@@ -108,6 +133,8 @@ __all__ = [
     "cognates",
     "count_chains",
     "counted",
+    "coupler_curve",
+    "coupler_plot",
     "coupler_sextic",
     "decode",
     "decompose",
@@ -115,17 +142,24 @@ __all__ = [
     "derive",
     "draw",
     "draw_linkage",
+    "draw_motion",
     "drive_range",
     "driven_mechanisms",
+    "exercise",
     "extend",
+    "family_plot",
     "find_isomorphism",
     "four_bars",
+    "fresh",
     "gallery_html",
     "generic_mobility",
+    "guidance",
+    "hodograph",
     "inflection_circle",
     "inversions",
     "is_isomorphic",
     "joint_types",
+    "lambdas_for",
     "longest_piece",
     "measures",
     "mobility_report",
@@ -137,30 +171,94 @@ __all__ = [
     "path_curvature",
     "piece_of_ratio",
     "poles",
+    "ratio_diagram",
     "read_linkage",
     "read_train",
     "realise",
     "rotatability",
+    "sheet",
+    "slide_friction",
     "slider_cognates",
+    "slider_friction",
+    "solve",
+    "symmetric_rocker",
     "symmetry",
+    "tangent_contact",
+    "teaching_table",
+    "transfer_plot",
+    "transmission_plot",
     "variants",
     "write_linkage",
 ]
 
 _ROOMS = {
-    "assur": ("assur_groups", "decompose"),
-    "cams": ("Cam", "CamError"),
-    "chain": ("Chain", "Joint"),
-    "drawing": ("draw", "gallery_html"),
+    "assur": (
+        "assur_groups",
+        "decompose",
+    ),
+    "cams": (
+        "Cam",
+        "CamError",
+    ),
+    "catalog.features": (
+        "AccessFeatures",
+        "access_features",
+    ),
+    "chain": (
+        "Chain",
+        "Joint",
+    ),
+    "drawing": (
+        "draw",
+        "gallery_html",
+    ),
     "drawing.animation": ("animated_svg",),
+    "drawing.animation_frames": ("animated_frames",),
+    "drawing.animation_page": ("animated_page",),
+    "drawing.curve_plots": (
+        "coupler_plot",
+        "family_plot",
+        "hodograph",
+    ),
     "drawing.linkage_picture": ("draw_linkage",),
-    "enumeration": ("chains", "count_chains"),
-    "errors": ("CatalogError", "ChainError", "GrueblerError", "LinkageError", "NotationError", "PairError"),
-    "gears": ("GearError", "Train", "read_train"),
-    "geneva": ("Geneva", "GenevaError"),
+    "drawing.motion_picture": ("draw_motion",),
+    "drawing.motion_plots": (
+        "transfer_plot",
+        "transmission_plot",
+    ),
+    "drawing.plots": ("ratio_diagram",),
+    "enumeration": (
+        "chains",
+        "count_chains",
+    ),
+    "errors": (
+        "CatalogError",
+        "ChainError",
+        "GrueblerError",
+        "LinkageError",
+        "NotationError",
+        "PairError",
+    ),
+    "exercises": (
+        "exercise",
+        "fresh",
+        "solve",
+        "teaching_table",
+    ),
+    "gears": (
+        "GearError",
+        "Train",
+        "read_train",
+    ),
+    "geneva": (
+        "Geneva",
+        "GenevaError",
+    ),
     "geometry": (
+        "CouplerCurve",
         "centrodes",
         "cognates",
+        "coupler_curve",
         "coupler_sextic",
         "inflection_circle",
         "longest_piece",
@@ -169,9 +267,27 @@ _ROOMS = {
         "piece_of_ratio",
         "poles",
         "slider_cognates",
+        "tangent_contact",
     ),
-    "inversion": ("driven_mechanisms", "inversions"),
-    "isomorphism": ("code", "decode", "find_isomorphism", "is_isomorphic", "symmetry"),
+    "geometry.guidance": (
+        "GUIDANCES",
+        "guidance",
+    ),
+    "geometry.meyer_zur_capellen": (
+        "lambdas_for",
+        "symmetric_rocker",
+    ),
+    "inversion": (
+        "driven_mechanisms",
+        "inversions",
+    ),
+    "isomorphism": (
+        "code",
+        "decode",
+        "find_isomorphism",
+        "is_isomorphic",
+        "symmetry",
+    ),
     "kinematics": (
         "Circuit",
         "Measures",
@@ -186,27 +302,72 @@ _ROOMS = {
         "move_many",
         "rotatability",
     ),
-    "linkages": ("FourBar", "InvertedSliderCrank", "Linkage", "SliderCrank", "read_linkage", "write_linkage"),
-    "mechanism": ("Mechanism", "check_drives"),
-    "mobility": ("counted", "generic_mobility", "mobility_report"),
-    "pairs": ("PAIRS", "Alphabet", "Pair", "Space", "pair"),
-    "realisation": ("Realisation", "realise"),
-    "specialisation": ("Requirements", "joint_types", "variants"),
-    "transformation": ("derive", "extend"),
+    "linkages": (
+        "FourBar",
+        "InvertedSliderCrank",
+        "Linkage",
+        "SliderCrank",
+        "read_linkage",
+        "write_linkage",
+    ),
+    "linkages.expressions": ("Expression",),
+    "mechanism": (
+        "Mechanism",
+        "check_drives",
+    ),
+    "mobility": (
+        "counted",
+        "generic_mobility",
+        "mobility_report",
+    ),
+    "pairs": (
+        "PAIRS",
+        "Alphabet",
+        "Pair",
+        "Space",
+        "pair",
+    ),
+    "realisation": (
+        "Realisation",
+        "realise",
+    ),
+    "sheets": ("sheet",),
+    "specialisation": (
+        "Requirements",
+        "joint_types",
+        "variants",
+    ),
+    "statics": (
+        "Loads",
+        "Statics",
+        "slide_friction",
+        "slider_friction",
+    ),
+    "transformation": (
+        "derive",
+        "extend",
+    ),
 }
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 
 
 def _picture(thing: Any) -> str:
+    from gruebler.chain import Chain
+    from gruebler.mechanism import Mechanism
+
+    if isinstance(thing, Chain | Mechanism):
+        from gruebler.drawing import draw
+
+        return str(draw(thing, labels=True).svg())
     from gruebler.linkages import Linkage
 
     if isinstance(thing, Linkage):
         from gruebler.drawing.linkage_picture import draw_linkage
 
         return str(draw_linkage(thing, labels=True).svg())
-    from gruebler.drawing import draw
+    from gruebler.drawing.motion_picture import draw_motion
 
-    return str(draw(thing, labels=True).svg())
+    return str(draw_motion(thing).svg())
 
 
 views.picture = _picture

@@ -7,4 +7,4 @@ from collections.abc import Callable
 __all__ = ["picture"]
 
 picture: Callable[[object], str] | None = None
-"""Makes the SVG of a chain or mechanism; None until the front door has set it."""
+"""Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""

@@ -212,7 +212,7 @@ def test_rounding_noise_is_shown_as_zero(capsys):
 
 
 def test_several_drives_with_speeds(capsys, tmp_path):
-    """A five-bar that is a parallelogram with a kink: both cranks at one speed carry the coupler pins as translations."""
+    """A parallelogram with a kink: equal cranks at one speed shift the kink without turning its links."""
     from gruebler.linkages import Linkage
     from gruebler.mechanism import Mechanism
 

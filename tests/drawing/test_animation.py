@@ -119,5 +119,7 @@ def test_the_command(capsys, tmp_path):
     assert "<animateTransform" in capsys.readouterr().out
     assert animate.run(Namespace(linkage="four-bar:25,70,40,70", **(ANIMATE | {"output": tmp_path / "x.svg"}))) == 0
     assert (tmp_path / "x.svg").read_text("utf-8").startswith("<svg")
-    with pytest.raises(GrueblerError, match=r"end it with \.svg"):
-        animate.run(Namespace(linkage="wiper", **(ANIMATE | {"output": tmp_path / "x.png"})))
+    assert animate.run(Namespace(linkage="wiper", **(ANIMATE | {"output": tmp_path / "x.html"}))) == 0
+    assert (tmp_path / "x.html").read_text("utf-8").startswith("<!doctype html>")
+    with pytest.raises(GrueblerError, match=r"end it with \.svg, \.html, \.gif, \.webp or \.png"):
+        animate.run(Namespace(linkage="wiper", **(ANIMATE | {"output": tmp_path / "x.bmp"})))

@@ -18,9 +18,10 @@ from gruebler.catalog import entry
 from gruebler.cli import draw
 from gruebler.drawing.figure import Circle, Lines, Point, Text
 from gruebler.drawing.linkage_bodies import corners_of, parts, slides
-from gruebler.drawing.linkage_layers import coupler_curve, thinned
+from gruebler.drawing.linkage_layers import coupler_curve
 from gruebler.drawing.linkage_picture import draw_linkage
 from gruebler.drawing.stage import staged
+from gruebler.drawing.thinning import thinned
 from gruebler.errors import LinkageError
 from gruebler.kinematics import follow, move, transmission_angle
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, Named, Pin, SliderCrank

@@ -15,7 +15,7 @@ from gruebler.catalog import entries
 from gruebler.drawing import draw, draw_contracted, draw_graph, draw_loops, gallery_html, place
 from gruebler.drawing.files import picture_bytes, suffix_of
 from gruebler.drawing.gallery import Item, Section
-from gruebler.drawing.styles import COLOURS
+from gruebler.drawing.styles import COLOURS, LINES, STYLES
 from tests import strategies
 
 GOLDEN = Path(__file__).parent / "golden.json"
@@ -149,7 +149,16 @@ def test_both_grounds_are_readable():
         assert contrast("ink", "paper", ground) > 7
         assert contrast("ink", "body", ground) > 4.5
         assert contrast("ink", "frame", ground) > 4.5
-        assert contrast("accent", "paper", ground) > 3
+        for colour in ("accent", "motion", "green", "purple", "faint"):
+            assert contrast(colour, "paper", ground) > 3
+        assert contrast("ink", "warning", ground) > 7
+        assert contrast("motion", "warning", ground) > 3
+
+
+def test_lines_of_a_plot_are_told_apart_without_colour():
+    dashes = [STYLES[name].dash for name in LINES]
+    assert len(set(dashes[:4])) == 4
+    assert len({(STYLES[name].stroke, STYLES[name].dash) for name in LINES}) == len(LINES)
 
 
 def test_signs_of_joints():

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from gruebler import GrueblerError
 from gruebler.chain import Chain
 from gruebler.exercises import KINDS, LEVELS, Mark, exercise, fresh, mark, plain_key, solution_text, solve, task_text
-from gruebler.exercises.fresh import is_fresh
+from gruebler.exercises.making import is_fresh
 from gruebler.exercises.solution import number
 from gruebler.mobility import counted, generic_mobility
 

@@ -14,9 +14,9 @@ from gruebler.errors import CatalogError, LinkageError
 from gruebler.linkages.expressions import Expression
 from gruebler.sheets import sheet, sheets
 from gruebler.sheets.layout import page
+from gruebler.sheets.model import Sheet, Told
 from gruebler.sheets.prose import Number, explained, value_lines
 from gruebler.sheets.records import read_sheet
-from gruebler.sheets.sheet import Sheet, Told
 
 MZC = (catalog_folder() / "sheets" / "mzc.toml").read_text(encoding="utf-8")
 

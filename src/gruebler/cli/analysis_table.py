@@ -68,7 +68,8 @@ def columns(
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].direction.startswith("R")
     per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
-    timed = 1.0 if len(mechanism.drives) > 1 else speed
+    timed = len(mechanism.drives) > 1 or speed is not None
+    factor = speed if speed is not None else 1.0
     for output in outputs:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         out.append(_scaled(output.name, output.turning, linkage, output.track(motion)))
@@ -76,16 +77,15 @@ def columns(
             rates = output.track(motion, order)
             out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), rates, natural / unit**order))
         for order, letter in enumerate("ωα" if output.turning else "va", 1) if motion.order >= 2 and timed else ():
-            rates = output.track(motion, order) * timed**order
+            rates = output.track(motion, order) * factor**order
             name = f"{letter} {output.name}"
-            out.append(Column(name, f"{own}/{_seconds(order)}", rates, natural * (abs(timed) / unit) ** order))
+            out.append(Column(name, f"{own}/{_seconds(order)}", rates, natural * (abs(factor) / unit) ** order))
     if transmission is not None:
         out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))
     for name in points:
         at = motion.point(name)
         out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
         for order, axes in enumerate(_RATES, 1) if motion.order >= 2 else ():
-            factor = timed or 1.0
             rates = motion.point(name, order) * factor**order
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * (abs(factor) / unit) ** order

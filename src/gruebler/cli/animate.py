@@ -1,4 +1,4 @@
-"""`gruebler animate`: a linkage that moves by itself, as SVG without any script."""
+"""`gruebler animate`: a linkage that moves by itself, as SVG, as one HTML page with a slider, or as GIF, WebP, APNG."""
 
 from __future__ import annotations
 
@@ -6,20 +6,22 @@ import argparse
 import sys
 
 from gruebler.cli.draw import entry_of, sized, written
-from gruebler.drawing.animation import animated_svg
+from gruebler.drawing.animation import Options, animated_svg
+from gruebler.drawing.animation_page import animated_page
 from gruebler.drawing.files import suffix_of
+from gruebler.linkages import Linkage
 
 __all__ = ["run"]
 
+_SUFFIXES = ("svg", "html", "gif", "webp", "png")
+
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write the animation into a file, or on standard output."""
-    if arguments.output is not None:
-        suffix_of(arguments.output, ("svg",))
+    """Write the animation into a file, or as SVG on standard output."""
+    suffix = "svg" if arguments.output is None else suffix_of(arguments.output, _SUFFIXES)
     linkage, between = sized(arguments.linkage)
     record = entry_of(arguments.linkage)
-    text = animated_svg(
-        linkage,
+    options = Options(
         branch=arguments.branch,
         between=between,
         curves=arguments.curve,
@@ -27,8 +29,18 @@ def run(arguments: argparse.Namespace) -> int:
         lang=arguments.lang,
         name="" if record is None else record.name.said(arguments.lang),
     )
+    content = _content(linkage, suffix, options, getattr(arguments, "dark", False))
     if arguments.output is None:
-        sys.stdout.write(text)
+        sys.stdout.write(content.decode("utf-8"))
     else:
-        written(arguments.output, text.encode("utf-8"))
+        written(arguments.output, content)
     return 0
+
+
+def _content(linkage: Linkage, suffix: str, options: Options, dark: bool) -> bytes:
+    if suffix in ("svg", "html"):
+        text = animated_svg(linkage, **options) if suffix == "svg" else animated_page(linkage, **options)
+        return text.encode("utf-8")
+    from gruebler.drawing.animation_frames import animated_frames
+
+    return animated_frames(linkage, suffix, dark=dark, **options)

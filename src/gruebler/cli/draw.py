@@ -33,7 +33,7 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
 }
 
 
-_OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "branch": None, "of": None}
+_OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "ghosts": 0, "branch": None, "of": None}
 """Options that only linkages have."""
 
 
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is None:
         sys.stdout.write(figure.svg())
     else:
-        written(arguments.output, picture_bytes(figure, suffix))
+        written(arguments.output, picture_bytes(figure, suffix, dark=getattr(arguments, "dark", False)))
     return 0
 
 
@@ -84,6 +84,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
         curves=moving["curve"],
         show=moving["show"],
         output=moving["of"],
+        ghost=moving["ghosts"],
         labels=arguments.labels,
         lang=arguments.lang,
         name="" if record is None else record.name.said(arguments.lang),

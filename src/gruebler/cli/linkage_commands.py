@@ -31,7 +31,7 @@ def _add_analyse(commands: _Commands) -> None:
         "analyse",
         help="what a linkage does: dead centres, stroke, times, transmission angle, then poses and rates",
         description="Measures of a linkage with one drive, then a table of poses, rates and transmission angles; of "
-        "several drives the poses.",
+        "several drives the table.",
         epilog="Examples: gruebler analyse four-bar:25,70,40,70 --speed 60; gruebler analyse lambda --point C "
         "--drive 90:270:10. Exit status: 0 all well, 1 it cannot be assembled or not be moved all the way, 2 wrong "
         "usage or unreadable input.",
@@ -51,12 +51,25 @@ def _add_analyse(commands: _Commands) -> None:
         "(default: a full turn by 15 degrees, or the whole range)",
     )
     analyse.add_argument("--at", action="append", type=float, default=[], metavar="VALUE", help="one row only")
-    analyse.add_argument("--speed", type=float, metavar="N", help="turns a minute; of a slide, lengths a second")
+    analyse.add_argument(
+        "--speed",
+        action="append",
+        type=float,
+        default=[],
+        metavar="N",
+        help="turns a minute; of a slide, lengths a second; of several drives once each",
+    )
     analyse.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
     analyse.add_argument(
         "--point", action="append", default=[], metavar="K", help="a named point or a joint; repeatable"
     )
     analyse.add_argument("--output", action="append", default=[], metavar="LINK", help="the link looked at; repeatable")
+    analyse.add_argument(
+        "--poles", action="store_true", help="the instant centres of all pairs of links; with --at a list"
+    )
+    analyse.add_argument(
+        "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
+    )
     analyse.add_argument("--json", action="store_true", help="an object with linkage, measures, columns and rows")
     analyse.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the table as CSV, units in its header")
     _finish(analyse, "analyse")
@@ -208,7 +221,7 @@ def _add_draw(commands: _Commands) -> None:
         "draw",
         help="draw a chain or a mechanism",
         description="The structure picture of a chain or mechanism: links as bodies, joints by their signs, the frame "
-        "hatched, drives as arrows. With --pose, --curve or --show, or of a linkage: to scale.",
+        "hatched, drives as arrows. With --pose, --curve, --show or --ghosts, or of a linkage: to scale.",
         epilog="Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
     draw.add_argument(
@@ -231,16 +244,30 @@ def _add_draw(commands: _Commands) -> None:
         "--show",
         action="append",
         default=[],
-        choices=("dead-centres", "transmission", "velocities", "poles", "scale"),
+        choices=(
+            "dead-centres",
+            "transmission",
+            "velocities",
+            "accelerations",
+            "poles",
+            "centrodes",
+            "inflection",
+            "dimensions",
+            "scale",
+        ),
         help="also show this; repeatable",
     )
-    draw.add_argument("--of", metavar="LINK", help="the output whose dead centres and transmission angle are shown")
+    draw.add_argument("--ghosts", type=int, default=0, metavar="N", help="so many other positions thinly, for print")
+    draw.add_argument(
+        "--of", metavar="LINK", help="the link whose dead centres, transmission angle, centrodes, ... are shown"
+    )
     draw.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
     draw.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
     draw.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
     draw.add_argument("--frame", metavar="LINK", help="the link that stands still")
     draw.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
     draw.add_argument("--labels", action="store_true", help="name the links")
+    draw.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; SVG is on that of the reader")
     view = draw.add_mutually_exclusive_group()
     view.add_argument("--graph", action="store_true", help="the link graph instead")
     view.add_argument("--contracted", action="store_true", help="the contracted graph instead")
@@ -251,14 +278,18 @@ def _add_draw(commands: _Commands) -> None:
 def _add_animate(commands: _Commands) -> None:
     animate = commands.add_parser(
         "animate",
-        help="a linkage that moves by itself, as SVG",
-        description="A full turn of the drive, or to and fro where it has limits, over and over; SVG, no script.",
-        epilog="Example: gruebler animate wiper -o wiper.svg --seconds 3. Without -o the SVG goes to standard output.",
+        help="a linkage that moves by itself: SVG, an HTML page with a slider, GIF, WebP, APNG",
+        description="A full turn of the drive, or to and fro where it has limits, over and over. SVG without script; "
+        "one HTML page with play, pause and a slider for the drive; pictures as .gif, .webp or .png (APNG).",
+        epilog="Example: gruebler animate wiper -o wiper.html --seconds 3. Without -o the SVG goes to standard output. "
+        "GIF, WebP and PNG need matplotlib: pip install 'gruebler[plot]'.",
     )
     animate.add_argument(
         "linkage", metavar="FILE|ID", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
     )
-    animate.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg")
+    animate.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="a file .svg, .html, .gif, .webp or .png (APNG)"
+    )
     animate.add_argument(
         "--curve", action="append", default=[], metavar="POINT", help="the path of a point or joint; repeatable"
     )
@@ -266,6 +297,7 @@ def _add_animate(commands: _Commands) -> None:
         "--seconds", type=float, default=4.0, metavar="S", help="for a turn, or for there and back (default: 4)"
     )
     animate.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +-")
+    animate.add_argument("--dark", action="store_true", help="GIF, WebP and PNG on dark ground")
     _finish(animate, "animate")
 
 

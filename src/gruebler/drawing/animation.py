@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
+from typing import NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
-from gruebler.drawing.figure import Figure, Shape, bounds
+from gruebler.drawing.figure import Figure, Point, Shape, bounds
 from gruebler.drawing.linkage_bodies import PINS, Part, at_pose, parts
 from gruebler.drawing.linkage_layers import coupler_curve, drive_arrows
 from gruebler.drawing.prose import describe, title
@@ -19,7 +20,7 @@ from gruebler.drawing.svg import document, element, number
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 
-__all__ = ["animated_svg"]
+__all__ = ["Options", "Scene", "animated_svg", "scene", "svg_of"]
 
 _WORDS = {
     "en": {True: "It moves through {turns} turn(s) of its drive.", False: "It moves to and fro through its range."},
@@ -32,7 +33,39 @@ _LONGEST = 3600.0  # seconds
 _MARGIN = 16.0
 
 
-def animated_svg(
+class Options(TypedDict, total=False):
+    """Arguments of `scene` besides the linkage."""
+
+    branch: str | Iterable[str] | None
+    between: tuple[float, float] | None
+    curves: Sequence[str]
+    seconds: float
+    lang: str
+    name: str
+
+
+class Scene(NamedTuple):
+    """A linkage through a full turn of its drive, or to and fro, in pixels."""
+
+    stage: Stage
+    pieces: tuple[Part, ...]
+    still: tuple[Shape, ...]
+    """Curves and the arrow of the drive."""
+    corner: Point
+    """The upper left corner of all that is ever seen."""
+    page: Figure
+    """Without shapes: size and words."""
+    seconds: float
+    """Until everything repeats."""
+
+    @property
+    def rows(self) -> list[int]:
+        """The poses in the order in which they come, evenly in time; the last is the first again."""
+        there = [*range(len(self.stage.path))]
+        return there if self.stage.goes_round else there + there[-2::-1]
+
+
+def scene(
     linkage: Linkage,
     *,
     branch: str | Iterable[str] | None = None,
@@ -41,8 +74,8 @@ def animated_svg(
     seconds: float = 4.0,
     lang: str = "en",
     name: str = "",
-) -> str:
-    """A linkage through a full turn of its drive, or to and fro where the drive has limits, over and over.
+) -> Scene:
+    """What all kinds of animations show.
 
     Args:
         linkage: with one drive.
@@ -54,35 +87,48 @@ def animated_svg(
         name: the title, if it is not to be found out.
 
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
+    """
+    if not 0 < seconds <= _LONGEST:
+        raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
+    stage = staged(linkage, branch=branch, between=between)
+    turns = stage.driven().span.turns
+    pieces = parts(stage)
+    rows = range(0, len(stage.path), 2)
+    poses = [shape for row in rows for part in pieces for shape in at_pose(stage, part, stage.path, row)]
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
+    still = (*curve, *_arrows(stage))
+    corner, size = bounds([*poses, *still], _MARGIN)
+    words = _WORDS[lang][stage.goes_round].format(turns=turns)
+    described = f"{describe(linkage.mechanism, lang)} {words}"
+    page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
+    return Scene(stage, pieces, still, corner, page, seconds * (turns if stage.goes_round else 1))
+
+
+def animated_svg(linkage: Linkage, **options: Unpack[Options]) -> str:
+    """A linkage through a full turn of its drive, or to and fro where the drive has limits, over and over.
+
+    Options and errors are those of `scene`.
 
     >>> from gruebler.linkages import FourBar
     >>> text = animated_svg(FourBar(25, 70, 40, 70).linkage())
     >>> text.count("<animateTransform"), "<script" in text
     (10, False)
     """
-    if not 0 < seconds <= _LONGEST:
-        raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
-    stage = staged(linkage, branch=branch, between=between)
-    course = stage.driven()
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
-    pieces = parts(stage)
-    rows = range(0, len(stage.path), 2)
-    poses = [shape for row in rows for part in pieces for shape in at_pose(stage, part, stage.path, row)]
-    still = [*curve, *(_arrows(stage))]
-    corner, size = bounds([*poses, *still], _MARGIN)
-    words = _WORDS[lang][stage.goes_round].format(turns=course.span.turns)
-    described = f"{describe(linkage.mechanism, lang)} {words}"
-    page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
-    motion = _Motion(stage, seconds * (course.span.turns if stage.goes_round else 1))
+    return svg_of(scene(linkage, **options))
+
+
+def svg_of(shown: Scene) -> str:
+    """The scene as SVG that moves by itself."""
+    motion = _Motion(shown)
     lines = [
-        f'<g transform="translate({number(-corner.x)} {number(-corner.y)})">',
-        *motion.groups([part for part in pieces if part.layer < PINS]),
-        *map(element, still),
-        *motion.groups([part for part in pieces if part.layer == PINS]),
+        f'<g transform="translate({number(-shown.corner.x)} {number(-shown.corner.y)})">',
+        *motion.groups([part for part in shown.pieces if part.layer < PINS]),
+        *map(element, shown.still),
+        *motion.groups([part for part in shown.pieces if part.layer == PINS]),
         "</g>",
     ]
-    used = [shape.style for shape in still] + [shape.style for part in pieces for shape in part.shapes]
-    return document(page, used, lines)
+    used = [shape.style for shape in shown.still] + [shape.style for part in shown.pieces for shape in part.shapes]
+    return document(shown.page, used, lines)
 
 
 def _arrows(stage: Stage) -> list[Shape]:
@@ -95,10 +141,10 @@ def _arrows(stage: Stage) -> list[Shape]:
 class _Motion:
     """Writes parts as groups that move for ever."""
 
-    def __init__(self, stage: Stage, seconds: float) -> None:
-        self.stage = stage
-        self.rows = [*range(len(stage.path)), *([] if stage.goes_round else range(len(stage.path) - 2, -1, -1))]
-        self.timing = f'dur="{seconds:g}s" repeatCount="indefinite"'
+    def __init__(self, shown: Scene) -> None:
+        self.stage = shown.stage
+        self.rows = shown.rows
+        self.timing = f'dur="{shown.seconds:g}s" repeatCount="indefinite"'
 
     def groups(self, pieces: Sequence[Part]) -> Iterator[str]:
         """A group for parts of the same link that follow each other; what belongs to the frame stands still."""

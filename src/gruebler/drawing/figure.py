@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-__all__ = ["Arc", "Circle", "Figure", "Lines", "Point", "Shape", "Text", "bounds", "figure_of", "text_width"]
+__all__ = ["Arc", "Circle", "Figure", "Lines", "Point", "Shape", "Text", "bounds", "figure_of", "moved", "text_width"]
 
 
 class Point(NamedTuple):
@@ -119,8 +119,8 @@ def figure_of(shapes: Iterable[Shape], title: str, description: str, margin: flo
     """The figure that just holds the shapes."""
     all_shapes = tuple(shapes)
     corner, size = bounds(all_shapes, margin)
-    moved = tuple(_moved(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
-    return Figure(moved, size.x, size.y, title, description)
+    placed = tuple(moved(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
+    return Figure(placed, size.x, size.y, title, description)
 
 
 def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]:
@@ -148,7 +148,8 @@ def _corners(shape: Shape) -> Iterator[Point]:
             yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
 
 
-def _moved(shape: Shape, by: Point) -> Shape:
+def moved(shape: Shape, by: Point) -> Shape:
+    """The shape somewhere else."""
     match shape:
         case Lines(parts, style, closed):
             return Lines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)

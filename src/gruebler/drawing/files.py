@@ -22,12 +22,15 @@ def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
     return suffix
 
 
-def picture_bytes(figure: Figure, suffix: str) -> bytes:
-    """The content of an ``svg``, ``png`` or ``pdf`` file; `GrueblerError` if matplotlib is needed and missing."""
+def picture_bytes(figure: Figure, suffix: str, *, dark: bool = False) -> bytes:
+    """The content of an ``svg``, ``png`` or ``pdf`` file; `GrueblerError` if matplotlib is needed and missing.
+
+    PNG and PDF are on light or dark ground; SVG is on that of the reader.
+    """
     if suffix == "svg":
         return figure.svg().encode("utf-8")
     from gruebler.drawing.plotting import save
 
     memory = io.BytesIO()
-    save(figure, memory, suffix)
+    save(figure, memory, suffix, dark=dark)
     return memory.getvalue()

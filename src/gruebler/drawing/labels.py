@@ -7,10 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
-from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text, text_width
+from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text, bounds, text_width
 from gruebler.drawing.styles import BAR, STYLES
 
-__all__ = ["Room", "labelled", "legend", "noted", "short_names"]
+__all__ = ["Room", "Segment", "core", "distance", "labelled", "legend", "noted", "obstacles", "short_names"]
 
 _HALF = 7.0  # half the height of a text
 _ENOUGH = 7.0  # pixels around a text; more is no better
@@ -18,6 +18,8 @@ _LEAST = 1.5
 _OUTSIDE = 5.0  # pixels of free space that are given up for a place at the border of the picture
 _COLUMN = 18.0  # from line to line of the list
 _SHORT = 3  # names of so many letters are taken as numbers: they stand beside their links in any case
+
+_FROM_ANCHOR = {"start": 0.5, "middle": 0.0, "end": -0.5}
 
 Segment = tuple[Point, Point]
 
@@ -41,7 +43,7 @@ def labelled(
     numbers = {link: str(k) for k, link in enumerate(outlines, 1)}
     found = _placed(outlines, closed, Room(drawn, points), numbers)
     assert found is not None  # numbers are short
-    return [*shapes, *found, *legend({called[link]: number for link, number in numbers.items()}, points)]
+    return [*shapes, *found, *legend({called[link]: number for link, number in numbers.items()}, points, shapes)]
 
 
 def noted(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Text:
@@ -74,7 +76,7 @@ def _placed(
         free, _, place, wide = max(tried, key=lambda one: (one[0] >= _LEAST, one[0] + one[1]))
         if free < _LEAST and len(names[link]) > _SHORT:
             return None
-        room.taken.append(_core(place, wide))
+        room.taken.append(core(place, wide))
         texts.append(Text(place, names[link], "name"))
     return texts
 
@@ -93,7 +95,7 @@ def _candidates(outline: Sequence[Point], closed: bool, wide: float) -> Iterator
                 yield a.plus(along, part).plus(n, off), wide, abs(part - 0.5)
 
 
-def _core(at: Point, wide: float) -> Segment:
+def core(at: Point, wide: float) -> Segment:
     """The middle line of a text; all of the text is within half its height."""
     half = max(0.0, wide / 2 - _HALF)
     return Point(at.x - half, at.y), Point(at.x + half, at.y)
@@ -109,11 +111,11 @@ class Room:
 
     def free(self, at: Point, wide: float) -> float:
         """How many pixels are free around a text, up to what is enough."""
-        core = _core(at, wide)
+        middle = core(at, wide)
         space = _ENOUGH
         for segment, half in [*self.drawn, *((text, _HALF) for text in self.taken)]:
-            if _gap(core, segment) < space + half + _HALF:
-                space = min(space, _distance(core, segment) - half - _HALF)
+            if _gap(middle, segment) < space + half + _HALF:
+                space = min(space, distance(middle, segment) - half - _HALF)
         return space
 
     def outside(self, at: Point) -> float:
@@ -124,6 +126,7 @@ class Room:
 
 
 def obstacles(shapes: Sequence[Shape]) -> Iterator[tuple[Segment, float]]:
+    """The segments of shapes, with half their width."""
     for shape in shapes:
         match shape:
             case Lines(parts, style, closed) if not style.startswith("halo"):
@@ -133,8 +136,9 @@ def obstacles(shapes: Sequence[Shape]) -> Iterator[tuple[Segment, float]]:
                     yield from (((a, b), half) for a, b in pairwise(ends))
             case Circle(at, radius) | Arc(at, radius):
                 yield (at, at), radius
-            case Text(at, words, style, "middle"):
-                yield _core(at, text_width(words, STYLES[style].size)), _HALF
+            case Text(at, words, style, anchor):
+                wide = text_width(words, STYLES[style].size)
+                yield core(Point(at.x + _FROM_ANCHOR[anchor] * wide, at.y), wide), _HALF
 
 
 def _gap(level: Segment, other: Segment) -> float:
@@ -144,7 +148,7 @@ def _gap(level: Segment, other: Segment) -> float:
     return max(beside, min(c.y, d.y) - a.y, a.y - max(c.y, d.y))
 
 
-def _distance(one: Segment, other: Segment) -> float:
+def distance(one: Segment, other: Segment) -> float:
     """Between two segments; 0 if they cross."""
     if _cross(one, other):
         return 0.0
@@ -168,10 +172,13 @@ def _cross(one: Segment, other: Segment) -> bool:
     return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
 
 
-def legend(names: Mapping[str, str], points: Sequence[Point]) -> Iterator[Text]:
-    """Numbers and names in columns below the picture, about as wide as it."""
+def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[Shape] = ()) -> Iterator[Text]:
+    """Numbers and names in columns below points and shapes, about as wide as the points."""
     left, right = min(p.x for p in points), max(p.x for p in points)
     top = max(p.y for p in points) + 44.0
+    if shapes:
+        corner, size = bounds(shapes, 0.0)
+        top = max(top, corner.y + size.y + 14.0)
     entries = [f"{number}  {link}" for link, number in names.items()]
     widest = max(map(text_width, entries)) + 18.0
     columns = max(1, int((right - left + 40.0) / widest))

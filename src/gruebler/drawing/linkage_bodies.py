@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from gruebler.drawing.symbols import Member, joint_sign, ticks
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line, Linkage, Pin
 
-__all__ = ["Part", "Slide", "at_pose", "corners_of", "parts", "slides"]
+__all__ = ["Part", "Slide", "at_pose", "corners_of", "hull", "parts", "slides"]
 
 FRAME, BODIES, BLOCKS, PINS = range(4)
 """Layers, from below."""
@@ -169,10 +170,10 @@ def corners_of(stage: Stage, link: str, found: tuple[Slide, ...]) -> tuple[Point
             middle = sum(nodes) / len(nodes) if nodes else slide.low
             way = ((middle - slide.low) * slide.along.conjugate()).real
             nodes.append(slide.low + slide.along * min(max(way, 0.0), abs(slide.high - slide.low)))
-    return _hull([stage.local(z) for z in nodes], _FLAT * lower.size * stage.scale)
+    return hull([stage.local(z) for z in nodes], _FLAT * lower.size * stage.scale)
 
 
-def _hull(points: list[Point], flat: float) -> tuple[Point, ...]:
+def hull(points: Sequence[Point], flat: float) -> tuple[Point, ...]:
     """The convex hull; of points on a line its two ends."""
     left = sorted({Point(round(p.x, 6), round(p.y, 6)) for p in points})
     if len(left) < 3:

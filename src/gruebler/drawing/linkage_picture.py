@@ -9,14 +9,16 @@ from math import degrees
 from gruebler.drawing.figure import Figure, Lines, Point, Shape, figure_of
 from gruebler.drawing.labels import labelled
 from gruebler.drawing.linkage_bodies import BLOCKS, BODIES, FRAME, PINS, Part, at_pose, corners_of, parts, slides
-from gruebler.drawing.linkage_layers import Sheet, coupler_curve, drive_arrows, layer, point_names
+from gruebler.drawing.linkage_layers import BELOW, coupler_curve, drive_arrows, ghosts, layer, point_names
 from gruebler.drawing.prose import describe, title
+from gruebler.drawing.sheet import Sheet
 from gruebler.drawing.stage import Stage, staged
+from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 
 __all__ = ["draw_linkage", "told"]
 
-_BELOW = ("dead-centres",)  # layers that lie under the bodies
+_MOST_GHOSTS = 60
 _MARGIN = 16.0  # pixels; half the width of a link with a slot is less
 _AROUND = 17.0  # pixels from the middle of a block to its name
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
@@ -25,21 +27,27 @@ _WORDS = {
     "en": {
         "pose": "To scale. Drive at {values}.",
         "curve": "Curve of {names}.",
+        "ghosts": "{count} positions thinly.",
         "shown": "Shown: {names}.",
         "none": "Not there: {names}.",
     },
     "de": {
         "pose": "Maßstäblich. Antrieb bei {values}.",
         "curve": "Bahnkurve von {names}.",
+        "ghosts": "{count} Stellungen dünn.",
         "shown": "Eingezeichnet: {names}.",
         "none": "Nicht vorhanden: {names}.",
     },
 }
 _LAYER_NAMES = {
     "dead-centres": ("dead centres", "Totlagen"),
+    "centrodes": ("fixed centrode p, moving centrode q", "Rastpolbahn p, Gangpolbahn q"),
+    "inflection": ("inflection circle with pole P, inflection pole W", "Wendekreis mit Pol P, Wendepol W"),
     "transmission": ("transmission angle", "Übertragungswinkel"),
     "velocities": ("velocities", "Geschwindigkeiten"),
+    "accelerations": ("accelerations", "Beschleunigungen"),
     "poles": ("instant centres", "Momentanpole"),
+    "dimensions": ("dimensions", "Maße"),
     "scale": ("scale", "Maßstab"),
 }
 
@@ -53,6 +61,7 @@ def draw_linkage(
     curves: Sequence[str] = (),
     show: Sequence[str] = (),
     output: str | None = None,
+    ghost: int = 0,
     labels: bool = False,
     lang: str = "en",
     name: str = "",
@@ -66,8 +75,11 @@ def draw_linkage(
         branch: the assembly mode, as for `gruebler.kinematics.move`.
         between: drive values between which it is used, if not the whole range: for curves and the size of the picture.
         curves: points or joints whose paths are drawn.
-        show: ``dead-centres``, ``transmission``, ``velocities``, ``poles``, ``scale``.
-        output: the link that dead centres and transmission angle are those of; the linkage's own without it.
+        show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
+            ``inflection``, ``dimensions``, ``scale``.
+        output: the link that dead centres and transmission angle are those of, the linkage's own without it; also
+            that of centrodes and inflection circle, without it a link that is no neighbour of the frame.
+        ghost: so many positions are drawn thinly, evenly through the range of the drive; at most 60.
         labels: whether to name the links.
         lang: language of title and description, ``en`` or ``de``.
         name: the title, if it is not to be found out.
@@ -84,13 +96,16 @@ def draw_linkage(
     layers = {key: layer(key) for key in dict.fromkeys(show)}
     curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
     pieces = parts(stage)
-    below = {key: layers[key](Sheet(stage, output, ())) for key in layers if key in _BELOW}
+    frame = _at(stage, pieces, FRAME, FRAME)
+    pins = _at(stage, pieces, PINS, PINS)
+    below = {key: layers[key](Sheet(stage, output, [*frame, *pins])) for key in layers if key in BELOW}
     shapes = [
-        *_at(stage, pieces, FRAME, FRAME),
+        *frame,
+        *(ghosts(stage, _count(ghost)) if ghost else []),
         *(shape for made in below.values() for shape in made),
         *_at(stage, pieces, BODIES, PINS - 1),
         *curve,
-        *_at(stage, pieces, PINS, PINS),
+        *pins,
         *drive_arrows(stage),
     ]
     empty = [key for key in below if not below[key]]
@@ -101,7 +116,7 @@ def draw_linkage(
     shapes += point_names(stage, shapes)
     if labels:
         shapes = _named(stage, shapes, names)
-    described = f"{describe(linkage.mechanism, lang)} {told(stage, curves, tuple(layers), empty, lang)}"
+    described = f"{describe(linkage.mechanism, lang)} {told(stage, curves, tuple(layers), empty, lang, ghost)}"
     return figure_of(shapes, title(linkage.mechanism, lang, name), described, margin=_MARGIN)
 
 
@@ -138,7 +153,15 @@ def _perimeter(corners: Sequence[Point]) -> float:
     return sum(b.minus(a).length for a, b in pairwise([*corners, corners[0]]))
 
 
-def told(stage: Stage, curves: Sequence[str], layers: Sequence[str], empty: Sequence[str], lang: str) -> str:
+def _count(number: int) -> int:
+    if not 0 < number <= _MOST_GHOSTS:
+        raise LinkageError(f"expected 1 to {_MOST_GHOSTS} thin positions, but found {number!r}")
+    return number
+
+
+def told(
+    stage: Stage, curves: Sequence[str], layers: Sequence[str], empty: Sequence[str], lang: str, count: int = 0
+) -> str:
     """The pose, what is shown, and what was asked for but is not there, in words."""
     words, mechanism = _WORDS[lang], stage.lower.mechanism
     values = [
@@ -150,6 +173,8 @@ def told(stage: Stage, curves: Sequence[str], layers: Sequence[str], empty: Sequ
     said = [words["pose"].format(values=", ".join(values))]
     if curves:
         said.append(words["curve"].format(names=", ".join(dict.fromkeys(curves))))
+    if count:
+        said.append(words["ghosts"].format(count=count))
     for word, keys in (("shown", [key for key in layers if key not in empty]), ("none", empty)):
         if keys:
             said.append(words[word].format(names=", ".join(_LAYER_NAMES[key][lang == "de"] for key in keys)))

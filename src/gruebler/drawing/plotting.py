@@ -19,23 +19,24 @@ __all__ = ["gallery_pdf", "paint_on", "painted", "save"]
 _POINTS = 72 / 96  # of print, to a pixel
 
 
-def save(figure: Figure, file: str | Path | BinaryIO, suffix: str, *, zoom: float = 3.0) -> None:
-    """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``.
+def save(figure: Figure, file: str | Path | BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
+    """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``, on light or dark ground.
 
     Raises `GrueblerError` if matplotlib is not installed.
     """
-    canvas = painted(figure)
+    canvas = painted(figure, dark=dark)
     canvas.savefig(file, format=suffix, dpi=96 * zoom, metadata=_METADATA[suffix] | {"Title": figure.title})
 
 
 _METADATA: dict[str, dict[str, Any]] = {"png": {"Software": None}, "pdf": {"CreationDate": None, "Creator": None}}
 
 
-def painted(figure: Figure) -> Any:
+def painted(figure: Figure, *, dark: bool = False) -> Any:
     """The figure as one of matplotlib's, without pyplot, 96 pixels to the inch."""
-    canvas = _library().Figure(figsize=(figure.width / 96, figure.height / 96))
+    paper = COLOURS["paper"][dark]
+    canvas = _library().Figure(figsize=(figure.width / 96, figure.height / 96), facecolor=paper)
     axes = canvas.add_axes((0, 0, 1, 1))
-    paint_on(axes, figure)
+    paint_on(axes, figure, dark=dark)
     return canvas
 
 
@@ -50,17 +51,17 @@ def _library() -> Any:
     return figure
 
 
-def paint_on(axes: Any, figure: Figure, *, scale: float = 1.0) -> None:
-    """Paint a figure on axes, on light ground; ``scale`` is the size of a pixel there, at 96 to the inch."""
+def paint_on(axes: Any, figure: Figure, *, scale: float = 1.0, dark: bool = False) -> None:
+    """Paint a figure on axes; ``scale`` is the size of a pixel there, at 96 to the inch."""
     axes.set_xlim(0, figure.width)
     axes.set_ylim(figure.height, 0)
     axes.set_aspect("equal")
     axes.axis("off")
     for order, shape in enumerate(figure.shapes):
-        _paint(axes, shape, order, scale * _POINTS)
+        _paint(axes, shape, order, scale * _POINTS, dark)
 
 
-def _paint(axes: Any, shape: Shape, order: int, point: float) -> None:
+def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> None:
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
 
@@ -70,7 +71,7 @@ def _paint(axes: Any, shape: Shape, order: int, point: float) -> None:
             *shape.at,
             shape.words,
             fontsize=style.size * point,
-            color=COLOURS[style.fill][0],
+            color=COLOURS[style.fill][dark],
             ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
             va="center_baseline",
             zorder=order,
@@ -90,9 +91,10 @@ def _paint(axes: Any, shape: Shape, order: int, point: float) -> None:
     axes.add_patch(
         PathPatch(
             outline,
-            facecolor=COLOURS[style.fill][0] if style.fill else "none",
-            edgecolor=COLOURS[style.stroke][0] if style.stroke else "none",
+            facecolor=COLOURS[style.fill][dark] if style.fill else "none",
+            edgecolor=COLOURS[style.stroke][dark] if style.stroke else "none",
             linewidth=style.width * point,
+            linestyle=(0, [length / style.width for length in style.dash]) if style.dash else "-",
             capstyle="round",
             joinstyle="round",
             zorder=order,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -18,7 +18,7 @@ from gruebler.kinematics.home import at_home
 from gruebler.kinematics.moving import planned
 from gruebler.linkages import Linkage, Named, Pin
 
-__all__ = ["Stage", "staged"]
+__all__ = ["Stage", "drive_rows", "floating", "nodes", "stage_of", "staged"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -80,6 +80,22 @@ class Stage:
         return self.course
 
 
+def stage_of(motion: Motion) -> Stage:
+    """A motion of one row or more as it was solved, its first row as the pose; without the rest of its course."""
+    first = replace(
+        motion,
+        drives=motion.drives[:1],
+        places=motion.places[:, :1],
+        turns=motion.turns[:1],
+        rates=motion.rates[:, :1],
+        whole=motion.whole[:1],
+        roots=motion.roots[:1],
+        unknowns=motion.unknowns[:1],
+        unbounded=(),
+    )
+    return Stage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
+
+
 def _is_whole(course: Course, drives: Reals) -> bool:
     """Whether drive values go through all turns after which everything repeats."""
     return bool(drives[-1] - drives[0] > course.span.period * (1 - 1e-9))
@@ -110,7 +126,7 @@ def staged(
         raise LinkageError(f"drive values are numbers, but found {drive!r}") from None
     if len(linkage.mechanism.drives) == 1:
         course = follow(linkage, branch)
-        path = course.at(_rows(course, between), 0)
+        path = course.at(drive_rows(course, between), 0)
         pose = course.at(np.array([_value(course, given, path.drives[:, 0])]), 2)
         return Stage(plan.lower, course, pose, path, _scale(plan.lower, path))
     if given is None:
@@ -122,12 +138,15 @@ def staged(
     return Stage(plan.lower, None, pose, pose, _scale(plan.lower, pose))
 
 
-def _rows(course: Course, between: tuple[float, float] | None) -> Reals:
-    """Drive values: even ones of full turns, else slow at both ends."""
+def drive_rows(course: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
+    """Drive values: so many even ones of each full turn, else of the whole range, slow at both ends.
+
+    Raises `LinkageError` if nothing of the range lies between the two values asked for.
+    """
     span = course.span
     low, high = span.low, span.high
     if between is None and span.full:
-        return np.linspace(low, high, _ROWS * span.turns + 1)
+        return np.linspace(low, high, count * span.turns + 1)
     if not course.turning_drive:
         middle, room = float(course.start.drives[0, 0]), _ENDLESS * course.plan.lower.size
         low = low if span.stops[0] is not None else max(low, middle - room)
@@ -140,7 +159,7 @@ def _rows(course: Course, between: tuple[float, float] | None) -> Reals:
         low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
     if not high > low:
         raise LinkageError(f"{_range(course)}; nothing of it lies between the two values asked for")
-    return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2
+    return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
 def _value(course: Course, given: Reals | None, rows: Reals) -> float:
@@ -166,6 +185,21 @@ def _range(course: Course) -> str:
 
 def _said(course: Course, value: float) -> str:
     return f"{math.degrees(value):.6g} degrees" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
+
+
+def floating(linkage: Linkage) -> str:
+    """Of the links that are no neighbours of the frame the one with most joints and points; else the last link."""
+    mechanism = linkage.mechanism
+    near = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
+    far = [link for link in mechanism.chain.links if link not in near]
+    moving = [link for link in mechanism.chain.links if link != mechanism.frame]
+    return max(far, key=lambda link: len(nodes(linkage, link))) if far else moving[-1]
+
+
+def nodes(linkage: Linkage, link: str) -> list[complex]:
+    """The places of the joints and then the named points of a link, in its coordinates, each once."""
+    joints = [complex(e.x, e.y) for (_, own), e in linkage.elements.items() if own == link]
+    return list(dict.fromkeys([*joints, *(complex(p.x, p.y) for p in linkage.points.values() if p.link == link)]))
 
 
 def _reached(lower: Linkage, path: Motion) -> Complexes:

@@ -2,14 +2,15 @@
 
 Links are told apart by outline and hatching, never by colour alone; the accent (drives, loops) and the colour of motion
 (curves, velocities) are the vermilion and the blue of the palette of Okabe and Ito (2008), which all kinds of colour
-vision tell from grey and from each other.
+vision tell from grey and from each other; green and purple are theirs too, darker on light ground. Lines of a plot are
+told apart by their dashes as well.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-__all__ = ["BAR", "COLOURS", "LINE", "ROD", "SLOT", "STYLES", "Style"]
+__all__ = ["BAR", "COLOURS", "LINE", "LINES", "ROD", "SLOT", "STYLES", "Style"]
 
 BAR = 9.0
 """Width of a link."""
@@ -29,17 +30,24 @@ COLOURS = {
     "faint": ("#8a929c", "#868e99"),
     "accent": ("#d55e00", "#ff8c3a"),
     "motion": ("#0072b2", "#56b4e9"),
+    "green": ("#00805e", "#2fc79b"),
+    "purple": ("#9b4f83", "#dd9cc4"),
+    "grid": ("#dde1e6", "#333a43"),
+    "warning": ("#f8e6da", "#402b1f"),
 }
 
 
 class Style(NamedTuple):
-    """Fill and stroke by role (none where empty), width of the stroke, size of text."""
+    """Fill and stroke by role (none where empty), width of the stroke, size of text, lengths of dashes and gaps."""
 
     fill: str = ""
     stroke: str = ""
     width: float = 0.0
     size: float = 0.0
+    dash: tuple[float, ...] = ()
 
+
+_DASHED, _DOTTED, _MIXED = (7.0, 4.5), (0.5, 4.0), (9.0, 4.0, 0.5, 4.0)
 
 STYLES = {
     "ground": Style(fill="paper"),
@@ -81,4 +89,26 @@ STYLES = {
     "velocity-head": Style(fill="motion"),
     "measure": Style(stroke="ink", width=1.1),
     "value": Style(fill="ink", size=12),
+    "acceleration": Style(stroke="green", width=1.8),
+    "acceleration-head": Style(fill="green"),
+    "dimension": Style(stroke="faint", width=1.0),
+    "dimension-head": Style(fill="faint"),
+    "centrode-fixed": Style(stroke="green", width=1.6),
+    "centrode-moving": Style(stroke="purple", width=1.6, dash=_DASHED),
+    "inflection": Style(stroke="accent", width=1.5, dash=_DASHED),
+    "warning": Style(fill="warning"),
+    "grid": Style(stroke="grid", width=1.0),
+    "axis": Style(stroke="ink", width=1.2),
+    "dead": Style(stroke="faint", width=1.2, dash=_DASHED),
+    "tick": Style(fill="ink", size=11),
+    "line-1": Style(stroke="motion", width=1.9),
+    "line-2": Style(stroke="accent", width=1.9, dash=_DASHED),
+    "line-3": Style(stroke="green", width=1.9, dash=_DOTTED),
+    "line-4": Style(stroke="purple", width=1.9, dash=_MIXED),
+    "line-5": Style(stroke="ink", width=1.4),
+    "line-6": Style(stroke="motion", width=1.9, dash=_DASHED),
+    "line-7": Style(stroke="accent", width=1.9, dash=_DOTTED),
+    "line-8": Style(stroke="green", width=1.9, dash=_MIXED),
 }
+LINES = tuple(name for name in STYLES if name.startswith("line-"))
+"""Styles of the lines of a plot, in the order in which they are taken."""

@@ -57,6 +57,8 @@ def _declarations(style: Style, ground: int) -> str:
         parts.append(f"stroke:{COLOURS[style.stroke][ground]}")
     if ground == 0 and style.stroke:
         parts.append(f"stroke-width:{style.width:g}")
+    if ground == 0 and style.dash:
+        parts.append(f"stroke-dasharray:{' '.join(f'{length:g}' for length in style.dash)}")
     if ground == 0 and style.size:
         parts.append(f"font-size:{style.size:g}px")
     return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])

@@ -5,7 +5,7 @@ exercises of the seeds, the worked examples and fresh tasks alike; what is print
 as a result. docs/theory/exercises.md has the conventions and the misprints with the computed values.
 """
 
-from gruebler.exercises.fresh import KINDS, LEVELS, fresh
+from gruebler.exercises.making import KINDS, LEVELS, fresh
 from gruebler.exercises.marking import Mark, Marked, mark, plain_key
 from gruebler.exercises.plain import plain_marks, plain_solution, plain_table, plain_task
 from gruebler.exercises.prose import lines_of_table, said_source, said_value, solution_text, task_text

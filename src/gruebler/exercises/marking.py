@@ -76,7 +76,7 @@ def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
     A number is right within half a unit of its last digit or a thousandth; decimal comma or point. Raises
     `GrueblerError` for a key that is not asked and for an answer that is no number where one is asked.
 
-    >>> from gruebler.exercises.fresh import fresh
+    >>> from gruebler.exercises.making import fresh
     >>> [m.mark.value for m in mark(fresh("dead-centre", 7), {"H": "60", "l_a": "130"})]
     ['right', 'right']
     >>> mark(fresh("dead-centre", 7), {"H": "30"})[0].hint.en

@@ -7,7 +7,7 @@ from functools import cache
 
 from gruebler.catalog import Exercise, catalog_folder, exercises, read_exercise
 from gruebler.errors import CatalogError, nearest
-from gruebler.exercises.fresh import from_id, is_fresh
+from gruebler.exercises.making import from_id, is_fresh
 
 __all__ = ["all_exercises", "exercise"]
 

@@ -8,7 +8,7 @@ Definitions, theorems and errors: docs/theory/geometry.md, docs/theory/coupler-c
 """
 
 from gruebler.geometry.contact import Contact, tangent_contact
-from gruebler.geometry.coupler_curve import CouplerCurve, coupler_curve
+from gruebler.geometry.coupler_curves import CouplerCurve, coupler_curve
 from gruebler.geometry.curvature import InflectionCircle, PathCurvature, inflection_circle, path_curvature
 from gruebler.geometry.instant_centres import Centrodes, Poles, centrodes, poles
 from gruebler.geometry.roberts import (

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler import views
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import Linkage, Named, Place
@@ -146,6 +147,10 @@ class Motion:
         from gruebler.kinematics.branches import branch_of
 
         return branch_of(self.plan, self.roots[0], self.unknowns[0], self.drives[0])
+
+    def _repr_svg_(self) -> str | None:
+        """The first pose with some others thinly, for notebooks."""
+        return views.picture(self) if views.picture else None
 
     def _link(self, link: str) -> int:
         links: Sequence[str] = self.plan.lower.mechanism.chain.links

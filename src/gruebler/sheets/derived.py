@@ -14,7 +14,7 @@ from gruebler.linkages import FourBar
 from gruebler.sheets.records import CognateLength, Quantity
 
 if TYPE_CHECKING:
-    from gruebler.sheets.sheet import Sheet
+    from gruebler.sheets.model import Sheet
 
 __all__ = ["derive"]
 

@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from gruebler.drawing import Figure, draw
 from gruebler.drawing.figure import text_width
 from gruebler.drawing.plots import ratio_diagram
+from gruebler.sheets.model import Sheet, Told
 from gruebler.sheets.page import HEIGHT, WIDTH, Page, Placed, Rule, Words
 from gruebler.sheets.picture import scale_picture
 from gruebler.sheets.prose import Number, example_lines, explained, lowered, value_lines, words_of
-from gruebler.sheets.sheet import Sheet, Told
 
 __all__ = ["page"]
 

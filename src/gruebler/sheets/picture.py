@@ -9,8 +9,8 @@ from gruebler.drawing.figure import Circle, Figure, Lines, Point, Shape, Text, f
 from gruebler.drawing.labels import noted
 from gruebler.drawing.linkage_picture import draw_linkage
 from gruebler.drawing.stage import Stage, staged
+from gruebler.sheets.model import Sheet
 from gruebler.sheets.prose import lowered
-from gruebler.sheets.sheet import Sheet
 
 __all__ = ["scale_picture"]
 

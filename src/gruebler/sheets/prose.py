@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from gruebler.sheets.sheet import Sheet
+from gruebler.sheets.model import Sheet
 
 __all__ = ["Number", "example_lines", "explained", "lowered", "value_lines", "words_of"]
 

@@ -6,8 +6,8 @@ from functools import cache
 
 from gruebler.catalog import catalog_folder
 from gruebler.errors import CatalogError, nearest
+from gruebler.sheets.model import Sheet
 from gruebler.sheets.records import read_sheet
-from gruebler.sheets.sheet import Sheet
 
 __all__ = ["sheet", "sheets"]
 

@@ -1,0 +1,197 @@
+"""`gruebler plot`: what a linkage with one drive does, as curves over axes."""
+
+from __future__ import annotations
+
+import argparse
+import cmath
+import math
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gruebler.cli.draw import entry_of, sized, written
+from gruebler.drawing import Figure
+from gruebler.drawing.curve_plots import coupler_plot, family_plot, hodograph
+from gruebler.drawing.files import picture_bytes, suffix_of
+from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
+from gruebler.drawing.plots import ratio_diagram
+from gruebler.errors import GrueblerError
+from gruebler.linkages import Linkage
+
+__all__ = ["run"]
+
+_LEAST, _MOST = 1e-6, 0.02  # Q_G that are shown
+_STEP, _WINDOWS = math.radians(3.0), 120  # of the windows in which the range is sought; how many are shown then
+_RATIO_TITLES = {"en": "{name}: relative deviation of {point}", "de": "{name}: bezogene Abweichung von {point}"}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Plot into a file, or as SVG on standard output."""
+    suffix = "svg" if arguments.file is None else suffix_of(arguments.file)
+    _check(arguments)
+    linkage, between = sized(arguments.linkage)
+    record = entry_of(arguments.linkage)
+    name = "" if record is None else record.name.said(arguments.lang)
+    figure = _KINDS[arguments.kind](_Asked(linkage, between, name, arguments))
+    if arguments.file is None:
+        sys.stdout.write(figure.svg())
+    else:
+        written(arguments.file, picture_bytes(figure, suffix, dark=arguments.dark))
+    return 0
+
+
+_ONLY: Mapping[str, tuple[Any, tuple[str, ...]]] = {
+    "output": (None, ("transfer", "transmission")),
+    "point": ([], ("hodograph", "curves", "ratio")),
+    "speed": (None, ("hodograph",)),
+    "link": (None, ("family",)),
+    "start": (None, ("family",)),
+    "end": (None, ("family",)),
+    "count": (5, ("family",)),
+    "centre": (180.0, ("ratio",)),
+    "ratio": (None, ("ratio",)),
+}
+"""Options that only some kinds have, with the value that means they were not given."""
+_WRITTEN = {"start": "from", "end": "to"}
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    """An option that its kind does not have is an error, not ignored; numbers are finite."""
+    for key, (none, kinds) in _ONLY.items():
+        value, option = getattr(arguments, key), f"--{_WRITTEN.get(key, key)}"
+        if value != none and arguments.kind not in kinds:
+            raise GrueblerError(f"{option} goes with --kind {' or '.join(kinds)}, not with {arguments.kind}")
+        if isinstance(value, float) and not math.isfinite(value):
+            raise GrueblerError(f"{option}: expected a finite number, but found {value}")
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """The linkage and what is to be plotted of it."""
+
+    linkage: Linkage
+    between: tuple[float, float] | None
+    name: str
+    arguments: argparse.Namespace
+
+    @property
+    def common(self) -> dict[str, Any]:
+        """What all kinds are told."""
+        given = self.arguments
+        return {"branch": given.branch, "between": self.between, "lang": given.lang, "name": self.name}
+
+    @property
+    def points(self) -> list[str]:
+        """Those asked for, else all named ones."""
+        found = self.arguments.point or list(self.linkage.points)
+        if not found:
+            joints = ", ".join(self.linkage.mechanism.chain.joint_names())
+            raise GrueblerError(f"this linkage has no named points; name one of its joints with --point: {joints}")
+        return found
+
+
+def _transfer(asked: _Asked) -> Figure:
+    return transfer_plot(asked.linkage, asked.arguments.output, **asked.common)
+
+
+def _transmission(asked: _Asked) -> Figure:
+    return transmission_plot(asked.linkage, asked.arguments.output, **asked.common)
+
+
+def _hodograph(asked: _Asked) -> Figure:
+    speed, drives = asked.arguments.speed, asked.linkage.mechanism.drives
+    if speed is not None and drives and drives[0].direction.startswith("R"):
+        speed *= 2 * math.pi / 60
+    return hodograph(asked.linkage, asked.points, speed=speed, **asked.common)
+
+
+def _curves(asked: _Asked) -> Figure:
+    return coupler_plot(asked.linkage, asked.points, **asked.common)
+
+
+def _family(asked: _Asked) -> Figure:
+    given = asked.arguments
+    start, end = (_place(key, getattr(given, key)) for key in ("start", "end"))
+    if (start is None) != (end is None):
+        raise GrueblerError("--from and --to go together: the two ends of the line of points")
+    return family_plot(asked.linkage, given.link, start=start, end=end, count=given.count, **asked.common)
+
+
+def _place(key: str, text: str | None) -> complex | None:
+    if text is None:
+        return None
+    try:
+        u, v = (float(part) for part in text.split(","))
+    except ValueError:
+        raise GrueblerError(f"--{_WRITTEN[key]}: expected two numbers U,V, but found {text!r}") from None
+    return complex(u, v)
+
+
+def _ratio(asked: _Asked) -> Figure:
+    """Q_G and L/l1 of windows about a crank angle, against the tangent there."""
+    from gruebler.drawing.prose import title
+    from gruebler.geometry.straight import Piece, linkage_path, piece, piece_of_ratio
+    from gruebler.kinematics import move
+
+    given, linkage = asked.arguments, asked.linkage
+    crank = _crank(linkage)
+    point, middle = asked.points[0], math.radians(given.centre)
+    motion = move(linkage, [middle], speed=1.0, branch=given.branch)
+    if not len(motion):
+        raise GrueblerError(motion.message(given.lang))
+    path = linkage_path(linkage, point, given.branch)
+    tangent = cmath.phase(complex(motion.complex_point(point, 1)[0]))
+
+    def within(windows: Iterable[float]) -> list[Piece]:
+        pieces = (piece(path, middle - w / 2, middle + w / 2, tangent, samples=361) for w in windows)
+        return [p for p in pieces if _LEAST <= p.ratio <= _MOST]
+
+    rough = [p.end - p.start for p in within(_STEP * np.arange(1, round(2 * math.pi / _STEP) + 1))]
+    ends = (rough[0] - _STEP, min(rough[-1] + _STEP, 2 * math.pi)) if rough else (0.0, 0.0)
+    shown = within(np.linspace(*ends, _WINDOWS)[1:]) if rough else []
+    if len(shown) < 2:
+        raise GrueblerError(
+            f"the path of {point} about {given.centre:g} degrees has no windows with Q_G from {_LEAST:g} to {_MOST:g}"
+        )
+    marked = None
+    if given.ratio is not None:
+        found = piece_of_ratio(path, middle, given.ratio, tangent)
+        if found is None:
+            raise GrueblerError(f"every window about {given.centre:g} degrees is straighter than Q_G = {given.ratio:g}")
+        marked = found.end - found.start, found.ratio, found.length / crank
+    name = title(linkage.mechanism, given.lang, asked.name)
+    return ratio_diagram(
+        [p.end - p.start for p in shown],
+        [p.ratio for p in shown],
+        [p.length / crank for p in shown],
+        at=marked,
+        lang=given.lang,
+        title=_RATIO_TITLES[given.lang].format(name=name, point=point),
+    )
+
+
+def _crank(linkage: Linkage) -> float:
+    """The length of the driven link: from the driven joint to the next turning joint on it."""
+    drives = linkage.mechanism.drives
+    if len(drives) == 1 and drives[0].direction.startswith("R"):
+        number, link = drives[0].joint, linkage.reference(0)[1]
+        joints = linkage.mechanism.chain.joints
+        others = [
+            n for n, joint in enumerate(joints) if n != number and link in joint.links and joint.pair.name == "revolute"
+        ]
+        if others and (length := linkage.length(link, number, others[0])) > 0:
+            return length
+    raise GrueblerError("L/l1 needs a linkage with one drive, a crank with two turning joints")
+
+
+_KINDS: Mapping[str, Callable[[_Asked], Figure]] = {
+    "transfer": _transfer,
+    "transmission": _transmission,
+    "hodograph": _hodograph,
+    "curves": _curves,
+    "family": _family,
+    "ratio": _ratio,
+}

@@ -1,0 +1,110 @@
+"""Animations as pictures one after another: GIF, WebP and APNG, painted by matplotlib and put together by pillow."""
+
+from __future__ import annotations
+
+import io
+import math
+from itertools import pairwise
+from typing import Any, Unpack
+
+import numpy as np
+
+from gruebler.drawing.animation import Options, Scene, scene
+from gruebler.drawing.figure import Figure, Point, moved
+from gruebler.drawing.linkage_bodies import PINS, at_pose
+from gruebler.drawing.plotting import painted
+from gruebler.errors import GrueblerError
+from gruebler.linkages import Linkage
+
+__all__ = ["FRAMES", "animated_frames"]
+
+FRAMES = ("gif", "webp", "png")
+"""Kinds of files; png is APNG."""
+_MOST = 144  # pictures of a file
+_COLOURS = 64  # of a file: those of the styles and what is most often between them at edges
+_ALIKE = 14.0  # between two colours, of 255 in each of three parts
+_TICK = {"gif": 10}  # milliseconds: the times of a GIF are multiples of it
+
+
+def animated_frames(
+    linkage: Linkage, kind: str, *, dark: bool = False, zoom: float = 1.25, **options: Unpack[Options]
+) -> bytes:
+    """The content of a ``gif``, ``webp`` or ``png`` file that shows the linkage moving, over and over.
+
+    Args:
+        linkage: with one drive.
+        kind: of the file; a png is an APNG, which viewers that do not know it show as its first picture.
+        dark: whether on dark ground.
+        zoom: pixels of the file to a pixel of the picture.
+        options: those of `gruebler.drawing.animation.scene`.
+
+    Cost: some 40 ms a picture. Raises `GrueblerError` if matplotlib is not installed, `LinkageError` as `scene` does.
+    """
+    if kind not in FRAMES:
+        raise GrueblerError(f"expected a kind of file among {', '.join(FRAMES)}, but found {kind!r}")
+    shown = scene(linkage, **options)
+    rows = shown.rows[:-1]
+    rows = rows[:: -(-len(rows) // _MOST)]
+    made = {row: _picture(_figure(shown, row), zoom, dark) for row in dict.fromkeys(rows)}
+    palette = _palette(made[rows[0]])
+    made = {row: picture.quantize(palette=palette, dither=0) for row, picture in made.items()}
+    tick = _TICK.get(kind, 1)
+    ends = [tick * round(1000 * shown.seconds * k / len(rows) / tick) for k in range(len(rows) + 1)]
+    memory = io.BytesIO()
+    first, *rest = (made[row] for row in rows)
+    first.save(
+        memory,
+        kind,
+        save_all=True,
+        append_images=rest,
+        duration=[max(b - a, tick) for a, b in pairwise(ends)],
+        loop=0,
+        **_SAVED[kind],
+    )
+    return memory.getvalue()
+
+
+_SAVED: dict[str, dict[str, Any]] = {"gif": {"optimize": True}, "webp": {"lossless": True, "method": 4}, "png": {}}
+
+
+def _figure(shown: Scene, row: int) -> Figure:
+    """The scene in one pose."""
+    stage, by = shown.stage, Point(-shown.corner.x, -shown.corner.y)
+    below, above = (
+        [
+            shape
+            for part in shown.pieces
+            if (part.layer == PINS) == pins
+            for shape in at_pose(stage, part, stage.path, row)
+        ]
+        for pins in (False, True)
+    )
+    page = shown.page
+    shapes = tuple(moved(shape, by) for shape in (*below, *shown.still, *above))
+    return Figure(shapes, page.width, page.height, page.title, page.description)
+
+
+def _picture(figure: Figure, zoom: float, dark: bool) -> Any:
+    """The pixels of a figure."""
+    canvas = painted(figure, dark=dark)
+    canvas.set_dpi(96 * zoom)
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from PIL import Image
+
+    agg: Any = FigureCanvasAgg(canvas)
+    agg.draw()
+    return Image.fromarray(np.asarray(agg.buffer_rgba())[:, :, :3])
+
+
+def _palette(picture: Any) -> Any:
+    """The colours that a picture has most often, none like another."""
+    from PIL import Image
+
+    counted = picture.getcolors(picture.width * picture.height)
+    often: list[tuple[int, int, int]] = []
+    for _, colour in sorted(counted, key=lambda pair: (-pair[0], pair[1])):
+        if len(often) < _COLOURS and all(math.dist(colour, other) > _ALIKE for other in often):
+            often.append(colour)
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([part for colour in often for part in colour])
+    return palette

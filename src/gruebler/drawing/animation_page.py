@@ -1,0 +1,96 @@
+"""One page that shows a linkage moving, with play, pause and a slider for the drive; nothing else is loaded.
+
+The picture is the SVG that moves by itself; the script stops it and sets its clock.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from html import escape
+from typing import Any, Unpack
+
+from gruebler.drawing.animation import Options, Scene, scene, svg_of
+from gruebler.drawing.styles import COLOURS
+from gruebler.linkages import Linkage
+
+__all__ = ["animated_page"]
+
+_WORDS = {
+    "en": {"play": "Play", "pause": "Pause", "drive": "Drive", "keys": "Space: play or pause. Arrow keys: the drive."},
+    "de": {
+        "play": "Abspielen",
+        "pause": "Anhalten",
+        "drive": "Antrieb",
+        "keys": "Leertaste: abspielen oder anhalten. Pfeiltasten: der Antrieb.",
+    },
+}
+_STYLE = (
+    ":root{{color-scheme:light dark}}body{{margin:0;font:16px sans-serif;background:{light};color:{ink}}}"
+    "main{{max-width:{width}px;margin:auto;padding:1rem}}h1{{font-size:1.2rem}}svg{{max-width:100%;height:auto}}"
+    "div{{display:flex;gap:.7rem;align-items:center}}button{{font:inherit;min-width:7rem;padding:.4rem}}"
+    "input{{flex:1;min-width:6rem;accent-color:{accent}}}output{{min-width:5.5rem;text-align:right;"
+    "font-variant-numeric:tabular-nums}}"
+    "@media(prefers-color-scheme:dark){{body{{background:{dark};color:{pale}}}}}"
+)
+_SCRIPT = """\
+const m=%s,$=n=>document.getElementById(n),v=document.querySelector("svg"),b=$("play"),s=$("drive"),o=$("value");
+let on=!matchMedia("(prefers-reduced-motion:reduce)").matches;
+const at=t=>m.low+(m.high-m.low)*(m.round?t/m.seconds%%1:Math.sin(Math.PI*t/m.seconds)**2),
+time=q=>{const p=Math.min(1,Math.max(0,(q-m.low)/(m.high-m.low)));
+return m.seconds*(m.round?p:Math.asin(Math.sqrt(p))/Math.PI)},
+show=q=>{o.textContent=q.toFixed(m.places)+m.unit;s.setAttribute("aria-valuetext",o.textContent)},
+run=()=>{b.textContent=on?m.pause:m.play;on?v.unpauseAnimations():v.pauseAnimations()},
+tick=()=>{if(on){const q=at(v.getCurrentTime());s.value=q;show(q)}requestAnimationFrame(tick)};
+b.onclick=()=>{on=!on;run()};
+s.oninput=()=>{on=false;run();v.setCurrentTime(time(+s.value));show(+s.value)};
+onkeydown=e=>{if(e.key==" "&&e.target==document.body){e.preventDefault();b.click()}};
+run();show(at(0));tick();"""
+
+
+def animated_page(linkage: Linkage, **options: Unpack[Options]) -> str:
+    """An HTML page with the moving linkage, a button and a slider; options and errors are those of `animated_svg`.
+
+    Where the reader wants little motion it stands still at first.
+
+    >>> from gruebler.linkages import FourBar
+    >>> page = animated_page(FourBar(25, 70, 40, 70).linkage(), lang="de")
+    >>> page.count("<svg"), page.count("<script"), "http" in page.replace("http://www.w3.org/2000/svg", "")
+    (1, 1, False)
+    """
+    shown, lang = scene(linkage, **options), options.get("lang", "en")
+    words, settings = _WORDS[lang], _settings(shown)
+    low, high = settings["low"], settings["high"]
+    colours = dict(zip(("light", "dark"), COLOURS["paper"], strict=True))
+    colours |= {"ink": COLOURS["ink"][0], "pale": COLOURS["ink"][1], "accent": COLOURS["motion"][0]}
+    told = json.dumps(settings | {key: words[key] for key in ("play", "pause")}, ensure_ascii=False)
+    script = _SCRIPT % told.replace("<", "\\u003c")
+    title, about = escape(shown.page.title), escape(shown.page.description)
+    slider = f'type="range" id="drive" min="{low:.6g}" max="{high:.6g}" step="{(high - low) / 720:.4g}"'
+    return "\n".join(
+        [
+            f'<!doctype html>\n<html lang="{lang}">\n<meta charset="utf-8">',
+            f'<meta name="viewport" content="width=device-width,initial-scale=1">\n<title>{title}</title>',
+            f"<style>{_STYLE.format(width=max(480, round(shown.page.width)), **colours)}</style>",
+            f"<main>\n<h1>{title}</h1>\n{svg_of(shown)}",
+            f'<div><button type="button" id="play">{words["play"]}</button>',
+            f'<input {slider} aria-label="{words["drive"]}"><output id="value" for="drive"></output></div>',
+            f"<p><small>{words['keys']}</small></p>\n<p><small>{about}</small></p>\n</main>",
+            f"<script>\n{script}\n</script>\n</html>\n",
+        ]
+    )
+
+
+def _settings(shown: Scene) -> dict[str, Any]:
+    """What the script needs to know: from where to where the drive goes, and in which time."""
+    drives, stage = shown.stage.path.drives[:, 0], shown.stage
+    turning = stage.driven().turning_drive
+    low, high = (math.degrees(q) if turning else float(q) for q in (drives[0], drives[-1]))
+    return {
+        "low": round(low, 6),
+        "high": round(high, 6),
+        "seconds": shown.seconds,
+        "round": stage.goes_round,
+        "places": 1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
+        "unit": "°" if turning else f" {stage.linkage.unit}",
+    }

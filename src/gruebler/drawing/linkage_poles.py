@@ -1,0 +1,146 @@
+"""Instant centres, centrodes and the inflection circle of a link against the frame."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.figure import Circle, Lines, Point, Shape
+from gruebler.drawing.labels import noted
+from gruebler.drawing.sheet import Sheet
+from gruebler.drawing.stage import Stage, drive_rows, floating
+from gruebler.drawing.thinning import FINE, thinned
+from gruebler.kinematics import Motion
+
+__all__ = ["centrode_lines", "inflection_lines", "pole_crosses"]
+
+Complexes = NDArray[np.complex128]
+
+_AWAY = 0.4  # of the figure's longer side: poles farther away from it are not shown
+_WIDE = 0.75  # the same, for what is seen of centrodes and inflection circles
+_SAMPLES = 1440  # points of a centrode or circle
+_TURNING = 1e-6  # for a drive of speed 1: a link that turns more slowly has its pole far away
+_POINT = 1e-6  # sizes: a smaller inflection circle is a point
+
+
+def pole_crosses(sheet: Sheet) -> list[Shape]:
+    """The instant centres of the links against the frame, where they lie at no joint and not far away."""
+    stage = sheet.stage
+    stage.driven()
+    pose, chain, frame = stage.pose, stage.lower.mechanism.chain, stage.lower.mechanism.frame
+    given = stage.linkage.mechanism.chain.links
+    upper, lower = stage.reach
+    away = _AWAY * max(lower.x - upper.x, lower.y - upper.y)
+    frame_pins = [complex(e.x, e.y) for (_, own), e in stage.lower.elements.items() if own == frame]
+    shapes: list[Shape] = []
+    for k, link in enumerate(chain.links):
+        w = float(pose.rates[0, 0, k])
+        if link == frame or link not in given or abs(w) < 1e-6:
+            continue
+        pole = complex(pose.places[0, 0, k] + 1j * pose.places[1, 0, k] / w)
+        at = stage.local(pole)
+        beyond = max(upper.x - at.x, at.x - lower.x, upper.y - at.y, at.y - lower.y)
+        if beyond > away or min((abs(pole - pin) for pin in frame_pins), default=1.0) < 1e-6 * stage.lower.size:
+            continue
+        shapes.append(_cross(at))
+        shapes.append(noted(at, f"P({frame}, {link})", "value", [*sheet.drawn, *shapes]))
+    return shapes
+
+
+def _cross(at: Point) -> Lines:
+    return Lines(
+        tuple((at.plus(d, -5.0), at.plus(d, 5.0)) for d in (Point(1.0, 1.0).unit, Point(1.0, -1.0).unit)), "edge"
+    )
+
+
+class _Box(NamedTuple):
+    """What the linkage reaches, with something around it."""
+
+    upper: Point
+    lower: Point
+
+    @classmethod
+    def around(cls, stage: Stage, factor: float) -> _Box:
+        upper, lower = stage.reach
+        more = factor * max(lower.x - upper.x, lower.y - upper.y)
+        return cls(upper.plus(Point(-more, -more)), lower.plus(Point(more, more)))
+
+    def holds(self, at: Point) -> bool:
+        return self.upper.x <= at.x <= self.lower.x and self.upper.y <= at.y <= self.lower.y
+
+
+def _number(sheet: Sheet) -> int:
+    """The link that is looked at: the one asked for, else a link that is no neighbour of the frame."""
+    links = sheet.stage.lower.mechanism.chain.links
+    return links.index(sheet.output if sheet.output in links else floating(sheet.stage.linkage))
+
+
+def inflection_lines(sheet: Sheet) -> list[Shape]:
+    """The inflection circle as far as it is near, with the pole P and the inflection pole W opposite to it.
+
+    Pole and circle: docs/theory/geometry.md.
+    """
+    stage = sheet.stage
+    stage.driven()
+    pose, k = stage.pose, _number(sheet)
+    w, change = (float(pose.rates[order, 0, k]) for order in (0, 1))
+    if abs(w) < _TURNING:
+        return []
+    at, velocity, acceleration = (complex(z) for z in pose.places[:3, 0, k])
+    pole = at + 1j * velocity / w
+    shift = velocity / w + 1j * (acceleration - velocity * change / w) / w**2
+    if abs(shift) < _POINT * stage.lower.size:
+        return []
+    box = _Box.around(stage, _WIDE)
+    circle = pole - 0.5j * shift * (1 - np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1)))
+    lines = _within(stage, circle, box)
+    shapes: list[Shape] = [Lines(tuple(lines), "inflection")] if lines else []
+    for z, name in ((pole, "P"), (pole - 1j * shift, "W")):
+        point = stage.local(z)
+        if lines and box.holds(point):
+            shapes.append(_cross(point) if name == "P" else Circle(point, 3.2, "dot"))
+            shapes.append(noted(point, name, "value", [*sheet.drawn, *shapes]))
+    return shapes
+
+
+def centrode_lines(sheet: Sheet) -> list[Shape]:
+    """The fixed centrode p and the moving one q, which roll on each other, as far as they are near; q in this pose."""
+    stage, k = sheet.stage, _number(sheet)
+    course = stage.driven()
+    drives = stage.path.drives[:, 0]
+    between = None if stage.goes_round else (float(drives[0]), float(drives[-1]))
+    motion = course.at(drive_rows(course, between, _SAMPLES), 1)
+    fixed = _poles_of(motion, k)
+    own = (fixed - motion.places[0, :, k]) * motion.turns[:, k].conj()
+    moving = stage.pose.places[0, 0, k] + stage.pose.turns[0, k] * own
+    box = _Box.around(stage, _WIDE)
+    shapes: list[Shape] = []
+    for z, style, name in ((fixed, "centrode-fixed", "p"), (moving, "centrode-moving", "q")):
+        lines = _within(stage, z, box)
+        if max((b.minus(line[0]).length for line in lines for b in line), default=0.0) < 1.0:
+            return []
+        shapes.append(Lines(tuple(lines), style))
+        longest = max(lines, key=len)
+        shapes.append(noted(longest[len(longest) // 3], name, "value", [*sheet.drawn, *shapes]))
+    return shapes
+
+
+def _poles_of(motion: Motion, k: int) -> Complexes:
+    """The poles of a link at all rows; NaN where it does not turn."""
+    rate = np.where(np.abs(motion.rates[0, :, k]) < _TURNING, np.nan, motion.rates[0, :, k])
+    with np.errstate(invalid="ignore"):
+        return np.asarray(motion.places[0, :, k] + 1j * motion.places[1, :, k] / rate)
+
+
+def _within(stage: Stage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
+    """The parts of a line that lie in a box."""
+    parts: list[list[Point]] = [[]]
+    for one in z:
+        at = stage.local(complex(one))
+        if np.isfinite(one) and box.holds(at):
+            parts[-1].append(at)
+        elif parts[-1]:
+            parts.append([])
+    return [tuple(thinned(part, FINE)) for part in parts if len(part) > 1]

@@ -1,0 +1,24 @@
+"""What the layers of a linkage picture are drawn on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from gruebler.drawing.figure import Shape
+from gruebler.drawing.stage import Stage
+
+__all__ = ["Layer", "Sheet"]
+
+
+class Sheet(NamedTuple):
+    """What a layer is drawn on."""
+
+    stage: Stage
+    output: str | None
+    """The link or joint that is looked at; None for the linkage's own."""
+    drawn: Sequence[Shape]
+    """What is there already; texts keep clear of it."""
+
+
+Layer = Callable[[Sheet], list[Shape]]

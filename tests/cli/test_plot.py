@@ -1,0 +1,113 @@
+"""`gruebler plot`, and what `draw` and `animate` have learned, as a user meets them."""
+
+import argparse
+from importlib import import_module
+
+import pytest
+
+from gruebler.cli import linkage_commands, plot_commands
+from gruebler.drawing import animation_frames
+from gruebler.errors import GrueblerError
+
+FOUR_BAR = "four-bar:25,70,40,70"
+
+
+def run(capsys, *arguments):
+    parser = argparse.ArgumentParser()
+    commands = parser.add_subparsers()
+    plot_commands.add(commands)
+    linkage_commands._add_draw(commands)
+    linkage_commands._add_animate(commands)
+    made = parser.parse_args(arguments)
+    try:
+        status = import_module(made.run).run(made)
+    except GrueblerError as error:
+        return 2, "", str(error)
+    return status, *capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "title"),
+    [
+        ([FOUR_BAR], "four-bar linkage: transfer functions of rocker"),
+        ([FOUR_BAR, "--output", "coupler", "--lang", "de"], "Viergelenkgetriebe: Übertragungsfunktionen von coupler"),
+        ([FOUR_BAR, "--kind", "transmission"], "four-bar linkage: transmission angle of rocker"),
+        (["conchoid", "--kind", "curves"], "coupler curves"),
+        (
+            [FOUR_BAR, "--kind", "hodograph", "--point", "R(crank-coupler)", "--speed", "60"],
+            "hodograph of R(crank-coupler)",
+        ),
+        (
+            [FOUR_BAR, "--kind", "family", "--link", "coupler", "--from=-10,5", "--to", "30,5", "--count", "3"],
+            "coupler curves",
+        ),
+        (["mzc", "--kind", "ratio", "--ratio", "0.005"], "relative deviation of K"),
+    ],
+)
+def test_every_kind(capsys, arguments, title):
+    status, out, _ = run(capsys, "plot", *arguments)
+    assert status == 0
+    assert title in out.split("</title>")[0]
+    assert out.startswith("<svg")
+
+
+def test_the_diagram_of_the_collection_sheet(capsys):
+    _, out, _ = run(capsys, "plot", "mzc", "--kind", "ratio", "--ratio", "0.005")
+    assert "At φ_G = 163.3°: Q_G = 0.005, L/l₁ = 3.907." in out
+
+
+def test_the_speed_is_in_turns_a_minute(capsys):
+    _, out, _ = run(capsys, "plot", FOUR_BAR, "--kind", "hodograph", "--point", "R(crank-coupler)", "--speed", "60")
+    assert "with a speed of 6.28319 rad/s" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([FOUR_BAR, "--point", "K"], "--point goes with --kind hodograph or curves or ratio, not with transfer"),
+        ([FOUR_BAR, "--kind", "curves"], "no named points; name one of its joints"),
+        ([FOUR_BAR, "--kind", "family", "--from=1,2"], "--from and --to go together"),
+        ([FOUR_BAR, "--kind", "family", "--from=1", "--to=2,3"], "--from: expected two numbers U,V"),
+        ([FOUR_BAR, "--kind", "family", "--count", "40"], "2 to 8 points"),
+        ([FOUR_BAR, "--kind", "hodograph", "--speed", "nan"], "finite number"),
+        ([FOUR_BAR, "--kind", "ratio", "--point", "R(frame-crank)"], "no windows with Q_G"),
+        (["crane_cyl", "--kind", "ratio"], "L/l1 needs"),
+        ([FOUR_BAR, "-o", "x.gif"], "end it with .svg, .png or .pdf"),
+        ([FOUR_BAR, "-o", "nowhere/x.svg"], "cannot be written"),
+        (["R(0-1) R(1-2) R(2-0)"], "no dimensions"),
+        (["wipper"], "wiper"),
+    ],
+)
+def test_one_sentence_for_what_cannot_be_plotted(capsys, arguments, words):
+    status, _, error = run(capsys, "plot", *arguments)
+    assert status == 2
+    assert words in error
+    assert "\n" not in error
+
+
+def test_files(capsys, tmp_path):
+    pytest.importorskip("matplotlib")
+    for suffix, start in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
+        path = tmp_path / f"x.{suffix}"
+        assert run(capsys, "plot", FOUR_BAR, "-o", str(path), "--dark")[0] == 0
+        assert path.read_bytes().startswith(start)
+
+
+def test_draw_has_ghosts_and_dimensions(capsys):
+    _, out, _ = run(capsys, "draw", FOUR_BAR, "--ghosts", "5", "--show", "dimensions")
+    assert "5 positions thinly. Shown: dimensions." in out
+    assert "--ghosts" in run(capsys, "draw", "vcomp", "--graph", "--ghosts", "3")[2]
+    assert "1 to 60" in run(capsys, "draw", FOUR_BAR, "--ghosts", "100")[2]
+
+
+@pytest.mark.parametrize(
+    ("suffix", "start"), [("html", b"<!doctype"), ("gif", b"GIF89a"), ("webp", b"RIFF"), ("png", b"\x89PNG")]
+)
+def test_animations_by_suffix(capsys, tmp_path, monkeypatch, suffix, start):
+    if suffix != "html":
+        pytest.importorskip("matplotlib")
+    monkeypatch.setattr(animation_frames, "_MOST", 3)
+    path = tmp_path / f"x.{suffix}"
+    assert run(capsys, "animate", FOUR_BAR, "-o", str(path), "--seconds", "1")[0] == 0
+    assert path.read_bytes().startswith(start)
+    assert "cannot be written" in run(capsys, "animate", FOUR_BAR, "-o", str(tmp_path / "no" / "x.html"))[2]
