@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from gruebler.enumeration import chains, count_chains
     from gruebler.errors import CatalogError, ChainError, GrueblerError, LinkageError, NotationError, PairError
     from gruebler.exercises import exercise, fresh, solve, teaching_table
+    from gruebler.freedoms import Freedoms, freedom_report
     from gruebler.gears import GearError, Train, read_train
     from gruebler.geneva import Geneva, GenevaError
     from gruebler.geometry import (
@@ -80,6 +81,7 @@ if TYPE_CHECKING:
     from gruebler.mobility import counted, generic_mobility, mobility_report
     from gruebler.pairs import PAIRS, Alphabet, Pair, Space, pair
     from gruebler.realisation import Realisation, realise
+    from gruebler.screws import JointPlace, SpatialLinkage
     from gruebler.sheets import sheet
     from gruebler.specialisation import Requirements, joint_types, variants
     from gruebler.statics import Loads, Statics, slide_friction, slider_friction
@@ -99,12 +101,14 @@ __all__ = [
     "CouplerCurve",
     "Expression",
     "FourBar",
+    "Freedoms",
     "GearError",
     "Geneva",
     "GenevaError",
     "GrueblerError",
     "InvertedSliderCrank",
     "Joint",
+    "JointPlace",
     "Linkage",
     "LinkageError",
     "Loads",
@@ -118,6 +122,7 @@ __all__ = [
     "Requirements",
     "SliderCrank",
     "Space",
+    "SpatialLinkage",
     "Statics",
     "Train",
     "access_features",
@@ -150,6 +155,7 @@ __all__ = [
     "family_plot",
     "find_isomorphism",
     "four_bars",
+    "freedom_report",
     "fresh",
     "gallery_html",
     "generic_mobility",
@@ -245,6 +251,10 @@ _ROOMS = {
         "solve",
         "teaching_table",
     ),
+    "freedoms": (
+        "Freedoms",
+        "freedom_report",
+    ),
     "gears": (
         "GearError",
         "Train",
@@ -330,6 +340,10 @@ _ROOMS = {
     "realisation": (
         "Realisation",
         "realise",
+    ),
+    "screws": (
+        "JointPlace",
+        "SpatialLinkage",
     ),
     "sheets": ("sheet",),
     "specialisation": (

@@ -6,7 +6,11 @@ from dataclasses import dataclass
 
 from gruebler.catalog.records import Claims
 from gruebler.chain import Chain
+from gruebler.errors import LinkageError
+from gruebler.freedoms import Freedoms, freedoms
+from gruebler.linkages import Linkage
 from gruebler.mobility import Count, MobilityReport, counted, mobility_report
+from gruebler.screws import SpatialLinkage
 
 __all__ = ["Checked", "WrongClaim", "check"]
 
@@ -33,6 +37,8 @@ class Checked:
     report: MobilityReport
     claims: Claims
     wrong: tuple[WrongClaim, ...]
+    freedoms: Freedoms | None = None
+    """What the dimensions give, where the entry has any."""
 
     @property
     def holds(self) -> bool:
@@ -40,11 +46,20 @@ class Checked:
         return not self.wrong
 
 
-def check(chain: Chain, claims: Claims, *, id: str, frame: str | None = None, origin: str = "") -> Checked:
+def check(
+    chain: Chain,
+    claims: Claims,
+    *,
+    id: str,
+    frame: str | None = None,
+    origin: str = "",
+    linkage: Linkage | SpatialLinkage | None = None,
+) -> Checked:
     """Derive every claim again.
 
-    A claimed mobility is what special dimensions give; structure can only say that it must not be less than
-    the generic one and, where it differs, that a reason is given.
+    A claimed mobility is what special dimensions give. With dimensions it is derived: it must be the finite mobility,
+    and where none is claimed the dimensions must not be special. Structure alone can only say that it must not be less
+    than the generic one. Where it differs from that, a reason must be given.
 
     >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
     >>> [str(w) for w in check(four_bar, Claims(n=4, counted=2), id="four-bar").wrong]
@@ -57,7 +72,15 @@ def check(chain: Chain, claims: Claims, *, id: str, frame: str | None = None, or
         for key, value in derived.items()
         if getattr(claims, key) is not None and getattr(claims, key) != value
     ]
-    if claims.mobility is not None and claims.mobility < report.generic:
+    found = None
+    if linkage is not None:
+        try:
+            found = freedoms(linkage)
+        except LinkageError as error:
+            wrong.append(WrongClaim("dimensions", "a linkage that can be assembled", error))
+    if found is not None and found.mobility != (report.generic if claims.mobility is None else claims.mobility):
+        wrong.append(WrongClaim("claims.mobility", claims.mobility, found.mobility))
+    elif claims.mobility is not None and claims.mobility < report.generic:
         wrong.append(WrongClaim("claims.mobility", claims.mobility, f"at least {report.generic}"))
     if claims.mobility is not None and claims.mobility != report.generic and claims.reason is None:
         wrong.append(WrongClaim("claims.reason", "none", "a mobility other than the generic one needs a reason"))
@@ -66,7 +89,7 @@ def check(chain: Chain, claims: Claims, *, id: str, frame: str | None = None, or
     idle = tuple(freedom.link for freedom in report.idle_freedoms)
     if claims.idle and set(claims.idle) != set(idle):
         wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or "none"))
-    return Checked(id, origin, report, claims, tuple(wrong))
+    return Checked(id, origin, report, claims, tuple(wrong), found)
 
 
 def _joint_counts(count: Count) -> dict[str, object]:

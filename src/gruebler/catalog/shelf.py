@@ -85,7 +85,7 @@ def check_all() -> list[Checked]:
 def check_entry(record: Entry, origin: str | None = None) -> Checked:
     """Every claim of a machine derived again; ``origin`` is its file, the catalog's own if left out."""
     where = str(catalog_folder() / "machines" / f"{record.id}.toml") if origin is None else origin
-    return check(record.chain(), record.claims, id=record.id, frame=record.frame, origin=where)
+    return check(record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed())
 
 
 def check_exercise(record: Exercise, origin: str | None = None) -> list[Checked]:
@@ -94,7 +94,10 @@ def check_exercise(record: Exercise, origin: str | None = None) -> list[Checked]
     checked = []
     for case in record.cases:
         machine = entry(case.machine)
-        checked.append(check(machine.chain(), case.claims, id=case.id, frame=machine.frame, origin=where))
+        placed = None if case.claims.mobility is None else machine.placed()
+        checked.append(
+            check(machine.chain(), case.claims, id=case.id, frame=machine.frame, origin=where, linkage=placed)
+        )
     return checked
 
 

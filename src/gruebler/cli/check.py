@@ -69,7 +69,8 @@ def run(arguments: argparse.Namespace) -> int:
 def to_json(one: Checked) -> dict[str, Any]:
     """One object of the list that --json prints."""
     holds = None if one.claims == Claims() else one.holds
-    return {"name": one.id, **one.report.to_json(), "claims_hold": holds}
+    finite = None if one.freedoms is None else one.freedoms.to_json()["finite"]
+    return {"name": one.id, **one.report.to_json(), "finite": finite, "claims_hold": holds}
 
 
 def print_checked(found: Iterable[Checked], lang: str) -> None:
@@ -117,6 +118,8 @@ def explanation(one: Checked, lang: str) -> str:
         lines.append(
             _GROUP[lang].format(b=claims.group.b, counted=claims.group.counted, reason=claims.group.reason.said(lang))
         )
+    if one.freedoms is not None:
+        lines.append(one.freedoms.summary(lang))
     return "\n".join(lines)
 
 

@@ -6,7 +6,14 @@ import argparse
 from pathlib import Path
 from typing import NoReturn
 
+from gruebler.cli.curve_commands import add as add_curve_commands
+from gruebler.cli.exercise_commands import add as add_exercise_commands
+from gruebler.cli.freedoms_commands import add as add_freedoms_commands
+from gruebler.cli.guidance_commands import add as add_guidance_commands
 from gruebler.cli.linkage_commands import add_linkage_commands
+from gruebler.cli.plot_commands import add as add_plot_commands
+from gruebler.cli.sheet_commands import add as add_sheet_commands
+from gruebler.cli.statics_commands import add as add_statics_commands
 
 __all__ = ["build_parser"]
 
@@ -38,6 +45,13 @@ def build_parser() -> argparse.ArgumentParser:
     _add_derive(commands)
     _add_extend(commands)
     add_linkage_commands(commands)
+    add_plot_commands(commands)
+    add_curve_commands(commands)
+    add_guidance_commands(commands)
+    add_statics_commands(commands)
+    add_freedoms_commands(commands)
+    add_sheet_commands(commands)
+    add_exercise_commands(commands)
     _add_demo(commands)
     return parser
 

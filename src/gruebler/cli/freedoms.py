@@ -1,0 +1,58 @@
+"""`gruebler freedoms`: mobility with dimensions."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from pathlib import Path
+
+from gruebler.catalog import entries, read_entry
+from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.errors import GrueblerError
+from gruebler.freedoms import freedoms
+from gruebler.linkages import Linkage
+from gruebler.screws import SpatialLinkage
+
+__all__ = ["run"]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the report; 1 if nothing moves."""
+    linkage = _linkage(arguments.linkage)
+    found = freedoms(linkage, at=_pose(linkage, arguments.at), branch=arguments.branch, tolerance=arguments.tolerance)
+    if arguments.json:
+        print(json.dumps({"linkage": arguments.linkage, **found.to_json()}, ensure_ascii=False, indent=2))
+    else:
+        print(found.explain(arguments.lang))
+    return int(found.mobility == 0)
+
+
+def _linkage(word: str) -> Linkage | SpatialLinkage:
+    path = Path(word)
+    if word in entries() and not path.is_file():
+        record = entries()[word]
+    elif path.suffix.lower() in (".toml", ".json") and path.is_file():
+        from gruebler.freedoms.files import read_any_linkage
+        from gruebler.linkages.documents import load
+
+        document = load(path, lambda text: GrueblerError(f"{path}: {text}"))
+        if not (isinstance(document, dict) and "id" in document):
+            return read_any_linkage(path)
+        record = read_entry(path)
+    else:
+        return linkage_of(word)[0]
+    made = record.placed()
+    if made is None:
+        placed = [one.id for one in entries().values() if one.dimensions is not None or one.screws is not None]
+        raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {', '.join(placed)}")
+    return made
+
+
+def _pose(linkage: Linkage | SpatialLinkage, at: list[float] | None) -> list[float] | None:
+    """The drive values in radians where they are angles."""
+    if at is None:
+        return None
+    turns = [drive.direction.startswith("R") for drive in linkage.mechanism.drives]
+    turns += [False] * (len(at) - len(turns))
+    return [math.radians(value) if angle else value for value, angle in zip(at, turns, strict=False)]

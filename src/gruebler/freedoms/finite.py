@@ -1,0 +1,251 @@
+"""Finite mobility: which of the velocities at a pose belong to motions.
+
+Near a pose the positions are the zeros of a map F from the velocities k to the self-stresses (Lyapunov and Schmidt):
+the constraints that the others leave open after all others have been closed with the part k of the motion held fixed.
+F and its first derivatives vanish at the pose. docs/theory/freedoms.md has the theorems, and which way each answer may
+err.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.freedoms.forms import definite, directions
+from gruebler.freedoms.instant import Instant, at_pose
+
+__all__ = ["Evidence", "Finite", "finite"]
+
+Reals = NDArray[np.float64]
+
+_RADII = (0.02, 0.08, 0.25)  # of the velocities' numbers at which F is looked at: radians and sizes
+_TRIES = 4  # directions at each radius
+_STARTS = 24  # directions from which zeros of F are sought if its second order says nothing
+_NEAR = 0.01  # about a zero of F at the first radius: the pose itself is farther away
+_APART = 0.999  # the cosine of directions that count as different
+_ALIKE = 2  # zeros with the same mobility and redundancy whose dimension is looked at
+_SHARPER = 1e-2  # joints that open by the tolerance of the rank times that, and times the way, are open
+_OPEN = 3e-12  # a joint that is open by less may be so by rounding
+
+
+class Evidence(StrEnum):
+    """Why the finite mobility is what it is said to be."""
+
+    RIGID = "rigid"
+    """No velocity at all: a proof, up to the tolerance of the rank."""
+    REGULAR = "regular"
+    """No constraint is redundant: the positions are a manifold of the instant mobility. A proof, up to the rank."""
+    FOLLOWED = "followed"
+    """Redundant constraints stay closed along every velocity, as far as it was followed."""
+    STRESSED = "stressed"
+    """A self-stress makes every velocity open the joints in second order: a proof, up to tolerances."""
+    SHAKY = "shaky"
+    """Along every velocity the joints open."""
+    BRANCHING = "branching"
+    """Some velocities belong to motions and others do not: several ways meet, or a motion is only part of them."""
+    UNDECIDED = "undecided"
+    """The velocities could not be followed at all: the pose is all but singular in yet another way."""
+
+
+@dataclass(frozen=True, eq=False)
+class Finite:
+    """What following the velocities gave."""
+
+    mobility: int
+    """The largest dimension of a set of positions through the pose."""
+    evidence: Evidence
+    reach: float = 0.0
+    """How far it was followed, in radians and sizes."""
+    order: int = 0
+    """For a shaky linkage the power of the way by which its joints open; 2 or more."""
+    open: float = 0.0
+    """By how much the joints are open at the farthest point that was tried, in sizes."""
+    ways: int = 1
+    """How many curves of positions meet at the pose, where they are curves and more than one was found."""
+
+
+def finite(instant: Instant) -> Finite:
+    """Follow the velocities of a pose whose joints are closed.
+
+    Cost: some 12 solutions by Newton's method; where motions branch, some 1000 more.
+    """
+    if instant.mobility == 0:
+        return Finite(0, Evidence.RIGID)
+    if instant.redundancy == 0:
+        return Finite(instant.mobility, Evidence.REGULAR)
+    excess = _Excess(instant)
+    random = np.random.default_rng(20_261_121)
+    closed, reach, gap = _all_closed(excess, random, _RADII)
+    if closed:
+        return Finite(instant.mobility, Evidence.FOLLOWED, reach)
+    return _some_or_none(excess, random, reach, gap)
+
+
+def _all_closed(excess: _Excess, random: np.random.Generator, radii: tuple[float, ...]) -> tuple[bool, float, float]:
+    """Whether F is zero in directions taken at random; how far that was seen, and by how much it is open there."""
+    reach, gap, closed = 0.0, 0.0, True
+    for radius in radii:
+        tried = [excess(radius * k) for k in _unit(random, excess.instant.mobility)]
+        gaps = [float(abs(point.value).max(initial=0.0)) for point in tried if point is not None]
+        if not gaps:
+            break
+        reach, gap = radius, max(gaps)
+        closed = closed and gap <= max(_SHARPER * excess.instant.tolerance * radius, _OPEN)
+    return closed and reach > 0, reach, gap
+
+
+def _unit(random: np.random.Generator, size: int) -> Reals:
+    """Directions to try, (tries, size), both signs of each."""
+    half = random.normal(size=(_TRIES // 2, size)) if size > 1 else np.ones((1, 1))
+    half /= np.linalg.norm(half, axis=1)[:, None]
+    return np.vstack([half, -half])
+
+
+class _Point(NamedTuple):
+    """A motion from the pose in which all but the redundant constraints are closed."""
+
+    motion: Reals
+    value: Reals
+    """F: what is open of the redundant ones, (redundancy,)."""
+    slope: Reals
+    """dF/dk, (redundancy, mobility)."""
+
+
+class _Excess:
+    """The map F: what stays open of the redundant constraints when all others are closed and k is held."""
+
+    def __init__(self, instant: Instant) -> None:
+        self.instant = instant
+        self._independent = instant.left[:, : instant.rank].T
+
+    def __call__(self, k: Reals) -> _Point | None:
+        """The point over k, or None if Newton's method does not close the other constraints so far away."""
+        found = self.instant
+        motion = k @ found.motions
+        for _ in range(15):
+            value, by_motion = found.closing.along(found.pose, motion)
+            matrix = np.vstack([self._independent @ by_motion, found.motions])
+            rest = np.append(self._independent @ value, np.zeros(found.mobility))
+            held = np.vstack([np.zeros((found.rank, found.mobility)), np.eye(found.mobility)])
+            try:
+                solved = np.linalg.solve(matrix, np.column_stack([rest, held]))
+            except np.linalg.LinAlgError:
+                return None
+            step = solved[:, 0]
+            if abs(step).max() < 1e-13 or abs(rest).max() < 1e-15:
+                return _Point(motion, found.stresses @ value, found.stresses @ by_motion @ solved[:, 1:])
+            motion = motion - step
+            if not abs(motion).max() < 3:
+                return None
+        return None
+
+    def second(self, step: float = 1e-3) -> Reals | None:
+        """The quadratic forms of the second order, (redundancy, mobility, mobility): F(k) = k·Q·k / 2 + ..."""
+        ahead = [(self(step * k), self(-step * k)) for k in np.eye(self.instant.mobility)]
+        if any(one is None or other is None for one, other in ahead):
+            return None
+        slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
+        out = np.stack(slopes, axis=2)
+        out = (out + np.swapaxes(out, 1, 2)) / 2
+        out[abs(out) < 1e-6] = 0.0
+        return out
+
+
+def _some_or_none(excess: _Excess, random: np.random.Generator, radius: float, gap: float) -> Finite:
+    """F is not zero everywhere: look for the velocities along which it is."""
+    instant = excess.instant
+    forms = excess.second()
+    if forms is None or not radius:
+        return Finite(0, Evidence.UNDECIDED)
+    order = _order(excess, random, _RADII[0])
+    if (instant.mobility == 1 and abs(forms).max() > 1e-5) or (instant.mobility > 1 and definite(forms)):
+        return Finite(0, Evidence.STRESSED, radius, order, gap)
+    ends = _zeros(excess, forms, np.eye(instant.mobility), _RADII[0], random) if instant.mobility > 1 else []
+    if not ends:
+        return Finite(0, Evidence.SHAKY, radius, order, gap)
+    dimensions = _dimensions(excess, ends, random)
+    best = min(max(dimensions), instant.mobility - 1)  # the zeros of an analytic map that is not zero everywhere
+    return Finite(best, Evidence.BRANCHING, _RADII[0], ways=len(dimensions) if best == 1 else 1)
+
+
+def _zeros(
+    excess: _Excess, forms: Reals, basis: Reals, radius: float, random: np.random.Generator, most: int = 1000
+) -> list[Reals]:
+    """Zeros of F at this distance from the pose, (mobility,) each, in the space of a basis (part, mobility).
+
+    One of each pair of opposite directions, and of each group of near ones.
+    """
+    starts = directions(np.einsum("pi,sij,qj->spq", basis, forms, basis), random, _STARTS)
+    out: list[Reals] = []
+    # where forms have a double zero, F may have zeros beside it on one side only: a cusp
+    beside = [sign * k + 0.1 * random.normal(size=len(k)) for k in starts for sign in (1, -1)]
+    for start in [*starts, *(-k for k in starts), *beside]:
+        k = _on_sphere(excess, basis, radius * start / np.linalg.norm(start))
+        if k is not None and all(abs(k @ other) < _APART * radius**2 for other in out):
+            out.append(k)
+            if len(out) >= most:
+                break
+    return out
+
+
+def _dimensions(excess: _Excess, ends: list[Reals], random: np.random.Generator) -> list[int]:
+    """The dimension of the set of positions at each of these zeros; alike ones are looked at only a few times."""
+    closing = excess.instant.closing
+    known: dict[tuple[int, int], list[int]] = {}
+    out = []
+    for k in ends:
+        point = excess(k)
+        assert point is not None  # k is a zero of F
+        pose = closing.settled(closing.moved(excess.instant.pose, point.motion))
+        there = at_pose(closing, pose, excess.instant.tolerance)
+        seen = known.setdefault((there.mobility, there.redundancy), [])
+        if len(seen) < _ALIKE:
+            seen.append(_dimension(there, random))
+        out.append(max(seen))
+    return out
+
+
+def _dimension(instant: Instant, random: np.random.Generator) -> int:
+    """The dimension of the set of positions where it is smooth, though its equations may be singular on it.
+
+    A set of dimension d meets a space of m - d + 1 dimensions taken at random in a curve at least.
+    """
+    excess = _Excess(instant)
+    if _all_closed(excess, random, (_NEAR,))[0]:
+        return instant.mobility
+    forms = excess.second(1e-4)
+    for dimension in range(instant.mobility - 1, 1, -1) if forms is not None else ():
+        space = np.linalg.qr(random.normal(size=(instant.mobility, instant.mobility - dimension + 1)))[0].T
+        if forms is not None and _zeros(excess, forms, space, _NEAR, random, most=1):
+            return dimension
+    return 1
+
+
+def _order(excess: _Excess, random: np.random.Generator, radius: float) -> int:
+    """The power by which F grows in a direction taken at random."""
+    k = _unit(random, excess.instant.mobility)[0]
+    sizes = [0.0 if (point := excess(r * k)) is None else abs(point.value).max() for r in (radius, radius / 2)]
+    return max(2, round(float(np.log2(sizes[0] / sizes[1])))) if min(sizes) > 0 else 2
+
+
+def _on_sphere(excess: _Excess, basis: Reals, start: Reals) -> Reals | None:
+    """A zero of F as far from the pose as a start in a space, by Gauss and Newton's method; None if it finds none."""
+    radius = float(np.linalg.norm(start))
+    u = start
+    for _ in range(40):  # a double zero costs a step for each digit of two
+        point = excess(u @ basis)
+        if point is None:
+            return None
+        open_by = abs(point.value).max()
+        if open_by < max(_OPEN, excess.instant.tolerance * radius**2) and abs(u @ u - radius**2) < 1e-6 * radius**2:
+            return np.asarray(u @ basis)
+        system = np.vstack([point.slope @ basis.T, 2 * u])
+        step = np.linalg.lstsq(system, -np.append(point.value, u @ u - radius**2), rcond=1e-9)[0]
+        if not np.linalg.norm(step) < radius:
+            return None
+        u = u + step
+    return None

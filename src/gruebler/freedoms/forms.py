@@ -1,0 +1,70 @@
+"""Quadratic forms: their common zeros, and whether a combination of them is definite."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["definite", "directions"]
+
+Reals = NDArray[np.float64]
+
+_CLEAR = 1e-3  # an eigenvalue smaller than that times the largest is none
+
+
+def definite(forms: Reals) -> bool:
+    """Whether some combination of the forms (s, m, m) was found that is definite.
+
+    Then they have no common zero but 0. For several forms the search may miss a combination.
+
+    >>> definite(np.array([[[1.0, 0.0], [0.0, 2.0]]])), definite(np.array([[[1.0, 0.0], [0.0, -2.0]]]))
+    (True, False)
+    """
+    random = np.random.default_rng(1)
+    several = len(forms) > 1
+    for start in [*np.eye(len(forms)), *random.normal(size=(30 * several, len(forms)))]:
+        weights = start
+        for _ in range(20 if several else 1):
+            values, vectors = np.linalg.eigh(np.tensordot(weights, forms, 1))
+            if min(abs(values)) > _CLEAR * max(abs(values)) and (values[0] > 0 or values[-1] < 0):
+                return True
+            # the vector that spoils it gains with the forms' values there
+            weights = weights / max(np.linalg.norm(weights), 1e-300) + 0.5 * _values(forms, vectors[:, 0])
+    return False
+
+
+def _values(forms: Reals, k: Reals) -> Reals:
+    out = np.einsum("sij,i,j->s", forms, k, k)
+    unit: Reals = out / max(np.linalg.norm(out), 1e-300)
+    return unit
+
+
+def directions(forms: Reals, random: np.random.Generator, many: int) -> list[Reals]:
+    """Unit vectors (m,) at which all forms (s, m, m) are zero, by Newton's method from many starts.
+
+    Where the forms are all zero these are random directions.
+    """
+    size = float(abs(forms).max())
+    out: list[Reals] = []
+    for start in _starts(random, forms.shape[1], many):
+        k = _zero(forms / size, start) if size > 0 else start
+        if k is not None and all(abs(abs(k @ other) - 1) > 1e-4 for other in out):
+            out.append(k)
+    return out
+
+
+def _zero(forms: Reals, k: Reals) -> Reals | None:
+    """A common zero of the forms on the unit sphere, or None."""
+    for _ in range(60):
+        value, slope = np.einsum("sij,i,j->s", forms, k, k), 2 * np.einsum("sij,j->si", forms, k)
+        step = np.linalg.lstsq(np.vstack([slope, k]), -np.append(value, 0.0), rcond=1e-10)[0]
+        k = (k + step) / np.linalg.norm(k + step)
+        if np.linalg.norm(step) < 1e-14:
+            break
+    return k if abs(np.einsum("sij,i,j->s", forms, k, k)).max() < 1e-5 else None
+
+
+def _starts(random: np.random.Generator, size: int, many: int) -> Reals:
+    out = np.vstack([np.eye(size), random.normal(size=(many, size))])
+    unit: Reals = out / np.linalg.norm(out, axis=1)[:, None]
+    return unit

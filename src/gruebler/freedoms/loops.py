@@ -1,0 +1,97 @@
+"""Loops of skew axes that move although almost all such loops are rigid: Bennett, Bricard, Sarrus, two cross joints."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.freedoms.sketch import SAME, Reason, Sketch
+from gruebler.pairs import Space
+
+__all__ = ["bennett", "bricard", "cardan", "sarrus"]
+
+Reals = NDArray[np.float64]
+
+
+def bennett(s: Sketch) -> Iterator[Reason]:
+    """Four skew axes, opposite links equal, length over sine of the twist the same for all, no offsets."""
+    ring = s.ring()
+    if ring is None or len(ring) != 4 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
+        return
+    bars = [_bar(s, ring[k], ring[(k + 1) % 4]) for k in range(4)]
+    if any(bar is None for bar in bars):
+        return
+    known = [bar for bar in bars if bar is not None]
+    lengths, sines = np.array([bar[0] for bar in known]), np.array([bar[1] for bar in known])
+    offsets = [np.linalg.norm(known[k][2][0] - known[k - 1][2][1]) for k in range(4)]
+    even = max(abs(lengths[:2] - lengths[2:]).max(), abs(sines[:2] - sines[2:]).max())
+    if max(*offsets, even, abs(lengths[0] * sines[1] - lengths[1] * sines[0])) < 10 * SAME and min(lengths) > SAME:
+        yield Reason("bennett", s.chain.links, tuple(ring))
+
+
+def _bar(s: Sketch, one: int, other: int) -> tuple[float, float, tuple[Reals, Reals]] | None:
+    """The distance of two axes, the sine of their angle, and the feet of their common normal; None if parallel."""
+    u, v, p, q = s.axis(one), s.axis(other), s.at(one), s.at(other)
+    normal = np.cross(u, v)
+    sine = float(np.linalg.norm(normal))
+    if sine < SAME:
+        return None
+    a, b, _ = np.linalg.solve(np.stack([u, -v, normal], axis=1), q - p)
+    feet = p + a * u, q + b * v
+    return float(np.linalg.norm(feet[0] - feet[1])), sine, feet
+
+
+def bricard(s: Sketch) -> Iterator[Reason]:
+    """Six turning joints in a loop that a half-turn, or a mirror, takes to itself: Bricard's movable octahedra."""
+    ring = s.ring()
+    if ring is None or len(ring) != 6 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
+        return
+    bars = [_bar(s, ring[k], ring[(k + 1) % 6]) for k in range(6)]
+    feet = np.array([bar[2] for bar in bars if bar is not None])
+    if len(feet) < 6:
+        return
+    if _maps(feet, np.roll(feet, 3, axis=0), 1):
+        yield Reason("line_symmetric", (), tuple(ring))
+    # a mirror takes bar k to bar c - k - 1 and swaps its ends
+    if any(_maps(feet, feet[(c - 1 - np.arange(6)) % 6, ::-1], -1) for c in (0, 2, 4)):
+        yield Reason("plane_symmetric", (), tuple(ring))
+
+
+def _maps(points: Reals, images: Reals, sense: int) -> bool:
+    """Whether a half-turn (sense 1) or a mirror (-1) takes these points to those."""
+    one, other = (p.reshape(-1, 3) - p.reshape(-1, 3).mean(axis=0) for p in (points, images))
+    left, values, right = np.linalg.svd(one.T @ other)
+    turn = right.T @ np.diag([1, 1, sense * np.linalg.det(left) * np.linalg.det(right)]) @ left.T
+    return bool(
+        values[1] > SAME and abs(one @ turn.T - other).max() < 10 * SAME and abs(np.trace(turn) + sense) < 10 * SAME
+    )
+
+
+def sarrus(s: Sketch) -> Iterator[Reason]:
+    """Six axes in a loop, three and three parallel."""
+    ring = s.ring()
+    if ring is None or len(ring) != 6 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
+        return
+    for k in range(3):
+        turned = ring[k:] + ring[:k]
+        sides = [[s.axis(j) for j in side] for side in (turned[:3], turned[3:])]
+        parallel = all(np.linalg.norm(np.cross(side[0], axis)) < SAME for side in sides for axis in side)
+        if parallel and np.linalg.norm(np.cross(sides[0][0], sides[1][0])) > SAME:
+            yield Reason("sarrus", (), tuple(turned))
+            return
+
+
+def cardan(s: Sketch) -> Iterator[Reason]:
+    """Two cross joints, each with its centre on the axis of a bearing of its shaft: both centres stand still."""
+    found = []
+    for k in s.kinds("universal"):
+        for j in s.kinds("revolute"):
+            if set(s.chain.joints[j].links) & set(s.chain.joints[k].links) and s.on_axis(j, s.at(k)):
+                found.append((j, k))
+    for (j, k), (i, h) in itertools.combinations(found, 2):
+        shaft = set(s.chain.joints[k].links) & set(s.chain.joints[h].links)
+        if k != h and j != i and shaft and set(s.chain.joints[j].links) & set(s.chain.joints[i].links):
+            yield Reason("cardan", tuple(shaft), (j, k, h, i))

@@ -1,0 +1,105 @@
+"""A joint of a linkage moved through given values, the others following: all joints closed at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.screws.closing import Closing
+from gruebler.screws.model import SpatialLinkage
+
+__all__ = ["follow", "followed", "joint_value"]
+
+Reals = NDArray[np.float64]
+
+_STEP = 0.05  # of the driven joint, in radians or sizes, between two corrections
+_CLOSED = 1e-11
+
+
+def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
+    """The turn about z of a turning joint, else the way along x (prismatic) in sizes; 0 at home."""
+    k = next(k for k, tie in enumerate(closing.ties) if tie.joint == joint)
+    e = closing.seen(pose)[k]
+    if closing.mechanism.chain.joints[joint].pair.name == "prismatic":
+        return float(e[0, 3])
+    return float(np.arctan2(e[1, 0], e[0, 0]))
+
+
+def follow(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Reals:
+    """The poses (values, n, 4, 4) in which a revolute or prismatic joint has these values, counted from home.
+
+    Translations are in units of the linkage's size, from its centre. Between values the joint goes in steps of at most
+    0.05, so that the linkage stays on its way; where several ways lead on it takes the nearest pose. Redundant
+    constraints are allowed.
+
+    Raises:
+        LinkageError: a joint that is neither, or a value that cannot be reached.
+
+    >>> from gruebler.mechanism import Mechanism
+    >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
+    >>> square = SpatialLinkage(quad, {0: (0, 0), 1: (0, 1), 2: (3, 1), 3: (3, 0)})
+    >>> follow(square, 0, [0.5])[0, 3, :2, :2].round(6).tolist()  # the other crank of a parallelogram turns as much
+    [[0.877583, -0.479426], [0.479426, 0.877583]]
+    """
+    closing = Closing.of(linkage)
+    chain = linkage.mechanism.chain
+    number = joint if isinstance(joint, int) else chain.find_joint(joint)
+    if number is None or not 0 <= number < len(chain.joints):
+        raise LinkageError(f"{joint!r} is not one of the joints; they are {', '.join(chain.joint_names())}")
+    return followed(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
+
+
+def followed(closing: Closing, pose: Reals, joint: int, values: Reals) -> Reals:
+    """The poses (values, n, 4, 4) in which a joint has these values, followed from a pose; `LinkageError` as above."""
+    chain = closing.mechanism.chain
+    name = chain.joint_names()[joint]
+    if chain.joints[joint].pair.name not in ("revolute", "prismatic") or chain.joints[joint].count > 1:
+        raise LinkageError(f"{name}: only a revolute or prismatic joint of two links is driven")
+    now, out = joint_value(closing, pose, joint), []
+    for value in values.tolist():
+        steps = max(1, int(np.ceil(abs(value - now) / _STEP)))
+        for target in np.linspace(now, value, steps + 1)[1:].tolist():
+            pose = _reached(closing, pose, joint, target, name)
+        now = value
+        out.append(pose)
+    return np.array(out)
+
+
+def _reached(closing: Closing, pose: Reals, joint: int, target: float, name: str) -> Reals:
+    turns = closing.mechanism.chain.joints[joint].pair.name == "revolute"
+    row = _driving_row(closing, joint)
+    for _ in range(30):
+        value, by_twist = closing.linearised(pose)
+        missing = target - joint_value(closing, pose, joint)
+        missing = (missing + np.pi) % (2 * np.pi) - np.pi if turns else missing
+        if max(abs(value).max(initial=0.0), abs(missing)) < _CLOSED:
+            return pose
+        system = np.vstack([by_twist, row(pose)])
+        pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=1e-9)[0])
+    raise LinkageError(f"{name} does not reach {target:.6g}")
+
+
+def _driving_row(closing: Closing, joint: int) -> Callable[[Reals], Reals]:
+    """The derivative of the joint's value by the motion: its axis as a functional of the relative twist."""
+    k = next(k for k, tie in enumerate(closing.ties) if tie.joint == joint)
+    tie = closing.ties[k]
+    turns = closing.mechanism.chain.joints[joint].pair.name == "revolute"
+
+    def row(pose: Reals) -> Reals:
+        frame = pose[tie.first] @ tie.on_first
+        functional = np.zeros(6)
+        if turns:
+            functional[:3] = frame[:3, 2]
+        else:
+            far = (pose[tie.second] @ tie.on_second)[:3, 3]
+            functional[:3], functional[3:] = np.cross(far, frame[:3, 0]), frame[:3, 0]
+        out = np.zeros((len(pose), len(closing.columns)))
+        out[tie.second] += functional[closing.columns]
+        out[tie.first] -= functional[closing.columns]
+        flat: Reals = out[closing.moving].ravel()
+        return flat
+
+    return row

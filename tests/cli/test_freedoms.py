@@ -1,0 +1,114 @@
+"""`gruebler freedoms` as a user meets it."""
+
+import argparse
+import json
+
+import pytest
+
+from gruebler import GrueblerError
+from gruebler.catalog import check_entry, entry, read_entry
+from gruebler.cli import freedoms_commands
+from gruebler.cli.freedoms import run as run_freedoms
+
+
+def run(capsys, *arguments):
+    parser = argparse.ArgumentParser()
+    freedoms_commands.add(parser.add_subparsers())
+    try:
+        status = run_freedoms(parser.parse_args(["freedoms", *arguments]))
+    except GrueblerError as error:
+        return 2, "", str(error)
+    except SystemExit as stop:
+        status = stop.code
+    out, err = capsys.readouterr()
+    return status, out, err
+
+
+def test_an_entry_in_both_languages(capsys):
+    status, out, err = run(capsys, "winch_screw")
+    assert (status, err) == (0, "")
+    assert "Mobility: counted -3, generic 0, instant 1, finite 1." in out
+    assert "with b = 2 the count gives 1" in out
+    _, german, _ = run(capsys, "loco3", "--lang", "de")
+    assert "jackshaft, wheel1, wheel2 sind 3 gleiche und parallele Kurbeln" in german
+
+
+def test_lengths_at_a_pose(capsys):
+    _, out, _ = run(capsys, "four-bar:2,5,2,5", "--at", "180")
+    assert "instant 2, finite 1" in out
+    _, out, _ = run(capsys, "four-bar:2,5,2,5", "--at", "90")
+    assert "instant 1, finite 1" in out
+    _, out, _ = run(capsys, "loader", "--at", "70")  # centimetres, not degrees
+    assert "finite 1" in out
+
+
+def test_json_and_status(capsys, tmp_path):
+    status, out, _ = run(capsys, "loco4", "--json")
+    document = json.loads(out)
+    assert status == 0
+    assert (document["counted"], document["finite"]["mobility"], document["instant"]["redundancy"]) == (-1, 1, 2)
+    path = tmp_path / "tri.toml"
+    path.write_text(
+        'joints = "R(0-1) R(1-2) R(0-2)"\n[screws]\nunit = "mm"\n[screws.joints]\n'
+        '"R(0-1)" = { at = [0, 0] }\n"R(1-2)" = { at = [1, 0] }\n"R(0-2)" = { at = [3, 0] }\n',
+        encoding="utf-8",
+    )
+    status, out, _ = run(capsys, str(path))
+    assert status == 1
+    assert "only shaky" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nonsense"], "no entry 'nonsense'"),
+        (["missing.toml"], "cannot be read"),
+        (["R(0-1) R(1-2) R(2-0)"], "has no dimensions"),
+        (["winch_screw", "--tolerance", "1"], "between 0 and 0.01"),
+        (["winch_screw", "--at", "nan"], "finite number"),
+        (["winch_screw", "--branch", "+"], "no assembly mode"),
+        (["diff", "--at", "3"], "one drive"),
+        (["four-bar:1,1,1,10"], "stay open by"),
+    ],
+)
+def test_refusals(capsys, arguments, words):
+    status, _, err = run(capsys, *arguments)
+    assert status == 2
+    assert words in err
+
+
+def test_entries_are_checked_by_their_dimensions(tmp_path):
+    for id in ("winch_screw", "loco3", "diff_bevel2p", "susp_5link", "crankrocker"):
+        checked = check_entry(entry(id))
+        assert checked.holds
+        assert checked.freedoms is not None
+        assert checked.freedoms.mobility == (checked.claims.mobility or checked.report.generic)
+    text = entry_text("loco3")
+    bored = tmp_path / "loco3.toml"
+    bored.write_text(text.replace("at = [3320, 90]", "at = [3330, 90]"), encoding="utf-8")
+    assert [str(w) for w in check_entry(read_entry(bored)).wrong] == ["claims.mobility: printed 1, derived 0"]
+    bored.write_text(text.replace("assumed = true\n", ""), encoding="utf-8")
+    with pytest.raises(GrueblerError, match="screws: either assumed = true, or a source"):
+        read_entry(bored)
+    bored.write_text(text.replace("at = [3320, 90]", "at = [3320]"), encoding="utf-8")
+    with pytest.raises(GrueblerError, match=r"R\(wheel2-rod\), at: expected 2 or 3 numbers"):
+        read_entry(bored)
+
+
+def test_an_entry_without_dimensions(capsys, tmp_path):
+    path = tmp_path / "loop.toml"
+    path.write_text(
+        'id = "loop"\nname = { en = "loop", de = "Masche" }\nsource = "none"\njoints = "R(0-1) R(1-2) R(0-2)"\n'
+        '[links]\n0 = "a"\n1 = "b"\n2 = "c"\n',
+        encoding="utf-8",
+    )
+    assert check_entry(read_entry(path)).freedoms is None
+    status, _, err = run(capsys, str(path))
+    assert status == 2
+    assert "has no dimensions; these have: " in err
+
+
+def entry_text(id):
+    from gruebler.catalog import catalog_folder
+
+    return (catalog_folder() / "machines" / f"{id}.toml").read_text(encoding="utf-8")
