@@ -12,6 +12,7 @@ from gruebler.cli import main
 
 FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
 KEYS = {
+    "finite",
     "name",
     "links",
     "joints",
