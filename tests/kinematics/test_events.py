@@ -338,3 +338,11 @@ def test_change_points_of_larger_groups_are_named() -> None:
     assert [point.links for point in found] == [("2", "h", "3", "4")] * 4
     assert np.degrees([point.drive for point in found]) == pytest.approx([0, tilt, 180, 180 + tilt], abs=1e-8)
     assert measures(parallel_legs(error=1e-3)).change_points == ()
+
+
+@pytest.mark.parametrize("long", [30, 100, 1000])
+def test_slim_parallelograms_turn_fully(long: float) -> None:
+    """The limit of a dyad is seen to the rounding of its lengths, however different they are."""
+    found = measures(FourBar(1, long, 1, long).linkage())
+    assert found.span.full
+    assert [point.drive for point in found.change_points] == pytest.approx([0, math.pi], abs=1e-9)

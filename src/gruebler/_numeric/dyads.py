@@ -44,9 +44,10 @@ def dyad_square(kind: int, points: Complexes, lines: Complexes, size: float) -> 
     if kind == RRR:
         way = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
-        d, l1, l2 = _dot(way, way), _dot(first, first), _dot(second, second)
-        m = (d + l1 - l2) / 2
-        return (l1 * d - m * m) / (l1 * l2)
+        d, r, s = sqrt(_dot(way, way)), sqrt(_dot(first, first)), sqrt(_dot(second, second))
+        square = (r + s - d) * (s + d - r) * (d + r - s) * (d + r + s) / (2 * r * s) ** 2  # Heron: no digits are lost
+        noise = 4e-16 * (d + r + s) ** 2 / (r * s)
+        return 0.0 if -noise < square < 0 else square
     if kind == RRP:
         first = points[2, 0] - points[1, 0]
         reach = points[5, 0] + lines[5] * lines[4].conjugate() * (points[3, 0] - points[4, 0]) - points[0, 0]
