@@ -68,10 +68,15 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """Whether the seeds print none, so that the dimensions are chosen here."""
     source: str = ""
     """Where they are printed."""
-    drive: str | None = None
-    """The driven joint of the example, where the machine itself names none."""
+    drive: str | tuple[str, ...] | None = None
+    """The driven joint of the example, or several, where the machine itself names none."""
     range: tuple[float, float] | None = None
     """Drive values between which it moves, in degrees or in the unit."""
+
+    @property
+    def shown_drives(self) -> tuple[str, ...]:
+        """The driven joints of the example; empty where the machine names its own."""
+        return (self.drive,) if isinstance(self.drive, str) else self.drive or ()
 
 
 class HomeScrews(Screws, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -112,8 +117,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         if self.dimensions is None:
             raise CatalogError(f"the catalog entry {self.id!r} has no dimensions")
         chain = self.chain()
-        drives = (self.dimensions.drive,) if self.dimensions.drive is not None else self.drives
-        mechanism = Mechanism(chain, self.frame or chain.links[0], drives)
+        mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return dimensioned(self.dimensions, mechanism, self.outputs)
 
     def placed(self) -> Linkage | SpatialLinkage | None:
@@ -220,7 +224,7 @@ def _check(entry: Entry, path: Path) -> None:
 def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path) -> None:
     if sizes.assumed == bool(sizes.source):
         raise CatalogError(f"{path}: dimensions: either assumed = true, or a source that prints them")
-    if sizes.drive is not None and (entry.drives or chain.find_joint(sizes.drive) is None):
+    if sizes.shown_drives and (entry.drives or any(chain.find_joint(drive) is None for drive in sizes.shown_drives)):
         raise CatalogError(f"{path}: dimensions.drive: for an entry without drives, one of its joints")
     if sizes.range is not None and not -1e9 < sizes.range[0] < sizes.range[1] < 1e9:
         raise CatalogError(f"{path}: dimensions.range: expected two numbers, the smaller first")

@@ -1,4 +1,4 @@
-"""`gruebler catalog`: what comes with the library, listed, shown and searched."""
+"""`gruebler catalog`: what comes with the library, listed and shown."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ from typing import Any
 
 import msgspec
 
-from gruebler.catalog import Entry, Exercise, Query, entries, entry, exercises, search
+from gruebler.catalog import Entry, Exercise, entries, entry, exercises
 from gruebler.cli.tables import print_table
+from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
 
 __all__ = ["run"]
@@ -27,40 +28,47 @@ _LABELS = {
     "remark": ("Remark", "Bemerkung"),
     "lost": ("Figure lost: the structure is an assumption.", "Bild verloren: Die Struktur ist eine Annahme."),
 }
-_NOTHING = {"en": "No entry answers.", "de": "Kein Eintrag passt."}
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """List, show or search."""
+    """List or show."""
     match arguments.action:
         case "list":
-            _list(list(entries().values()), list(exercises().values()), arguments)
-        case "search":
-            query = Query(
-                tuple(arguments.words),
-                arguments.links,
-                arguments.joints,
-                arguments.mobility,
-                tuple(arguments.pair),
-                arguments.drive,
-            )
-            _list(search(query), [], arguments)
+            _list(arguments)
         case "show":
             records = [exercises().get(id) or entry(id) for id in arguments.ids]
             if arguments.json:
-                _print_json(records)
+                _print_json([_plain(record, arguments.full) for record in records])
             else:
-                print("\n\n".join(_shown(record, arguments.lang) for record in records))
+                print("\n\n".join(_told(record, arguments) for record in records))
     return 0
 
 
-def _print_json(records: list[Any]) -> None:
-    print(json.dumps([msgspec.to_builtins(record) for record in records], ensure_ascii=False, indent=2))
+def _print_json(documents: list[Any]) -> None:
+    print(json.dumps(documents, ensure_ascii=False, indent=2, allow_nan=False))
 
 
-def _list(machines: list[Entry], tasks: list[Exercise], arguments: argparse.Namespace) -> None:
+def _plain(record: Entry | Exercise, full: bool) -> Any:
+    if full and isinstance(record, Entry):
+        from gruebler.catalog.machine_report import machine_report
+
+        return machine_report(record).to_json()
+    return msgspec.to_builtins(record)
+
+
+def _told(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
+    text = _shown(record, arguments.lang)
+    if arguments.full and isinstance(record, Entry):
+        from gruebler.catalog.machine_report import machine_report
+
+        text += "\n\n" + machine_report(record).explain(arguments.lang)
+    return text
+
+
+def _list(arguments: argparse.Namespace) -> None:
+    machines, tasks = entries().values(), exercises().values()
     if arguments.json:
-        _print_json([*machines, *tasks])
+        _print_json([msgspec.to_builtins(record) for record in (*machines, *tasks)])
         return
     lang = arguments.lang
     rows = []
@@ -68,10 +76,7 @@ def _list(machines: list[Entry], tasks: list[Exercise], arguments: argparse.Name
         chain = machine.chain()
         rows.append((machine.id, machine.name.said(lang), str(chain.n), str(counted(chain)), machine.source))
     rows += [(task.id, task.name.said(lang), "", "", task.source) for task in tasks]
-    if rows:
-        print_table(_HEADERS[lang], rows, numbers=(2, 3))
-    else:
-        print(_NOTHING[lang])
+    print_table(_HEADERS[lang], rows, numbers=(2, 3))
 
 
 def _shown(record: Entry | Exercise, lang: str) -> str:
@@ -81,17 +86,18 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
         lines.append(f"{_label('task', lang)}: {record.task.said(lang)}")
         lines += [f"{_label('case', lang)}: {c.name.said(lang)} ({c.machine})" for c in record.cases]
         return "\n".join(lines)
-    chain = record.chain()
+    chain, alphabet = record.chain(), "german" if lang == "de" else "international"
+    drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
     names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
     lines += [
-        f"{_label('chain', lang)}: {chain.text('german' if lang == 'de' else 'international')}",
+        f"{_label('chain', lang)}: {chain.text(alphabet)}",
         f"{_label('links', lang)}: {names if lang == 'de' else ', '.join(record.links)}",
     ]
     if record.frame:
         lines.append(f"{_label('frame', lang)}: {record.frame}")
     lines += [
         f"{_label(key, lang)}: {', '.join(values)}"
-        for key, values in (("drives", record.drives), ("outputs", record.outputs))
+        for key, values in (("drives", drives), ("outputs", record.outputs))
         if values
     ]
     if record.figure_lost:

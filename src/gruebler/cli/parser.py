@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import NoReturn
 
+from gruebler.cli.catalog_commands import add as add_catalog_commands
+from gruebler.cli.coverage_commands import add as add_coverage_commands
 from gruebler.cli.curve_commands import add as add_curve_commands
 from gruebler.cli.exercise_commands import add as add_exercise_commands
 from gruebler.cli.freedoms_commands import add as add_freedoms_commands
@@ -36,7 +38,7 @@ def build_parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"gruebler {__version__}")
     commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True, parser_class=_Parser)
     _add_check(commands)
-    _add_catalog(commands)
+    add_catalog_commands(commands)
     _add_enumerate(commands)
     _add_assortments(commands)
     _add_inversions(commands)
@@ -52,6 +54,7 @@ def build_parser() -> argparse.ArgumentParser:
     add_freedoms_commands(commands)
     add_sheet_commands(commands)
     add_exercise_commands(commands)
+    add_coverage_commands(commands)
     _add_demo(commands)
     return parser
 
@@ -78,29 +81,6 @@ def _add_check(commands: argparse._SubParsersAction[_Parser]) -> None:
     check.add_argument("--json", action="store_true", help="a list of objects, one for each chain")
     _add_language(check)
     check.set_defaults(run="gruebler.cli.check")
-
-
-def _add_catalog(commands: argparse._SubParsersAction[_Parser]) -> None:
-    catalog = commands.add_parser(
-        "catalog",
-        help="list, show and search the machines that come with the library",
-        description="The machines and exercises of the seeds.",
-    )
-    catalog.set_defaults(run="gruebler.cli.catalog")
-    actions = catalog.add_subparsers(dest="action", metavar="list|show|search", required=True, parser_class=_Parser)
-    listing = actions.add_parser("list", help="all entries")
-    show = actions.add_parser("show", help="one or several entries in full")
-    show.add_argument("ids", nargs="+", metavar="ID")
-    search = actions.add_parser("search", help="entries with given words and numbers")
-    search.add_argument("words", nargs="*", metavar="WORD", help="must occur in a name, remark, source or link")
-    search.add_argument("--links", type=int, metavar="N", help="number of links")
-    search.add_argument("--joints", type=int, metavar="G", help="number of joints, multiple ones counted k - 1 times")
-    search.add_argument("--mobility", type=int, metavar="F", help="F by the count")
-    search.add_argument("--pair", action="append", default=[], metavar="P", help="symbol or name of a pair; repeatable")
-    search.add_argument("--drive", metavar="P", help="symbol or name of a driven pair")
-    for action in (listing, show, search):
-        action.add_argument("--json", action="store_true", help="as JSON")
-        _add_language(action)
 
 
 def _add_enumerate(commands: argparse._SubParsersAction[_Parser]) -> None:

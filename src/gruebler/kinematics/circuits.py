@@ -31,7 +31,7 @@ Quantity = Callable[[Poses, int], Reals]
 
 _CONSTANT = 1e-11  # a derivative that is nowhere larger is none
 _SINGULAR = 1e-3  # a start with a smaller gauge is taken only if there is no better one
-_SHAKY = 1e-3  # a shaky linkage moves less, within what counts as closed joints
+_SHAKY = 1e-4  # a shaky linkage moves less, within what counts as closed joints
 _TRIALS = 1024  # values of the drive that are tried for a start
 _REACH = 4.0  # ways of a driven slide up to that many sizes are tried
 

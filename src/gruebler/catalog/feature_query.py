@@ -1,0 +1,252 @@
+"""Searching by access features: what fits a query, what no mechanism can fit, and every structure that does.
+
+docs/theory/access-features.md has the definitions, and the laws that a query may contradict.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import count
+from typing import Any
+
+from gruebler.catalog.features import AccessFeatures, access_features
+from gruebler.catalog.records import Entry
+from gruebler.chain import Chain
+from gruebler.errors import GrueblerError, PairError
+from gruebler.inversion import Driven, driven_mechanisms, inversions
+from gruebler.mechanism import Mechanism, check_drives
+from gruebler.mobility import counted
+from gruebler.pairs import Pair, Space, read_symbols
+from gruebler.specialisation import Requirements, typed_chains
+
+__all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
+
+_SAME = ("links", "drive_joints", "drive_joints_at_frame", "output_links", "output_links_at_frame")
+_PLAIN = {"drive_joints": "drive joints", "output_links": "output links", "links": "links"}
+_EXCHANGED = ("prismatic", "rolling", "roll_slide")  # what the enumeration puts in the place of revolutes
+
+
+@dataclass(frozen=True, slots=True)
+class FeatureQuery:
+    """Access features as they are wanted; None and empty mean: whatever.
+
+    Raises `GrueblerError` for features that contradict each other.
+    """
+
+    links: int | None = None
+    mobility: int | None = None
+    """F by the count."""
+    drive_joints: int | None = None
+    drive_joints_at_frame: int | None = None
+    output_links: int | None = None
+    output_links_at_frame: int | None = None
+    pairs: tuple[tuple[Pair, int], ...] = ()
+    """Exactly so many joints of these kinds, a joint of k links counted k - 1 times."""
+    kinds: tuple[tuple[int, int], ...] = ()
+    """Number of joints on a link, exactly so many such links."""
+    multiple_joints: int | None = None
+
+    def __post_init__(self) -> None:
+        for name in (*_SAME, "multiple_joints"):
+            if (value := getattr(self, name)) is not None and value < 0:
+                raise GrueblerError(f"the number of {name.replace('_', ' ')} is 0 or more, not {value}")
+        for name in ("drive_joints", "output_links"):
+            total, part = getattr(self, name), getattr(self, f"{name}_at_frame")
+            if total is not None and part is not None and part > total:
+                raise GrueblerError(f"{total} {_PLAIN[name]} cannot be {part} at the frame")
+        for k, number in self.kinds:
+            if number < 0:
+                raise GrueblerError(f"the number of links with {k} joints is 0 or more, not {number}")
+        told = sum(number for _, number in self.kinds)
+        if self.links is not None and told > self.links:
+            raise GrueblerError(f"{self.links} links cannot be {_kinds_said(self.kinds)}: those are {told}")
+
+    def fits(self, mechanism: Mechanism, features: AccessFeatures) -> bool:
+        """Whether the mechanism with these features is wanted."""
+        chain = mechanism.chain
+        for name in ("drive_joints", "output_links"):
+            if (
+                getattr(self, f"{name}_at_frame") is not None
+                and getattr(self, name) is None
+                and not getattr(features, name)
+            ):
+                return False
+        by_pair, by_joints = dict(features.joints_by_pair), dict(features.links_by_joints)
+        multiple = sum(joint.count > 1 for joint in chain.joints)
+        return (
+            all(getattr(self, name) in (None, getattr(features, name)) for name in _SAME)
+            and all(by_pair.get(kind, 0) == number for kind, number in self.pairs)
+            and all(by_joints.get(k, 0) == number for k, number in self.kinds)
+            and self.multiple_joints in (None, multiple)
+            and self.mobility in (None, counted(chain))
+        )
+
+
+def read_pairs(text: str) -> tuple[tuple[Pair, int], ...]:
+    """Kinds of joints with their numbers, in one alphabet.
+
+    >>> read_pairs("D:4,S:0")
+    ((<pair revolute>, 4), (<pair prismatic>, 0))
+    """
+    numbers = {}
+    for part in text.split(","):
+        symbol, colon, number = (piece.strip() for piece in part.partition(":"))
+        if not symbol or not colon or not number.isdecimal():
+            raise GrueblerError(f"{text!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}")
+        if symbol in numbers:
+            raise GrueblerError(f"{text!r}: {symbol} stands there twice")
+        numbers[symbol] = int(number)
+    try:
+        read = read_symbols(numbers, Space.PLANAR)
+    except PairError:
+        read = read_symbols(numbers, Space.SPATIAL)
+    return tuple((read[symbol], number) for symbol, number in numbers.items())
+
+
+# --- entries of the catalog --------------------------------------------------------------------------
+
+
+def entry_mechanism(entry: Entry) -> Mechanism:
+    """The mechanism of an entry; where the machine names no drive, the one with which its dimensions are shown."""
+    chain = entry.chain()
+    shown = () if entry.dimensions is None else entry.dimensions.shown_drives
+    return Mechanism(chain, entry.frame or chain.links[0], entry.drives or shown)
+
+
+def entry_features(entry: Entry) -> AccessFeatures:
+    """The access features of an entry."""
+    return access_features(entry_mechanism(entry), entry.outputs)
+
+
+def features_to_json(features: AccessFeatures) -> dict[str, Any]:
+    """Access features as plain data; kinds of joints by name."""
+    return {name: getattr(features, name) for name in (*_SAME, "joints")} | {
+        "links_by_joints": {str(k): number for k, number in features.links_by_joints},
+        "joints_by_pair": {kind.name: number for kind, number in features.joints_by_pair},
+    }
+
+
+# --- every structure ---------------------------------------------------------------------------------
+
+
+def structures(query: FeatureQuery) -> Iterator[Driven]:
+    """Every planar mechanism that fits, each once, lazily.
+
+    Inversions if nothing is asked of drives and outputs; else mechanisms with as many drives as their mobility (1 if
+    none is given) that fix the motion, and with an output link if one is asked for. Kinds of joints that are not
+    named do not occur, but for revolutes; joints of more than two links only if asked for.
+
+    Raises `GrueblerError` if no mechanism can fit, and says why.
+
+    >>> query = FeatureQuery(links=4, drive_joints=1, output_links=1, output_links_at_frame=0, pairs=read_pairs("D:4"))
+    >>> [str(found.mechanism.chain) for found in structures(query)]
+    ['R(0-1) R(1-2) R(2-3) R(3-0)', 'R(0-1) R(1-2) R(2-3) R(3-0)']
+    """
+    wanted = _requirements(query)
+    _check_roles(query, wanted.mobility)
+    return (
+        driven
+        for chain in typed_chains(wanted)
+        for driven in _mechanisms(chain, query, wanted.mobility)
+        if query.fits(driven.mechanism, access_features(driven.mechanism, _outputs(driven)))
+    )
+
+
+def _outputs(driven: Driven) -> tuple[str, ...]:
+    return () if driven.output is None else (driven.output,)
+
+
+def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Driven]:
+    about_output = query.output_links == 1 or query.output_links_at_frame is not None
+    about_drives = bool(query.drive_joints) or query.drive_joints_at_frame is not None or about_output
+    if query.drive_joints == 0 or not about_drives:
+        yield from (Driven(mechanism) for mechanism in inversions(chain))
+        return
+    at_frame = query.drive_joints_at_frame == mobility
+    fixed: dict[Mechanism, bool] = {}
+    for driven in driven_mechanisms(chain, drives=mobility, at_frame=at_frame, output=about_output):
+        mechanism = driven.mechanism
+        if mechanism not in fixed:
+            fixed[mechanism] = check_drives(mechanism).fixed
+        if fixed[mechanism]:
+            yield driven
+
+
+def _check_roles(query: FeatureQuery, mobility: int) -> None:
+    if query.drive_joints not in (None, 0, mobility):
+        raise GrueblerError(
+            f"mobility {mobility} takes as many drives, which {query.drive_joints} drive joints are not"
+        )
+    if (query.drive_joints_at_frame or 0) > mobility:
+        raise GrueblerError(f"mobility {mobility} takes as many drives; {query.drive_joints_at_frame} are too many")
+    if max(query.output_links or 0, query.output_links_at_frame or 0) > 1:
+        raise GrueblerError("mechanisms are enumerated with one output link at most")
+    if query.drive_joints == 0 and (query.output_links or query.output_links_at_frame is not None):
+        raise GrueblerError("an output link takes a drive; 0 drive joints leave it without one")
+
+
+def _requirements(query: FeatureQuery) -> Requirements:
+    """What the enumeration is asked for; contradictions between links, mobility, joints and kinds of links are said."""
+    if query.links is None:
+        raise GrueblerError("to enumerate mechanisms, the number of links is needed")
+    links, mobility = query.links, 1 if query.mobility is None else query.mobility
+    if links < 3 or mobility < 0:
+        raise GrueblerError(
+            f"mechanisms are enumerated from 3 links and F = 0, not with {links} links and F = {mobility}"
+        )
+    numbers = {kind.name: number for kind, number in query.pairs}
+    for name, number in numbers.items():
+        if number and name not in ("revolute", *_EXCHANGED):
+            raise GrueblerError(f"planar mechanisms are enumerated with R, P, W and G joints, not with {name}")
+    contacts = numbers.get("roll_slide", 0)
+    taken = 3 * (links - 1) - mobility  # 2 g1 + g2
+    where = f"{links} links with F = {mobility}"
+    if (taken - contacts) % 2:
+        raise GrueblerError(
+            f"{where}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 = {contacts} roll-slide joints"
+        )
+    g1 = (taken - contacts) // 2
+    others = sum(numbers.get(name, 0) for name in ("prismatic", "rolling"))
+    if g1 < others or numbers.get("revolute", g1 - others) != g1 - others:
+        told = others + numbers.get("revolute", 0)
+        more = f": name the kinds of the other {g1 - told}" if told < g1 else ""
+        raise GrueblerError(
+            f"{where} and {contacts} roll-slide joints have g1 = {g1}, but {told} such joints are asked for{more}"
+        )
+    _check_kinds(query, g1 + contacts)
+    complete = sum(number for _, number in query.kinds) == links
+    return Requirements(
+        links=links,
+        mobility=mobility,
+        prismatic=numbers.get("prismatic", 0),
+        rolling=numbers.get("rolling", 0),
+        roll_slide=contacts,
+        assortment=_assortment(query.kinds) if complete else None,
+        multiple_joints=query.multiple_joints or 0,
+    )
+
+
+def _check_kinds(query: FeatureQuery, joints: int) -> None:
+    """2 g = sum of i n_i, if every joint joins two links."""
+    if query.links is None or query.multiple_joints or not query.kinds:
+        return
+    others = query.links - sum(number for _, number in query.kinds)
+    fewest = next(k for k in count(2) if k not in dict(query.kinds))
+    elements = fewest * others + sum(k * number for k, number in query.kinds)
+    if elements > 2 * joints or (not others and elements != 2 * joints):
+        left = f" and {others} more with at least {fewest} joints" if others else ""
+        raise GrueblerError(
+            f"{_kinds_said(query.kinds)}{left} have {elements} joint elements, but {query.links} links take {joints} "
+            f"joints, so 2 g = {2 * joints}"
+        )
+
+
+def _assortment(kinds: tuple[tuple[int, int], ...]) -> tuple[int, ...]:
+    numbers = dict(kinds)
+    return tuple(numbers.get(k, 0) for k in range(2, max(k for k, n in kinds if n) + 1))
+
+
+def _kinds_said(kinds: tuple[tuple[int, int], ...]) -> str:
+    names = {1: "singular", 2: "binary", 3: "ternary", 4: "quaternary"}
+    return ", ".join(f"{number} {names.get(k, f'{k}-joint')}" for k, number in kinds) + " links"

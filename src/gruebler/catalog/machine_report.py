@@ -1,0 +1,294 @@
+"""All that is derived of one machine: mobility, what really moves, features, drives, measures, paths of its points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import degrees, pi
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from gruebler.catalog.feature_query import entry_features, entry_mechanism, features_to_json
+from gruebler.catalog.features import AccessFeatures
+from gruebler.catalog.records import Entry
+from gruebler.errors import LinkageError
+from gruebler.linkages import Linkage
+from gruebler.mechanism import DriveReport, Mechanism, check_drives
+from gruebler.mobility import MobilityReport, mobility_report
+from gruebler.pairs import Alphabet
+
+if TYPE_CHECKING:
+    from gruebler.freedoms import Freedoms
+    from gruebler.geometry import CouplerCurve
+    from gruebler.kinematics.measuring import Measures
+    from gruebler.screws import SpatialLinkage
+
+__all__ = ["GuidedPoint", "MachineReport", "Partial", "machine_report"]
+
+_ROWS = 361
+
+
+class Partial(NamedTuple):
+    """How fast an output goes for each unit of one of several drives, in the position in which the machine is drawn."""
+
+    output: str
+    drive: str
+    at: float
+    """The drive's value there, in radians or the unit."""
+    value: float
+
+
+class GuidedPoint(NamedTuple):
+    """The path of a named point over the whole motion of the drive, in the unit of the machine."""
+
+    name: str
+    link: str
+    closed: bool
+    length: float
+    width: float
+    """How far it goes along x."""
+    height: float
+    """How far it goes along y."""
+
+
+@dataclass(frozen=True, eq=False)
+class MachineReport:
+    """What `machine_report` found. `explain` says it in words."""
+
+    entry: Entry
+    mechanism: Mechanism
+    mobility: MobilityReport
+    freedoms: Freedoms | None
+    """What the dimensions give; None without dimensions."""
+    features: AccessFeatures
+    drives: DriveReport | None
+    """Whether the drives fix the motion; None for a machine without drives."""
+    measures: Measures | None
+    """Those of a planar linkage with one drive."""
+    partials: tuple[Partial, ...]
+    """Those of a planar linkage with several drives."""
+    points: tuple[GuidedPoint, ...]
+    shown_mu: tuple[float, float] | None
+    """The smallest and largest transmission angle in the range that the entry shows, on a grid."""
+
+    @property
+    def moves(self) -> int:
+        """What really moves: by the dimensions if there are any, else as claimed, else for almost all sizes."""
+        if self.freedoms is not None:
+            return self.freedoms.mobility
+        claimed = self.entry.claims.mobility
+        return self.mobility.generic if claimed is None else claimed
+
+    def explain(self, lang: str = "en") -> str:
+        """The report as a text with titled sections, in English (``en``) or German (``de``)."""
+        column = lang == "de"
+        sections = ((_TITLES[key][column], list(lines)) for key, lines in _sections(self, lang))
+        return "\n\n".join("\n".join([f"{title}:", *(f"  {line}" for line in lines)]) for title, lines in sections)
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for `json.dumps`."""
+        sizes = self.entry.dimensions or self.entry.screws
+        return {
+            "id": self.entry.id,
+            "name": {"en": self.entry.name.en, "de": self.entry.name.de},
+            "mechanism": self.mechanism.to_json(),
+            "mobility": self.mobility.to_json() | {"formula": self.mobility.count.formula(), "moves": self.moves},
+            "freedoms": None if self.freedoms is None else self.freedoms.to_json(),
+            "features": features_to_json(self.features),
+            "drives_fix_the_motion": None if self.drives is None else self.drives.fixed,
+            "dimensions": None if sizes is None else {"assumed": sizes.assumed, "source": sizes.source},
+            "measures": None if self.measures is None else self.measures.to_json(),
+            "partials": [partial._asdict() for partial in self.partials],
+            "points": [point._asdict() for point in self.points],
+            "transmission_angle_shown": None if self.shown_mu is None else [degrees(mu) for mu in self.shown_mu],
+        }
+
+
+def machine_report(entry: Entry) -> MachineReport:
+    """Everything derived of an entry.
+
+    Cost: mobility in milliseconds; measures and paths some tenths of a second.
+
+    >>> from gruebler.catalog import entry
+    >>> found = machine_report(entry("lambda"))
+    >>> found.moves, found.points[0].name, round(found.points[0].height, 6)
+    (1, 'C', 17.97959)
+    """
+    mechanism, placed = entry_mechanism(entry), entry.placed()
+    linkage = None if entry.dimensions is None else entry.linkage()
+    one, several = (linkage, None) if len(mechanism.drives) == 1 else (None, linkage if mechanism.drives else None)
+    found, points = (None, ()) if one is None else _moving(one)
+    return MachineReport(
+        entry,
+        mechanism,
+        mobility_report(mechanism.chain, frame=mechanism.frame),
+        None if placed is None else _freedoms(placed),
+        entry_features(entry),
+        check_drives(mechanism) if mechanism.drives else None,
+        found,
+        () if several is None else _partials(several),
+        points,
+        _shown_transmission(entry, found),
+    )
+
+
+def _freedoms(placed: Linkage | SpatialLinkage) -> Freedoms:
+    from gruebler.freedoms import freedoms
+
+    return freedoms(placed)
+
+
+def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]:
+    """Measures and paths; None where the drive does not move the linkage."""
+    from gruebler.geometry import coupler_curve
+    from gruebler.kinematics.measuring import measures
+
+    try:
+        found = measures(linkage)
+    except LinkageError:
+        return None, ()
+    points = []
+    for name, place in linkage.points.items():
+        curve = coupler_curve(linkage, name)
+        extent = (_extent(curve, direction) for direction in (0.0, pi / 2))
+        points.append(GuidedPoint(name, place.link, curve.closed, curve.length, *extent))
+    return found, tuple(points)
+
+
+def _partials(linkage: Linkage) -> tuple[Partial, ...]:
+    """Transfer functions of order 1 by each drive, at home."""
+    from gruebler.kinematics import move
+    from gruebler.kinematics.home import at_home
+    from gruebler.kinematics.moving import planned
+    from gruebler.kinematics.outputs import find_output
+
+    names, plan = linkage.mechanism.drive_names(), planned(linkage)
+    if plan.lower.home is None:
+        return ()
+    home = at_home(plan, np.zeros(len(names))).drives
+    output = find_output(linkage)
+    values = [output.track(move(linkage, [home], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
+    return tuple(Partial(output.name, *row) for row in zip(names, home.tolist(), map(float, values), strict=True))
+
+
+def _shown_transmission(entry: Entry, found: Measures | None) -> tuple[float, float] | None:
+    """Over the range that is shown; the whole motion often begins and ends where the angle is 0."""
+    if found is None or found.transmission is None or entry.dimensions is None or entry.dimensions.range is None:
+        return None
+    from gruebler.kinematics import move
+    from gruebler.kinematics.transmission import transmission_angle
+
+    rows = np.linspace(*entry.dimensions.range, _ROWS)
+    motion = move(found.linkage, np.radians(rows) if found.turning_drive else rows, speed=1.0)
+    angles = transmission_angle(motion, found.output.name)
+    return float(angles.min()), float(angles.max())
+
+
+def _extent(curve: CouplerCurve, direction: float) -> float:
+    """How far a path goes along a direction: between two of the points where it turns back, or its ends."""
+    along = np.exp(-1j * direction)
+    ends = [] if curve.closed else [complex(curve.points[0]), complex(curve.points[-1])]
+    ways = [(along * complex(z)).real for z in [*ends, *(turn.at for turn in curve.turning_points(direction))]]
+    return float(max(ways) - min(ways)) if ways else 0.0
+
+
+# --- in words --------------------------------------------------------------------------------------
+
+_TITLES = {
+    "mobility": ("Mobility", "Laufgrad"),
+    "moves": ("What really moves", "Was sich wirklich bewegt"),
+    "features": ("Access features", "Zugriffsmerkmale"),
+    "drive": ("Drive", "Antrieb"),
+    "dimensions": ("Dimensions", "Abmessungen"),
+    "measures": ("Transfer function", "Übertragungsfunktion"),
+    "points": ("Guided points", "Geführte Punkte"),
+}
+_TEXTS = {
+    "claimed": ("{mobility}, as claimed. {reason}", "{mobility}, wie angegeben. {reason}"),
+    "generic": ("{mobility}, for almost all sizes.", "{mobility}, bei fast allen Abmessungen."),
+    "hand": ("Not driven at a joint.", "An keinem Gelenk angetrieben."),
+    "special": (
+        "What special dimensions let move is told above; almost all sizes would give another mobility than {moves}.",
+        "Was sich durch besondere Abmessungen bewegt, steht oben; fast alle Abmessungen gäben einen anderen Laufgrad "
+        "als {moves}.",
+    ),
+    "assumed": ("Assumed; none are printed.", "Angenommen; es sind keine gedruckt."),
+    "source": ("From {source}.", "Aus {source}."),
+    "screws": (
+        "The joints in one position; enough for the mobility.",
+        "Die Gelenke in einer Lage; das genügt für den Laufgrad.",
+    ),
+    "unit": ("Unit of length: {unit}.", "Längeneinheit: {unit}."),
+    "range": ("Shown between {low:g}{unit} and {high:g}{unit}.", "Gezeigt zwischen {low:g}{unit} und {high:g}{unit}."),
+    "shown": (
+        "In the range shown the transmission angle is {small:.4g}° to {large:.4g}°.",
+        "Im gezeigten Bereich beträgt der Übertragungswinkel {small:.4g}° bis {large:.4g}°.",
+    ),
+    "partial": (
+        "As drawn, {output} goes by {value:.6g} for each unit of {drive} (angles in radians).",
+        "In der gezeichneten Lage geht {output} um {value:.6g} je Einheit von {drive} (Winkel im Bogenmaß).",
+    ),
+    "closed": (
+        "{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high.",
+        "{name} auf {link}: geschlossene Bahn, {length:.6g} {unit} lang, {width:.6g} breit, {height:.6g} hoch.",
+    ),
+    "open": (
+        "{name} on {link}: a path {length:.6g} {unit} long between the limits, {width:.6g} wide, {height:.6g} high.",
+        "{name} auf {link}: Bahn zwischen den Grenzen, {length:.6g} {unit} lang, {width:.6g} breit, {height:.6g} hoch.",
+    ),
+}
+
+
+def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]]:
+    def say(key: str, **values: Any) -> str:
+        return _TEXTS[key][lang == "de"].format(**values).rstrip()
+
+    yield "mobility", found.mobility.explain(lang).splitlines()
+    yield "moves", _moves_lines(found, say, lang)
+    yield "features", [f"{label}: {value}" for label, value in found.features.said(lang)]
+    alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
+    if found.drives is None:
+        yield "drive", [say("hand")]
+    else:
+        names = ", ".join(found.mechanism.drive_names(alphabet))
+        usual = found.moves == found.mobility.generic
+        yield "drive", [names, found.drives.explain(lang) if usual else say("special", moves=found.moves)]
+    if lines := _dimension_lines(found.entry, say):
+        yield "dimensions", lines
+    if found.measures is not None:
+        lines = found.measures.explain(lang).splitlines()
+        if found.shown_mu is not None:
+            small, large = (degrees(mu) for mu in found.shown_mu)
+            lines.append(say("shown", small=small, large=large))
+        yield "measures", lines
+    elif found.partials:
+        each = zip(found.partials, found.mechanism.drive_names(alphabet), strict=True)
+        yield "measures", [say("partial", output=one.output, value=one.value, drive=name) for one, name in each]
+    if found.measures is not None and found.points:
+        unit = found.measures.linkage.unit
+        yield "points", [say("closed" if p.closed else "open", unit=unit, **p._asdict()) for p in found.points]
+
+
+def _moves_lines(found: MachineReport, say: Any, lang: str) -> list[str]:
+    claims = found.entry.claims
+    if found.freedoms is not None:
+        told = found.mobility.count.formula()
+        return [line for line in found.freedoms.explain(lang).splitlines() if not line.endswith(told)]
+    if claims.mobility is None:
+        return [say("generic", mobility=found.moves)]
+    return [say("claimed", mobility=claims.mobility, reason=claims.reason.said(lang) if claims.reason else "")]
+
+
+def _dimension_lines(entry: Entry, say: Any) -> list[str]:
+    sizes = entry.dimensions or entry.screws
+    if sizes is None:
+        return []
+    lines = [say("source", source=sizes.source) if sizes.source else say("assumed"), say("unit", unit=sizes.unit)]
+    if entry.dimensions is None:
+        return [*lines, say("screws")]
+    if entry.dimensions.range is not None:
+        low, high = entry.dimensions.range
+        turning = entry_mechanism(entry).drives[0].direction.startswith("R")
+        lines.append(say("range", low=low, high=high, unit="°" if turning else f" {sizes.unit}"))
+    return lines

@@ -1,0 +1,202 @@
+"""`gruebler catalog search`: machines, or every structure, with given access features."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from itertools import islice
+from time import monotonic
+from typing import Any
+
+import msgspec
+
+from gruebler.catalog import Entry, Query, search
+from gruebler.catalog.feature_query import (
+    FeatureQuery,
+    entry_features,
+    entry_mechanism,
+    features_to_json,
+    read_pairs,
+    structures,
+)
+from gruebler.catalog.features import AccessFeatures
+from gruebler.cli.inversions import item
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+from gruebler.inversion import Driven, family
+from gruebler.mobility import counted, mobility_report
+from gruebler.pairs import Alphabet
+
+__all__ = ["run"]
+
+_HEADERS = {
+    "en": ("id", "name", "n", "F", "moves", "drives (frame)", "outputs (frame)", "links", "joints"),
+    "de": ("Kennung", "Name", "n", "F", "beweglich", "Antriebe (Gestell)", "Abtriebe (Gestell)", "Glieder", "Gelenke"),
+}
+_WORDS = {
+    "en": {
+        "nothing": "No entry answers.",
+        "none": "No mechanism has these features.",
+        "found": "{n} found.",
+        "more": "{n} told; there are more.",
+        "output": "output",
+        "progress": "{n} mechanisms, {seconds:.0f} s",
+    },
+    "de": {
+        "nothing": "Kein Eintrag passt.",
+        "none": "Kein Getriebe hat diese Merkmale.",
+        "found": "{n} gefunden.",
+        "more": "{n} genannt; es gibt weitere.",
+        "output": "Abtrieb",
+        "progress": "{n} Getriebe, {seconds:.0f} s",
+    },
+}
+_NAMED = {"binary": 2, "ternary": 3, "quaternary": 4}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Search the catalog, or enumerate."""
+    query = _features(arguments)
+    if arguments.enumerate:
+        _enumerate(query, arguments)
+    else:
+        if arguments.limit is not None:
+            raise GrueblerError("--limit goes with --enumerate: the catalog is told in full")
+        _look_up(query, arguments)
+    return 0
+
+
+def _features(arguments: argparse.Namespace) -> FeatureQuery:
+    kinds = {k: number for name, k in _NAMED.items() if (number := getattr(arguments, name)) is not None}
+    if arguments.link_kinds is not None:
+        if kinds:
+            raise GrueblerError("--link-kinds tells all kinds of links; it does not go with --binary, --ternary, ...")
+        numbers = _numbers(arguments.link_kinds)
+        kinds = dict(enumerate(numbers, 2))
+        if arguments.links not in (None, sum(numbers)):
+            raise GrueblerError(f"--link-kinds {arguments.link_kinds} are {sum(numbers)} links, not {arguments.links}")
+    return FeatureQuery(
+        links=sum(kinds.values()) if arguments.link_kinds is not None else arguments.links,
+        mobility=arguments.mobility,
+        drive_joints=arguments.drives,
+        drive_joints_at_frame=arguments.drives_at_frame,
+        output_links=arguments.outputs,
+        output_links_at_frame=arguments.output_links_at_frame,
+        pairs=() if arguments.pairs is None else read_pairs(arguments.pairs),
+        kinds=tuple(kinds.items()),
+        multiple_joints=arguments.multiple_joints,
+    )
+
+
+def _numbers(text: str) -> tuple[int, ...]:
+    parts = text.split(",")
+    if not all(part.strip().isdecimal() for part in parts):
+        raise GrueblerError(f"--link-kinds {text!r}: expected the numbers of binary, ternary, ... links such as 4,2")
+    return tuple(int(part) for part in parts)
+
+
+# --- the catalog -----------------------------------------------------------------------------------
+
+
+def _look_up(query: FeatureQuery, arguments: argparse.Namespace) -> None:
+    words = Query(
+        words=(*arguments.words, *arguments.text),
+        joints=arguments.joints,
+        pairs=tuple(arguments.pair),
+        drive=arguments.drive,
+    )
+    found = []
+    for entry in search(words):
+        features = entry_features(entry)
+        if query.fits(entry_mechanism(entry), features) and not (arguments.claims and _moves(entry) == _counted(entry)):
+            found.append((entry, features))
+    if arguments.count:
+        print(json.dumps({"count": len(found)}) if arguments.json else len(found))
+    elif arguments.json:
+        print(json.dumps([_document(*one) for one in found], ensure_ascii=False, indent=2))
+    elif found:
+        print_table(_HEADERS[arguments.lang], [_row(*one, arguments.lang) for one in found], numbers=(2, 3, 4))
+    else:
+        print(_WORDS[arguments.lang]["nothing"])
+
+
+def _moves(entry: Entry) -> int:
+    """What really moves: the claim, which `gruebler check` derives, or the generic mobility."""
+    claimed = entry.claims.mobility
+    return mobility_report(entry.chain()).generic if claimed is None else claimed
+
+
+def _counted(entry: Entry) -> int:
+    return counted(entry.chain())
+
+
+def _row(entry: Entry, features: AccessFeatures, lang: str) -> tuple[str, ...]:
+    alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
+    return (
+        entry.id,
+        entry.name.said(lang),
+        str(features.links),
+        str(_counted(entry)),
+        str(_moves(entry)),
+        f"{features.drive_joints} ({features.drive_joints_at_frame})",
+        f"{features.output_links} ({features.output_links_at_frame})",
+        " ".join(f"n{k}={number}" for k, number in features.links_by_joints),
+        " ".join(f"{symbol}:{number}" for symbol, number in features.by_symbol(alphabet)),
+    )
+
+
+def _document(entry: Entry, features: AccessFeatures) -> dict[str, Any]:
+    document: dict[str, Any] = msgspec.to_builtins(entry)
+    return document | {"features": features_to_json(features), "moves": _moves(entry)}
+
+
+# --- every structure -------------------------------------------------------------------------------
+
+
+def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
+    for option in ("words", "text", "joints", "pair", "drive", "claims"):
+        if getattr(arguments, option):
+            raise GrueblerError(f"{option} belongs to the machines of the catalog and does not go with --enumerate")
+    if arguments.limit is not None and arguments.limit < 1:
+        raise GrueblerError(f"--limit is 1 or more, not {arguments.limit}")
+    words = _WORDS[arguments.lang]
+    quiet = arguments.count or arguments.json or not sys.stdout.isatty()
+    found = _progress(structures(query), words["progress"] if quiet and sys.stderr.isatty() else "")
+    told = found if arguments.limit is None else islice(found, arguments.limit)
+    items: list[dict[str, object]] = []
+    number = 0
+    for number, driven in enumerate(told, 1):
+        if arguments.json:
+            items += [] if arguments.count else [item(driven)]
+        elif not arguments.count:
+            print(f"{number}  {_text(driven, arguments.lang)}", flush=True)
+    more = arguments.limit == number and next(found, None) is not None
+    if arguments.json:
+        document = {"count": number, "complete": not more} | ({} if arguments.count else {"items": items})
+        print(json.dumps(document, ensure_ascii=False, indent=2))
+    elif arguments.count and not more:
+        print(number)
+    else:
+        print(words["more" if more else "found"].format(n=number) if number else words["none"])
+
+
+def _text(driven: Driven, lang: str) -> str:
+    text = driven.mechanism.text("german" if lang == "de" else "international")
+    if driven.output is not None:
+        text += f"; {_WORDS[lang]['output']} {driven.output}"
+    name = family(driven.mechanism, lang)
+    return text if name is None else f"{text}  ({name})"
+
+
+def _progress(found: Iterable[Driven], words: str) -> Iterator[Driven]:
+    """What is found, counted on a terminal with these words; without words in silence."""
+    begun = last = monotonic()
+    for number, driven in enumerate(found, 1):
+        yield driven
+        if words and (now := monotonic()) - last > 0.2:
+            last = now
+            print("\r\033[K" + words.format(n=number, seconds=now - begun), end="", file=sys.stderr, flush=True)
+    if last > begun:
+        print("\r\033[K", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,124 @@
+"""The table of concepts and machines: nothing of the seeds is missing, and everything in it works."""
+
+import argparse
+import json
+import shlex
+
+import pytest
+
+from gruebler import CatalogError
+from gruebler.catalog import entries
+from gruebler.cli import coverage, coverage_commands
+from gruebler.cli.parser import build_parser
+
+# REFERENCE A1, row by row: where in the seeds, and a word of its name.
+CONCEPTS = (
+    """
+1 Übertragungsfunktion|1 Getriebesynthese|1 ungleichmäßig|1 Führungsbahn|1 Schrittgetriebe|2 drei Glieder
+2.1 höhere|2.1 Unfreiheit|2.1 stoffschlüssig|Bild 2.2 Gelenktabelle|2.2 quaternär|2.2 Schwinge|2.3 Kette
+2.3 Gelenkfünfeck|2.4 Getriebeumkehrung|2.4 Blindwelle|2.4 Zeichenmaschine|2.5 b(n - 1)|2.5 Zwangslaufkriterium
+2.5 übergeschlossen|2.6 doppeltes|2.6 Koppel|2.6 Schleifengelenk|2.6 Gleitwälzgelenk|3 Gelenkviereck|3.1 Grashof
+3.1 Totalschwinge|3.1 Antiparallelkurbel|Bild 3.6 Getriebetypen|3.1 Doppellenkerkran|3.2 Totlagen|3.2.1 exzentrische
+3.2.2 Zentrische Kurbelschwinge|3.2.2 Zeitverhältnis|3.3 Schubstangenverhältnis|3.4 Ablenkwinkel|3.4 Reibkraft
+3.4 Übersetzung|3.5 Koppelkurve|Bild 3.7 Teigknetmaschine|3.5.3 angenähert|Bild 3.8 Entdeckern|3.5.4 Konchoidenlenker
+3.5.4 Lambdalenker|3.5.4 a = b = e|3.5.4 Evans|3.6.1 Euler|3.6.1 Normalbeschleunigung|3.6.2 Geschwindigkeits
+E1 Übungsbeispiele|001 Getriebebeschreibung|001 Zugriffsmerkmale|001 Gleichschenklige|001 Symmetrieachse
+001 Sechspunktig|001 Q_G|001 Roberts|001 Meyer-zur-Capellen|001 Euler-Savary|001 κ
+""".strip()
+    .replace("\n", "|")
+    .split("|")
+)
+
+
+@pytest.fixture
+def run(capsys):
+    def call(*arguments):
+        parser = argparse.ArgumentParser()
+        coverage_commands.add(parser.add_subparsers())
+        made = parser.parse_args(["coverage", *arguments])
+        status = coverage.run(made)
+        return status, capsys.readouterr().out
+
+    return call
+
+
+def test_no_row_is_missing_and_none_is_empty():
+    assert len(CONCEPTS) == 60
+    for wanted in CONCEPTS:
+        where, word = wanted.split(" ", 1) if not wanted.startswith("Bild") else (wanted[:8], wanted[9:])
+        assert any(row.where.startswith(where) and word in row.de for row in coverage.rows()), wanted
+    machines = {row.where: row for row in coverage.rows()}
+    assert set(entries()) <= set(machines)
+    assert [row.where for row in coverage.rows() if not row.commands and not row.functions] == []
+    for id in entries():
+        assert (f"catalog show {id} --full", 0) in machines[id].commands
+
+
+def test_every_function_is_there():
+    names = {name for row in coverage.rows() for name in row.functions}
+    assert [name for name in sorted(names) if coverage.find_function(name) is None] == []
+    assert coverage.find_function("gruebler.Chain.parse") is not None
+    assert coverage.find_function("gruebler.Chain.no_such_thing") is None
+    assert coverage.find_function("no_such_package.x") is None
+
+
+def test_every_command_is_understood():
+    """Parsed without being run, so that a word that no parser knows fails in the fast tests."""
+    parser = build_parser()
+    for row in coverage.rows():
+        for command, wanted in row.commands:
+            if wanted != 2:
+                parser.parse_args(shlex.split(command))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("command", "wanted"), sorted({one for row in coverage.rows() for one in row.commands}), ids=str
+)
+def test_every_command_does_it(command, wanted):
+    outcome = coverage.execute(command, wanted)
+    assert outcome.good, f"{outcome.status}: {outcome.said}"
+
+
+def test_the_table(run):
+    status, out = run()
+    assert status == 0
+    assert out.splitlines()[-1].endswith("0 rows without one.")
+    status, out = run("wiper", "--json", "--lang", "de")
+    assert status == 0
+    assert [row["where"] for row in json.loads(out)] == ["wiper"]
+
+
+def test_running_a_row(run):
+    status, out = run("tri", "--run", "--lang", "de")
+    assert status == 0
+    assert "endeten wie gewollt" in out
+    _, out = run("mindestens drei", "--run", "--json")
+    (row,) = json.loads(out)
+    assert [(one["wanted"], one["status"]) for one in row["commands"]] == [(0, 0), (2, 2)]
+    assert "at least three links" in row["commands"][1]["said"]
+
+
+def test_what_is_missing_is_said(run, monkeypatch):
+    rows = (
+        coverage.Row("x", "empty", "leer", (), ()),
+        coverage.Row("y", "wrong", "falsch", (("check no-such-machine", 0),), ("gruebler.no_such_thing",)),
+    )
+    monkeypatch.setattr(coverage, "rows", lambda: rows)
+    status, out = run()
+    assert status == 1
+    assert "NOTHING DOES IT" in out
+    status, out = run("wrong", "--run")
+    assert status == 1
+    assert "status 2 instead of 0: gruebler check: the catalog has no entry 'no-such-machine'" in out
+    assert "gruebler.no_such_thing  (not there)" in out
+
+
+def test_a_strange_machine_is_refused(monkeypatch, tmp_path):
+    text = '[[concepts]]\nwhere = "1"\nde = "x"\nen = "x"\n[[machines]]\nid = "unicorn"\n'
+    (tmp_path / "coverage.toml").write_text(text, encoding="utf-8")
+    monkeypatch.setattr(coverage, "catalog_folder", lambda: tmp_path)
+    coverage.rows.cache_clear()
+    with pytest.raises(CatalogError, match="no entry 'unicorn'"):
+        coverage.rows()
+    coverage.rows.cache_clear()
