@@ -13,7 +13,7 @@ import msgspec
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.angles import in_radians
 from gruebler.linkages.documents import fitted
-from gruebler.linkages.elements import Place
+from gruebler.linkages.elements import Circle, Place, Wheel
 from gruebler.linkages.four_bar import FourBar
 from gruebler.linkages.inverted_slider_crank import InvertedSliderCrank
 from gruebler.linkages.mapped_doors import Door, mapped
@@ -57,6 +57,17 @@ class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
 
     link: str
     at: list[float]
+
+
+class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A wheel, or a smooth circle: its centre and its size."""
+
+    at: list[float]
+    radius: float | None = None
+    teeth: int = 0
+    module: float | None = None
+    belt: str = ""
+    circle: float | None = None
 
 
 class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -143,9 +154,29 @@ def _by_joint(
 
 
 def _element(raw: Any, where: str, slots: bool) -> object:
+    if slots and isinstance(raw, Mapping):
+        return {link: _element(one, f"{where}.{link}", False) for link, one in raw.items()}
+    if isinstance(raw, Mapping):
+        return _round(fitted(raw, RoundRecord, LinkageError, where), where)
     if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
         return (*_numbers(raw[:3], where, (3,)), raw[3])
     return _numbers(raw, where, (2, 3))
+
+
+def _round(record: RoundRecord, where: str) -> Wheel | Circle:
+    x, y = _numbers(record.at, f"{where}.at", (2,))
+    if record.circle is not None:
+        if record.radius is not None or record.teeth or record.module is not None or record.belt:
+            raise LinkageError(f"{where}.circle: a smooth circle has no radius, teeth, module or belt")
+        return Circle(x, y, record.circle)
+    radius = record.radius
+    if record.module is not None:
+        if radius is not None or not record.teeth or not record.module > 0:
+            raise LinkageError(f"{where}.module: a positive number that goes with teeth, and without a radius")
+        radius = record.module * record.teeth / 2
+    if radius is None and not record.teeth:
+        raise LinkageError(f"{where}: expected a radius, teeth or a circle")
+    return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
 
 
 def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
