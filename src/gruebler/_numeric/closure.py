@@ -1,15 +1,26 @@
 """Closing conditions of joints between bodies: residual, Jacobian, derivatives; Newton's method on them.
 
 A body has the unknowns x, y and angle. A condition joins slot 2c (first element) and slot 2c + 1 (second) of the
-scratch arrays; ``owners`` names the body of each slot, -1 for what is known. PIN: the points meet, two equations.
-SLIDE: the lines point the same way and lie on one another, two equations. TURN: the second line is turned against the
-first by a given angle. PUSH: the second point lies a given way along the first line. RIDE: the second point lies on the
-first line. Lengths of the equations are in the unit of the points, angles are multiplied by `size`.
+scratch arrays; ``owners`` names the body of each slot, -1 for what is known; ``values[c]`` holds its five numbers.
+
+- PIN: the points meet, two equations.
+- SLIDE: the lines point the same way and lie on one another, two equations.
+- RIDE: the second point lies value 2 to the left of the first line.
+- REACH: the points lie value 2 apart.
+- MESH: value 0 times the first direction plus value 1 times the second, both against the line from point to point, is
+  value 2. Values 3 and 4 are these angles near by: they say how often directions have gone round.
+- RACK: value 0 times the second direction against the first line, plus value 1 times the way of the second point along
+  that line, is value 2. Value 3 is the angle near by.
+- TRAIN: value 0 times the angle of the first body plus value 1 times that of the second, both against the angle of body
+  number value 3, is value 2; all angles as they stand in the unknowns, 0 for what is known.
+- TRAVEL: RACK with the angles as they stand in the unknowns.
+
+Lengths of the equations are in the unit of the points, angles of a SLIDE are multiplied by `size`.
 """
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import atan2, cos, floor, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,25 +30,36 @@ from gruebler._numeric.planar_jets import turned
 
 __all__ = [
     "EQUATIONS",
+    "MESH",
     "PIN",
-    "PUSH",
+    "RACK",
+    "REACH",
     "RIDE",
     "SLIDE",
-    "TURN",
+    "TRAIN",
+    "TRAVEL",
     "closing",
     "closing_rates",
     "factor",
     "newton",
     "settle",
     "solve_factored",
+    "wound",
 ]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 
-PIN, SLIDE, TURN, PUSH, RIDE = range(5)
-EQUATIONS = (2, 2, 1, 1, 1)
+PIN, SLIDE, RIDE, REACH, MESH, RACK, TRAIN, TRAVEL = range(8)
+EQUATIONS = (2, 2, 1, 1, 1, 1, 1, 1)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def wound(direction: complex, near: float) -> float:
+    """The angle of a direction, with as many whole turns as bring it next to one near by."""
+    angle = atan2(direction.imag, direction.real)
+    return float(angle + 2 * pi * floor((near - angle) / (2 * pi) + 0.5))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -82,30 +104,55 @@ def closing(
                 jacobian[row, 3 * b + 2], jacobian[row + 1, 3 * b + 2] = -arm_b.imag, arm_b.real
             row += 2
             continue
-        if kind in (SLIDE, TURN):
+        one, two, value = values[c, 0], values[c, 1], values[c, 2]
+        if kind == SLIDE:
             turn = line.conjugate() * other
-            if kind == TURN:
-                turn *= complex(cos(values[c]), -sin(values[c]))
             residual[row] = turn.imag * size
             if a >= 0:
                 jacobian[row, 3 * a + 2] -= turn.real * size
             if b >= 0:
                 jacobian[row, 3 * b + 2] += turn.real * size
             row += 1
-        if kind in (SLIDE, PUSH, RIDE):
-            # along: the part of the gap on the line; across: the part normal to it
-            measure = line if kind == PUSH else 1j * line
-            seen = measure.conjugate() * gap
-            residual[row] = seen.real - values[c] if kind == PUSH else seen.real
-            if a >= 0:
-                jacobian[row, 3 * a] -= measure.real
-                jacobian[row, 3 * a + 1] -= measure.imag
-                jacobian[row, 3 * a + 2] += seen.imag - (measure.conjugate() * 1j * arm_a).real
-            if b >= 0:
-                jacobian[row, 3 * b] += measure.real
-                jacobian[row, 3 * b + 1] += measure.imag
-                jacobian[row, 3 * b + 2] += (measure.conjugate() * 1j * arm_b).real
-            row += 1
+        # what turns with the bodies counts so much, what the gap moves along `measure` so much
+        turn_a, turn_b, measure = 0.0, 0.0, 0j
+        if kind in (SLIDE, RIDE):
+            measure = 1j * line
+            residual[row] = (measure.conjugate() * gap).real - value
+            turn_a = (measure.conjugate() * gap).imag
+        elif kind == REACH:
+            measure = gap / value
+            residual[row] = ((gap * gap.conjugate()).real / value - value) / 2
+        elif kind == MESH:
+            measure = -(one + two) * 1j * gap / (gap * gap.conjugate()).real
+            first, second = wound(line * gap.conjugate(), values[c, 3]), wound(other * gap.conjugate(), values[c, 4])
+            residual[row] = one * first + two * second - value
+            turn_a, turn_b = one, two
+        elif kind == TRAIN:
+            turn_a, turn_b = one, two
+            arm = int(values[c, 3])
+            residual[row] = -value
+            residual[row] += one * unknowns[3 * a + 2] if a >= 0 else 0.0
+            residual[row] += two * unknowns[3 * b + 2] if b >= 0 else 0.0
+            if arm >= 0:
+                residual[row] -= (one + two) * unknowns[3 * arm + 2]
+                jacobian[row, 3 * arm + 2] -= one + two
+        else:
+            measure = two * line
+            if kind == RACK:
+                angle = wound(line.conjugate() * other, values[c, 3])
+            else:
+                angle = (unknowns[3 * b + 2] if b >= 0 else 0.0) - (unknowns[3 * a + 2] if a >= 0 else 0.0)
+            residual[row] = one * angle + (measure.conjugate() * gap).real - value
+            turn_a, turn_b = (measure.conjugate() * gap).imag - one, one
+        if a >= 0:
+            jacobian[row, 3 * a] -= measure.real
+            jacobian[row, 3 * a + 1] -= measure.imag
+            jacobian[row, 3 * a + 2] += turn_a - (measure.conjugate() * 1j * arm_a).real
+        if b >= 0:
+            jacobian[row, 3 * b] += measure.real
+            jacobian[row, 3 * b + 1] += measure.imag
+            jacobian[row, 3 * b + 2] += turn_b + (measure.conjugate() * 1j * arm_b).real
+        row += 1
     largest = 0.0
     for k in range(row):
         if not abs(residual[k]) <= largest:  # so that NaN wins
@@ -117,7 +164,7 @@ def closing(
 def closing_rates(
     order: int,
     kinds: Ints,
-    value_rates: Reals,
+    values: Reals,
     owners: Ints,
     points: Complexes,
     lines: Complexes,
@@ -132,8 +179,7 @@ def closing_rates(
     """Write the right-hand side of ``jacobian @ unknown = target`` for the derivatives of that order.
 
     ``turns``, ``places`` (derivatives of origins) and ``rates`` are those of the bodies up to order - 1; their entries
-    of this order and above are zero. ``gap`` is scratch, four complex numbers.
-    ``value_rates[c, order - 1]`` is the derivative of a driven value.
+    of this order and above are zero. ``gap`` is scratch, four complex numbers. Not for TRAIN and TRAVEL.
     """
     row = 0
     for c in range(len(kinds)):
@@ -176,14 +222,42 @@ def closing_rates(
             target[row], target[row + 1] = -gap[order].real, -gap[order].imag
             row += 2
             continue
-        if kind in (SLIDE, TURN):
-            wanted = value_rates[c, order - 1] if kind == TURN else 0.0
-            target[row] = (wanted - difference) * size
+        if kind == SLIDE:
+            target[row] = -difference * size
             row += 1
-        if kind in (SLIDE, PUSH, RIDE):
+        one, two = values[c, 0], values[c, 1]
+        if kind == REACH:
+            target[row] = -_square_rate(order, gap) / (2 * values[c, 2])
+        elif kind == MESH:
+            spun = one * spins[2 * c, order - 1] + two * spins[2 * c + 1, order - 1]
+            target[row] = (one + two) * _bearing_rate(order, gap) - spun
+        else:
             seen = turned(order, line.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
-            target[row] = value_rates[c, order - 1] - seen.real if kind == PUSH else -seen.imag
-            row += 1
+            target[row] = -(one * difference + two * seen.real) if kind == RACK else -seen.imag
+        row += 1
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _bearing_rate(order: int, gap: Complexes) -> float:
+    """The derivative of that order of the angle of a vector."""
+    first = gap[1] / gap[0]
+    if order == 1:
+        return float(first.imag)
+    second = gap[2] / gap[0]
+    if order == 2:
+        return float((second - first * first).imag)
+    return float((gap[3] / gap[0] - 3 * first * second + 2 * first * first * first).imag)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _square_rate(order: int, gap: Complexes) -> float:
+    """The derivative of that order of the squared length of a vector."""
+    out = 2 * (gap[0].conjugate() * gap[order]).real
+    if order == 2:
+        out += 2 * (gap[1].conjugate() * gap[1]).real
+    if order == 3:
+        out += 6 * (gap[1].conjugate() * gap[2]).real
+    return float(out)
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)

@@ -227,7 +227,9 @@ class Circuit:
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
             arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
-            found = self._poses(np.array([arc]), pose[None], self.at([arc]).tangents(self.system.bodies))
+            slopes = np.zeros((1, self.system.unknowns))
+            slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
+            found = self._poses(np.array([arc]), pose[None], slopes)
             driven = bool(self.system.lower.mechanism.drives)
             yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found)
 
@@ -312,7 +314,7 @@ def _start(
     if lower.home is not None and branch is None and drive is None:
         rows = [lower.home[link] for link in made.bodies]
         x = np.array([(p.x / lower.size, p.y / lower.size, p.angle) for p in rows]).ravel()
-        pose, tangent, _, rank = on_curve(made, x)
+        pose, tangent, _, rank = on_curve(made, made.with_arms(x))
         return _movable(made, pose, tangent, rank)
     best: tuple[Reals, Reals] | None = None
     largest = 0.0
@@ -370,4 +372,4 @@ def _assembled(linkage: Linkage, made: System, value: float, branch: str | Itera
         k = motion._link(link)
         z = motion.places[0, 0, k] / made.lower.size
         rows.append((z.real, z.imag, float(np.angle(motion.turns[0, k]))))
-    return np.array(rows).ravel()
+    return made.with_arms(np.array(rows).ravel())

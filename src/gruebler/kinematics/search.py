@@ -160,7 +160,7 @@ class Solver:
         self._group = group
         self._arguments = (
             group.kinds,
-            np.zeros(len(group.kinds)),
+            np.zeros((len(group.kinds), 5)),
             group.owners,
             group.points.reshape(-1, 1),
             group.lines,

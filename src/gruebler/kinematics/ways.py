@@ -8,7 +8,8 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Complexes, Motion, Reals
-from gruebler.linkages import Line, Named
+from gruebler.linkages import Circle, Line, Named, Wheel
+from gruebler.linkages.wheels import arms, factors, round_joints, sliding_joint
 
 __all__ = ["openness", "slide"]
 
@@ -17,12 +18,8 @@ def slide(motion: Motion, joint: str | int, order: int) -> Reals:
     """See `Motion.slide`."""
     mechanism = motion.linkage.mechanism
     number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
-    if number is None or mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
-        sliding = [
-            name
-            for name, j in zip(mechanism.chain.joint_names(), mechanism.chain.joints, strict=True)
-            if j.pair.name in ("prismatic", "roll_slide")
-        ]
+    if number is None or not sliding_joint(motion.linkage, number):
+        sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
         raise LinkageError(f"{joint!r} is no sliding joint; there are {', '.join(sliding) or 'none'}")
     first, other = mechanism.chain.joints[number].links[:2]
     elements = motion.linkage.elements
@@ -56,8 +53,13 @@ def slide(motion: Motion, joint: str | int, order: int) -> Reals:
 def openness(motion: Motion) -> float:
     """See `Motion.closure`."""
     lower = motion.plan.lower
-    largest = 0.0
+    wheels = round_joints(lower.mechanism, lower.elements)
+    largest = max(
+        (_open_contact(motion, k) for k in round_joints(motion.linkage.mechanism, motion.linkage.elements)), default=0.0
+    )
     for number, joint in enumerate(lower.mechanism.chain.joints):
+        if number in wheels:
+            continue
         first = joint.links[0]
         for other in joint.links[1:]:
             one, two = lower.elements[number, first], lower.elements[number, other]
@@ -73,6 +75,35 @@ def openness(motion: Motion) -> float:
             else:
                 largest = max(largest, float(np.max(np.abs(gap))) / lower.size)
     return largest
+
+
+def _open_contact(motion: Motion, number: int) -> float:
+    """How far wheels or circles leave each other, or turn against each other since the first row, in sizes."""
+    linkage = motion.linkage
+    chain, elements = linkage.mechanism.chain, linkage.elements
+    a, b = chain.joints[number].links
+    if isinstance(elements[number, b], Line):
+        a, b = b, a
+    one, other = elements[number, a], elements[number, b]
+    assert isinstance(other, Wheel | Circle)
+    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    touching = chain.joints[number].pair.name == "rolling" or isinstance(other, Circle)
+    if isinstance(one, Line):
+        gap *= np.conj(motion.turns[:, motion._link(a)] * rect(1, one.angle))
+        radius = np.copysign(other.radius, gap.imag)
+        far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
+    else:
+        assert isinstance(one, Wheel | Circle)
+        far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
+        arm = arms(linkage.mechanism, elements).get(number)
+        along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
+        if isinstance(one, Wheel) and isinstance(other, Wheel):
+            first, second = factors(one, other)
+            rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
+    largest = float(far.max()) if touching else 0.0
+    if isinstance(other, Wheel):
+        largest = max(largest, float(np.abs(rolled - rolled[0]).max()))
+    return largest / linkage.size
 
 
 def _at(motion: Motion, link: str, x: float, y: float) -> Complexes:
