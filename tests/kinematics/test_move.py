@@ -347,13 +347,3 @@ def test_unknown_names_are_answered_with_the_nearest():
         motion.point("K", 2)
     with pytest.raises(LinkageError, match="no sliding joint"):
         motion.slide("R(frame-crank)")
-
-
-def test_a_larger_group_goes_there_and_back_by_equal_steps():
-    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)")
-    places = {"R(0-1)": (0, 0), "R(1-2)": (0.5, 0.3), "R(2-h)": (2, 2), "R(0-3)": (5, 0)}
-    linkage = Linkage.drawn(mechanism, {**places, "R(3-h)": (4, 2.2), "R(0-4)": (2, 5.5), "R(4-h)": (3, 3.5)})
-    start = linkage.home["1"].angle
-    motion = move(linkage, start + np.array([0, 0.01, 0.02, 0.01, 0, 0.01, 0.02]))
-    assert motion.complete
-    np.testing.assert_allclose(motion.places[0, 4:], motion.places[0, :3], atol=1e-12)

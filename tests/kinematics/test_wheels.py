@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from gruebler import LinkageError
 from gruebler.gears import Mesh, Train, speeds
-from gruebler.kinematics import circuit, degrees, measures, move, move_many
+from gruebler.kinematics import circuit, degrees, measures, motion_roles, move, move_many, rotatability
 from gruebler.linkages import Circle, Linkage, Named, Wheel
 from gruebler.mechanism import Mechanism
 
@@ -249,6 +249,21 @@ def test_measures_know_the_cycle():
     assert found.span.turns == 3
     assert found.span.full
     assert measures(geared_five_bar(7.0, 60.0)).span.turns == 60
+
+
+def test_measures_of_wheels():
+    found = measures(friction())
+    assert not found.span.full  # the radii have no common measure
+    assert found.span.high - found.span.low == pytest.approx(2 * pi * 16)
+    assert motion_roles(geared_five_bar())["4"].value == "crank"
+    assert {row.joint for row in rotatability(geared_five_bar())} == {
+        "R(0-1)", "R(1-2)", "R(2-3)", "R(3-4)", "R(0-4)"
+    }  # fmt: skip
+    train = Mechanism.parse("R(0-1) R(0-2) G(1-2); frame=0; drive=R(0-1)")
+    wheels = {"1": Wheel(0, 0, 20), "2": Wheel(50, 0, 30)}
+    pair = Linkage.drawn(train, {"R(0-1)": (0, 0), "R(0-2)": (50, 0), "G(1-2)": wheels})
+    assert measures(pair).transmission is None
+    assert measures(pair).transfer.uniform
 
 
 def test_many_turns_do_not_add_up_to_an_error():

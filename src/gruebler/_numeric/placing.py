@@ -113,7 +113,7 @@ def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
     """Extrapolate the unknowns of a larger group from the last poses into the trial."""
     t = memory.at
     count = memory.filled[0]
-    if count > 2 and t[0] == t[2]:  # there and back by equal steps
+    if count > 2 and abs(t[0] - t[2]) < 1e-6 * abs(t[0] - t[1]):  # there and back by equal steps
         count = 2
     for k in range(first, last):
         y = memory.unknowns[0, k]

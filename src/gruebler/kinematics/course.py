@@ -27,7 +27,7 @@ _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
 _BEND = 1e-3  # by how much a rate may differ from its cubic, of the usual rate
 _MOST_TURNS = 8  # after which a linkage must be back where it was
-_MOST_WITH_WHEELS = 1000  # the same with wheels, whose tooth numbers make long cycles
+_MOST_WITH_WHEELS = 720  # the same with wheels, whose tooth numbers make long cycles
 _FAR = 20.0  # sizes: a slide that goes as far without a limit has none
 _BACK = 1e-7  # how near it is then
 _WELL = 1e-3  # a start with a root below it is near a change point or limit
@@ -208,7 +208,10 @@ def _span(plan: Plan, start: Motion) -> Span:
     back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
     if back:
         return Span(q, q + 2 * pi * back[0], True, back[0], (None, None))
-    below, _ = _run(plan, q - steps, 0, start)
+    short = steps[: _MOST_TURNS + 1] if turning else steps
+    if above.complete:
+        above = _rows(above, rows[: len(short)])
+    below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
     return Span(low, high, False, 0, (below.stop, above.stop))
 
