@@ -79,7 +79,7 @@ def _designs(
     for n in range(part[0], part[1]):
         mine = Program(
             p.operations, p.links, points[n], lines[n], p.conditions, p.kinds, p.sides, p.owners, p.bodies, p.roots,
-            longest[n], lengths[n], p.values, p.windings,
+            longest[n], lengths[n], p.values, p.windings, p.pieces,
         )  # fmt: skip
         end = 0
         if not np.isnan(signs[n].sum()):

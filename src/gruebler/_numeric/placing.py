@@ -7,9 +7,11 @@ from math import cos, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.closure import MESH, closing, closing_rates, factor, newton, settle, solve_factored, wound
+from gruebler._numeric.closure import MESH, closing, wound
+from gruebler._numeric.closure_rates import closing_rates
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.dyads import dyad_place, dyad_rates, dyad_square, meeting
+from gruebler._numeric.newton import factor, newton, settle, solve_factored
 from gruebler._numeric.planar_jets import carry, element, turned
 from gruebler._numeric.program import (
     APART,
@@ -161,7 +163,7 @@ def _values(start: int, end: int, program: Program, memory: Memory, s: Scratch) 
     """The numbers of the closing conditions; angles that count whole turns as they were in the last pose."""
     for c in range(start, end):
         for k in range(3):
-            s.values[c - start, k] = program.values[c, k]
+            s.values[c - start, k], s.values[c - start, 5 + k] = program.values[c, k], program.values[c, 3 + k]
         first = program.windings[c]
         if first >= 0:
             s.values[c - start, 3], s.values[c - start, 4] = memory.unknowns[0, first], memory.unknowns[0, first + 1]
@@ -220,10 +222,23 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
     _values(start, end, program, memory, s)
     values, at_it = s.values, memory.singular[0] == -1 - number
     if at_it:
-        settle(kinds, values, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.normal, s.pivots)
+        settle(
+            kinds,
+            values,
+            program.pieces,
+            owners,
+            points,
+            lines,
+            unknowns,
+            size,
+            s.residual,
+            s.jacobian,
+            s.normal,
+            s.pivots,
+        )
     else:
         steps, determinant = newton(
-            kinds, values, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
+            kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
         )
         memory.determinants[3, number] = determinant
         if steps < 0 or (memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, size, at, memory, s)):
@@ -240,13 +255,14 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
             s.body_rates[k, m] = 0
         s.body_places[k, 0] = complex(unknowns[3 * k], unknowns[3 * k + 1])
     if order > 0:
-        closing(kinds, values, owners, points, lines, unknowns, size, s.residual, s.jacobian)
+        closing(kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian)
         factor(s.jacobian, n, s.pivots)
         for k in range(1, order + 1):
             closing_rates(
                 k,
                 kinds,
                 values,
+                program.pieces,
                 owners,
                 points,
                 lines,
@@ -256,6 +272,7 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
                 s.body_places,
                 size,
                 s.gap,
+                s.spun,
                 s.residual,
             )
             solve_factored(s.jacobian, n, s.pivots, s.residual)

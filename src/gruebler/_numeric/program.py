@@ -90,9 +90,11 @@ class Program(NamedTuple):
     size: float
     """A length of the order of the linkage."""
     values: Reals
-    """(conditions, 3) the first numbers of each closing condition."""
+    """(conditions, 6) numbers of each closing condition: 0 to 2 and 5 to 7 of its values."""
     windings: Ints
     """(conditions,) where the angles of a condition that counts whole turns stand among the unknowns, else -1."""
+    pieces: Reals
+    """(pieces, 2 + coefficients) of the laws, see `closure.law`."""
 
 
 class Poses(NamedTuple):
@@ -155,6 +157,7 @@ class Scratch(NamedTuple):
     turned: Ints
     ends: Complexes
     directions: Complexes
+    spun: Reals
 
 
 def new_memory(dyads: int, unknowns: int, groups: int) -> Memory:
@@ -191,7 +194,7 @@ def new_scratch(links: int, conditions: int, bodies: int, drives: int) -> Scratc
         np.zeros((3 * b + 2, 3 * b)),
         np.zeros((3 * b, 3 * b)),
         np.zeros(3 * b + 2, np.int64),
-        np.zeros((c, 5)),
+        np.zeros((c, 8)),
         np.zeros((b, 4), np.complex128),
         np.ones(b, np.complex128),
         np.zeros((b, 3)),
@@ -202,4 +205,5 @@ def new_scratch(links: int, conditions: int, bodies: int, drives: int) -> Scratc
         np.zeros(links, np.int64),
         np.zeros(2, np.complex128),
         np.ones(2, np.complex128),
+        np.zeros((2, 3)),
     )

@@ -121,7 +121,7 @@ def modes_of(plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Re
     places, turns = pose_before(plan, part, drives, signs, unknowns)
     program = plan.program
     rows = []
-    for kind, (a, b), (body_a, body_b), _ in plan.conditions[part.number]:
+    for kind, (a, b), (body_a, body_b), *_ in plan.conditions[part.number]:
         (point_a, line_a), (point_b, line_b) = (
             (places[k] + turns[k] * program.points[e], turns[k] * program.lines[e])
             for e, k in ((a, program.links[a]), (b, program.links[b]))

@@ -289,9 +289,10 @@ def circuit(
     if not 1e-4 <= step <= 0.2 or not most > 0:
         raise LinkageError(f"the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}")
     lower = with_lower_pairs(linkage)
-    if len(lower.mechanism.drives) > 1:
-        raise LinkageError(f"a circuit has one drive at most, but this linkage has {len(lower.mechanism.drives)}")
-    made = system(lower)
+    count = len(linkage.mechanism.drives)
+    if count > 1:
+        raise LinkageError(f"a circuit has one drive at most, but this linkage has {count}")
+    made = system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, made, branch, drive)
     found = Circuit(linkage, made, Traced(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0

@@ -127,7 +127,7 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
     Raises `LinkageError` if it has more drives than one, or cannot be assembled or moved at all.
     """
     plan = planned(linkage)
-    count = len(plan.lower.mechanism.drives)
+    count = len(plan.linkage.mechanism.drives)
     if count != 1:
         raise LinkageError(f"measures are those of linkages with one drive; this one has {count}")
     start = _begun(plan, branch)

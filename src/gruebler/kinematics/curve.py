@@ -6,15 +6,19 @@ docs/theory/circuits.md has the method, its tolerances and what it may miss.
 from __future__ import annotations
 
 from cmath import phase, rect
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import MESH, RACK, RIDE, contact_conditions
-from gruebler.linkages import Element, Line, Linkage, Place
+from gruebler.kinematics.contacts import MESH, POLAR, RACK, RIDE, contact_conditions, law_tables
+from gruebler.kinematics.contours import Law
+from gruebler.linkages import Element, Linkage, Place
+from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import arms, round_joints
 
 if TYPE_CHECKING:
@@ -112,8 +116,11 @@ class Traced(NamedTuple):
     """The length at which the start lies."""
 
 
-def system(lower: Linkage) -> System:
-    """The equations of a linkage with lower pairs; `LinkageError` if it has more than one freedom by count."""
+def system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> System:
+    """The equations of a linkage with lower pairs, some links of which do not turn against each other.
+
+    `LinkageError` if it has more than one freedom by count.
+    """
     from gruebler._numeric.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL
     from gruebler._numeric.tracing import Conditions, scratch
 
@@ -145,18 +152,27 @@ def system(lower: Linkage) -> System:
                     free.append((ends[0], ends[1]))
                     rows.append(_Row(PIN, (arm, owners[0]), ((0j, 1 + 0j), places[0])))
                     rows.append(_Row(RIDE, (arm, owners[1]), ((0j, 1 + 0j), places[1])))
-                rows.append(_Row(TRAIN, found.owners, places, (one / size, two / size, 0.0, arm)))
+                turned = direction(lower.elements[keys[found.sides[0]]])
+                if number in held:
+                    turned -= held[number].direction + (pi if found.sides != sides else 0.0)
+                rows.append(_Row(TRAIN, found.owners, places, (one / size, two / size, 0.0, arm, turned), found.law))
             elif found.kind == RACK:
-                rows.append(_Row(TRAVEL, found.owners, places, (one / size, two, 0.0, 0.0)))
+                rows.append(_Row(TRAVEL, found.owners, places, (one / size, two, 0.0, 0.0, 0.0)))
             else:
-                rows.append(_Row(found.kind, found.owners, places, (0.0, 0.0, value / size, 0.0)))
+                law = found.law.scaled(size, found.kind == POLAR)
+                rows.append(_Row(found.kind, found.owners, places, (one / size, two, value / size, 0.0, 0.0), law))
     ends_of = [end for row in rows for end in row.places]
+    for a, b in still:
+        owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]
+        rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
+    laws, pieces = law_tables([row.law for row in rows])
     conditions = Conditions(
         np.array([row.kind for row in rows], np.int64),
         np.array([owner for row in rows for owner in row.owners], np.int64),
         np.array([[point] for point, _ in ends_of], np.complex128),
         np.array([line for _, line in ends_of], np.complex128),
-        np.array([(*row.values, 0.0) for row in rows]),
+        np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
+        pieces,
     )
     first = np.cumsum([0, *(EQUATIONS[row.kind] for row in rows)])
     meshes = np.array([k for k, row in enumerate(rows) if row.kind in (TRAIN, TRAVEL)], np.int64)
@@ -175,7 +191,8 @@ class _Row(NamedTuple):
     owners: tuple[int, int]
     places: tuple[tuple[complex, complex], tuple[complex, complex]]
     """Point and direction on both sides."""
-    values: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    values: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    law: Law = Law(())
 
 
 def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
@@ -184,7 +201,7 @@ def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
 
 
 def _direction(element: Element) -> complex:
-    return rect(1, element.angle) if isinstance(element, Line) else 1 + 0j
+    return rect(1, direction(element))
 
 
 def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:

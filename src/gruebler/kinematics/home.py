@@ -29,8 +29,8 @@ class Home(NamedTuple):
 
 def at_home(plan: Plan, near: Reals) -> Home:
     """The home position; turning drives by whole turns as near as possible to given values, but not with wheels."""
-    drives = np.array([_drive(plan, k) for k in range(len(plan.lower.mechanism.drives))])
-    for k, drive in enumerate(plan.lower.mechanism.drives):
+    drives = np.array([_drive(plan, k) for k in range(len(plan.linkage.mechanism.drives))])
+    for k, drive in enumerate(plan.linkage.mechanism.drives):
         if drive.direction.startswith("R") and not plan.wheels:
             drives[k] += 2 * pi * round((near[k] - drives[k]) / (2 * pi))
     signs = np.array([_sign(plan, dyad) for dyad in plan.dyads])

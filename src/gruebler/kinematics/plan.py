@@ -13,8 +13,9 @@ import numpy as np
 from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions
-from gruebler.linkages import Line, Linkage, with_lower_pairs
+from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.linkages import Linkage, with_lower_pairs
+from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
 
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
@@ -93,6 +94,13 @@ class Plan:
         return any(part.contacts for part in self.larger)
 
     @cached_property
+    def held(self) -> np.ndarray:
+        """The values of the drives that hold idle rollers; they stand behind the others."""
+        home, drives = self.lower.home, range(len(self.linkage.mechanism.drives), len(self.lower.mechanism.drives))
+        links = [self.lower.reference(k) for k in drives]
+        return np.array([home[b].angle - home[a].angle if home is not None else 0.0 for a, b in links])
+
+    @cached_property
     def windings(self) -> tuple[Condition, ...]:
         """The closing conditions that count whole turns."""
         return tuple(c for group in self.conditions for c in group if c.winds)
@@ -112,6 +120,7 @@ class Plan:
         chain = self.lower.mechanism.chain
         points, lines = self.element_arrays(self.lower)
         flat = [c for group in self.conditions for c in group]
+        laws, pieces = law_tables([c.law for c in flat])
         roots = [root for part in self.larger for root in part.roots]
         return Program(
             _table(self.operations, 10),
@@ -126,8 +135,9 @@ class Plan:
             np.array([chain.index(root) for root in roots], np.int64),
             self.longest_steps,
             self.lower.size,
-            np.array([c.values for c in flat]).reshape(-1, 3),
+            np.array([(*c.values, *law) for c, law in zip(flat, laws, strict=True)]).reshape(-1, 6),
             np.array([3 * len(roots) + 2 * self.windings.index(c) if c.winds else -1 for c in flat], np.int64),
+            pieces,
         )
 
     @property
@@ -165,7 +175,7 @@ class Plan:
         """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
         elements = [lower.elements[key] for key in self.keys]
         points = np.array([complex(e.x, e.y) for e in elements], np.complex128)
-        lines = np.array([rect(1, e.angle) if isinstance(e, Line) else 1 for e in elements], np.complex128)
+        lines = np.array([rect(1, direction(e)) for e in elements], np.complex128)
         return points, lines
 
 
@@ -308,5 +318,8 @@ class _Planner:
                 if member.pair.name in _LETTERS:
                     out.append(Condition({"revolute": PIN, "prismatic": SLIDE}[member.pair.name], both, owners))
                 else:
-                    out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                    try:
+                        out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                    except LinkageError as error:
+                        raise LinkageError(f"{self.chain.joint_names()[joint]}: {error}") from None
         return tuple(out)

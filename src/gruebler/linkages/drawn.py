@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import atan2, cos, hypot, sin
 
 from gruebler.errors import LinkageError
-from gruebler.linkages.elements import ROUND, Element, Line, Pin, Place, read_element
+from gruebler.linkages.elements import CENTRED, Circle, Element, Line, Pin, Place, Wheel, read_element
 from gruebler.linkages.model import Linkage, joint_number
 from gruebler.mechanism import Mechanism
 
@@ -28,7 +28,7 @@ def from_drawing(
     for (number, link), element in drawn.items():
         x, y = home[link].seen(element.x, element.y)
         seen_there = element._replace(x=x, y=y)
-        if isinstance(seen_there, Line):
+        if not isinstance(seen_there, Pin | Wheel | Circle):
             seen_there = seen_there._replace(angle=seen_there.angle - home[link].angle)
         elements[link][number] = seen_there
     seen = {}
@@ -64,7 +64,7 @@ def _elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[
             raise LinkageError(
                 f"{names[number]}: say which link has the slot: [x, y, angle, link]; wheels are given for each link"
             )
-        if isinstance(element, ROUND):
+        if isinstance(element, CENTRED):
             raise LinkageError(f"{names[number]}: wheels are given for each of its links")
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element

@@ -8,7 +8,23 @@ from typing import NamedTuple
 from gruebler.errors import LinkageError
 from gruebler.pairs import Pair
 
-__all__ = ["ROUND", "Circle", "Element", "Line", "Named", "Pin", "Place", "Wheel", "fitting", "read_element"]
+__all__ = [
+    "CENTRED",
+    "ROUND",
+    "Circle",
+    "Cross",
+    "Disc",
+    "Driver",
+    "Element",
+    "Line",
+    "Named",
+    "Pin",
+    "Place",
+    "Wheel",
+    "direction",
+    "fitting",
+    "read_element",
+]
 
 
 class Pin(NamedTuple):
@@ -48,10 +64,54 @@ class Circle(NamedTuple):
     radius: float
 
 
-Element = Pin | Line | Wheel | Circle
+class Disc(NamedTuple):
+    """A disc cam, by the lift that it gives a follower (`gruebler.cams`): a roller, or a flat face across its motion.
+
+    ``x, y`` is the axis; the cam's own frame is turned by the angle; lengths, those of the lift too, are multiplied by
+    ``scale``.
+    """
+
+    x: float
+    y: float
+    angle: float
+    lift: str
+    base: float
+    roller: float = 0.0
+    offset: float = 0.0
+    flat: bool = False
+    scale: float = 1.0
+
+
+class Driver(NamedTuple):
+    """The driver of a Geneva drive: its axis, the direction of a pin, the number of pins."""
+
+    x: float
+    y: float
+    angle: float
+    pins: int = 1
+
+
+class Cross(NamedTuple):
+    """The slotted wheel of a Geneva drive: its axis, the direction of a slot, the number of slots."""
+
+    x: float
+    y: float
+    angle: float
+    slots: int
+    internal: bool = False
+
+
+Element = Pin | Line | Wheel | Circle | Disc | Driver | Cross
 
 ROUND = (Wheel, Circle)
 """The elements with a centre and a radius."""
+CENTRED = (Wheel, Circle, Disc, Driver, Cross)
+"""The elements that turn about a centre and touch another element."""
+
+
+def direction(element: Element) -> float:
+    """The angle of an element on its link; 0 for one that has none."""
+    return element.angle if isinstance(element, Line | Disc | Driver | Cross) else 0.0
 
 
 class Named(NamedTuple):
@@ -89,12 +149,25 @@ _KINDS: dict[type, str] = {
     Line: "a line [x, y, angle]",
     Wheel: "a wheel (at, radius or teeth)",
     Circle: "a circle (at, circle)",
+    Disc: "a cam (at, cam)",
+    Driver: "pins (at, pins)",
+    Cross: "slots (at, slots)",
 }
 
 _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
     "revolute": ((Pin, Pin),),
     "prismatic": ((Line, Line),),
-    "roll_slide": ((Line, Pin), (Wheel, Wheel), (Wheel, Line), (Circle, Circle), (Circle, Line)),
+    "roll_slide": (
+        (Line, Pin),
+        (Wheel, Wheel),
+        (Wheel, Line),
+        (Circle, Circle),
+        (Circle, Line),
+        (Disc, Circle),
+        (Disc, Pin),
+        (Disc, Line),
+        (Driver, Cross),
+    ),
     "double_slide": ((Line, Line),),
     "rolling": ((Wheel, Wheel), (Wheel, Line)),
 }
@@ -124,6 +197,10 @@ def read_element(raw: object, where: str) -> Element:
     """
     if isinstance(raw, Wheel | Circle):
         return _round(raw, where)
+    if isinstance(raw, Disc | Driver | Cross):
+        for value in raw[:3]:
+            _number(value, where)
+        return raw
     if isinstance(raw, Pin | Line):
         numbers: tuple[object, ...] = tuple(raw)
     elif isinstance(raw, list | tuple):

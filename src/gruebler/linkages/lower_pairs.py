@@ -23,12 +23,14 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     Drives keep their order. A pin in a slot is the pin on a block that slides in the slot; a double slide is a block
     that slides along the first link's line, and at right angles to it in the second link. Wheels that roll on each
     other while a link holds their centres are a roll-slide pair, since the link repeats what holds them together; pairs
-    of wheels or circles that say nothing new are left out.
+    of wheels or circles that say nothing new are left out. The pin of a round roller whose spin moves nothing gets a
+    drive of its own, behind the others, that holds it.
     """
     mechanism = linkage.mechanism
     chain = mechanism.chain
     split, idle, eased = _to_do(linkage)
-    if not split and not idle and not eased:
+    rollers = _idle_rollers(linkage)
+    if not split and not idle and not eased and not rollers:
         return linkage
     joints: list[Joint] = []
     elements: dict[str, dict[str | int, object]] = {link: {} for link in chain.links}
@@ -58,6 +60,9 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         new, links = place[key]
         between = links if drive.joint in split else drive.between
         drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], between))
+    for number in rollers:
+        new, links = place[number, ""]
+        drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], links))
     blocks = [link for link in elements if link not in chain.links]
     made = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
     home = None
@@ -82,10 +87,26 @@ def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
     mechanism, elements = linkage.mechanism, linkage.elements
     joints = mechanism.chain.joints
     wheels, held = round_joints(mechanism, elements), arms(mechanism, elements)
-    idle = redundant(mechanism, elements) | {n for n in held if isinstance(elements[n, wheels[n][0]], Circle)}
+    idle = redundant(mechanism, elements) | {
+        n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
+    }
     eased = {n for n in held if n not in idle and joints[n].pair.name == "rolling"}
     kinds = ("roll_slide", "double_slide")
     return [n for n, joint in enumerate(joints) if joint.pair.name in kinds and n not in wheels], idle, eased
+
+
+def _idle_rollers(linkage: Linkage) -> list[int]:
+    """The turning joints in the centre of a circle on a link that has no other joint but its contact."""
+    chain, elements = linkage.mechanism.chain, linkage.elements
+    driven = {drive.joint for drive in linkage.mechanism.drives}
+    found = []
+    for (number, link), circle in elements.items():
+        mine = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
+        if isinstance(circle, Circle) and len(mine) == 1 and mine[0] not in driven:
+            pin = elements[mine[0], link]
+            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[mine[0]].links) == 2:
+                found.append(mine[0])
+    return found
 
 
 def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element, Element]]:

@@ -10,7 +10,20 @@ from typing import Any
 
 from gruebler import views
 from gruebler.errors import LinkageError, nearest
-from gruebler.linkages.elements import ROUND, Circle, Element, Line, Named, Pin, Place, Wheel, fitting, read_element
+from gruebler.linkages.elements import (
+    CENTRED,
+    ROUND,
+    Circle,
+    Disc,
+    Element,
+    Line,
+    Named,
+    Pin,
+    Place,
+    Wheel,
+    fitting,
+    read_element,
+)
 from gruebler.linkages.wheels import check_wheels, settled
 from gruebler.mechanism import Mechanism
 from gruebler.pairs import Space
@@ -104,7 +117,7 @@ class Linkage:
                 if (number, link) not in made:
                     raise LinkageError(f"{names[number]} has no dimensions on {link!r}")
             fitting(joint.pair, names[number], {link: made[number, link] for link in joint.links})
-        if any(isinstance(element, ROUND) for element in made.values()):
+        if any(isinstance(element, CENTRED) for element in made.values()):
             return  # shafts on one axis
         for link in mechanism.chain.links:
             pins = [(n, e) for (n, owner), e in made.items() if owner == link and isinstance(e, Pin)]
@@ -208,6 +221,8 @@ class Linkage:
         def element(e: Element) -> Element:
             if isinstance(e, Wheel | Circle):
                 return e._replace(x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
+            if isinstance(e, Disc):
+                return e._replace(x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
             return e._replace(x=e.x * factor, y=e.y * factor)
 
         return self._changed(
@@ -222,7 +237,9 @@ class Linkage:
         """The mirror image in the x axis: every y and every angle with the other sign."""
 
         def element(e: Element) -> Element:
-            return e._replace(y=-e.y, angle=-e.angle) if isinstance(e, Line) else e._replace(y=-e.y)
+            if isinstance(e, Disc):
+                raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
+            return e._replace(y=-e.y) if isinstance(e, Pin | Wheel | Circle) else e._replace(y=-e.y, angle=-e.angle)
 
         return self._changed(
             elements=self._by_link(element),

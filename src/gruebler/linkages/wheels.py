@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from math import floor, hypot, log2
+from math import atan2, floor, hypot, log2
 from typing import NamedTuple, Protocol
 
 from gruebler.errors import LinkageError
-from gruebler.linkages.elements import ROUND, Circle, Element, Line, Pin, Wheel
+from gruebler.linkages.elements import CENTRED, Circle, Disc, Driver, Element, Line, Pin, Wheel
 from gruebler.mechanism import Mechanism
 
 __all__ = ["Arm", "arms", "check_wheels", "factors", "redundant", "round_joints", "settled", "sliding_joint"]
@@ -35,6 +35,8 @@ class Arm(NamedTuple):
 
     link: str
     distance: float
+    direction: float
+    """Of the second centre, seen from the first, in the link's coordinates."""
 
 
 def factors(one: Wheel, other: Wheel) -> tuple[float, float]:
@@ -58,7 +60,7 @@ def round_joints(mechanism: Mechanism, elements: Elements) -> dict[int, tuple[st
     return {
         number: (joint.links[0], joint.links[1])
         for number, joint in enumerate(chain.joints)
-        if any(isinstance(elements[number, link], ROUND) for link in joint.links)
+        if any(isinstance(elements[number, link], CENTRED) for link in joint.links)
     }
 
 
@@ -76,7 +78,7 @@ def arms(mechanism: Mechanism, elements: Elements) -> dict[int, Arm]:
     axis = _axes(mechanism, elements)
     found = {}
     for number, (a, b) in wheels.items():
-        if not all(isinstance(elements[number, link], ROUND) for link in (a, b)):
+        if not all(isinstance(elements[number, link], CENTRED) for link in (a, b)):
             continue
         for link in mechanism.chain.links:
             ends = [
@@ -86,14 +88,15 @@ def arms(mechanism: Mechanism, elements: Elements) -> dict[int, Arm]:
                 for wanted in (axis[number, a], axis[number, b])
             ]
             if link not in (a, b) and ends[0] is not None and ends[1] is not None:
-                found[number] = Arm(link, hypot(ends[0].x - ends[1].x, ends[0].y - ends[1].y))
+                x, y = ends[1].x - ends[0].x, ends[1].y - ends[0].y
+                found[number] = Arm(link, hypot(x, y), atan2(y, x))
                 break
     return found
 
 
 def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tuple[int, str]]:
     """For each pin and centre one that stands for all on the same axis."""
-    centres = {key: e for key, e in elements.items() if isinstance(e, (Pin, *ROUND))}
+    centres = {key: e for key, e in elements.items() if isinstance(e, (Pin, *CENTRED))}
     axis = {key: key for key in centres}
 
     def merge(one: tuple[int, str], other: tuple[int, str]) -> None:
@@ -142,6 +145,11 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
         if any(drive.joint == number for drive in mechanism.drives):
             raise LinkageError(f"{name}: a pair of wheels is not driven; drive a shaft")
         one, other = (elements[number, link] for link in links)
+        if isinstance(one, Disc) or isinstance(other, Disc):
+            _check_disc(name, *((one, other) if isinstance(one, Disc) else (other, one)))
+            continue
+        if isinstance(one, Driver) or isinstance(other, Driver):
+            continue
         if isinstance(one, Line) or isinstance(other, Line):
             _check_rack(name, other if isinstance(one, Line) else one)
             continue
@@ -155,6 +163,15 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
                 f"{name}: the centres are {held[number].distance:.12g} apart on {held[number].link!r}, "
                 f"but the radii make {apart:.12g}"
             )
+
+
+def _check_disc(name: str, disc: Element, other: Element) -> None:
+    assert isinstance(disc, Disc)
+    if disc.flat != isinstance(other, Line):
+        raise LinkageError(f"{name}: a cam for a flat face touches a line, one for a roller a circle or a pin")
+    radius = other.radius if isinstance(other, Circle) else 0.0
+    if abs(radius - disc.roller * disc.scale) > _SAME * disc.base * disc.scale:
+        raise LinkageError(f"{name}: the cam is made for a roller of {disc.roller * disc.scale:g}, not {radius:g}")
 
 
 def _check_rack(name: str, wheel: Element) -> None:

@@ -57,11 +57,11 @@ def _closing(conditions: Sequence[Condition], bodies: int, points: Complexes, li
 
     A body moves by the velocity of the mean of its joints and by its angular velocity times `arm`.
     """
-    sides = [(body, element) for _, (a, b), (one, other), _ in conditions for body, element in ((one, a), (other, b))]
+    sides = [(body, element) for _, (a, b), (one, other), *_ in conditions for body, element in ((one, a), (other, b))]
     centres = [np.mean([points[:, e] for body, e in sides if body == k], axis=0) for k in range(bodies)]
     out = np.zeros((len(points), 3 * bodies, 3 * bodies))
     row = 0
-    for kind, (a, b), (one, other), _ in conditions:
+    for kind, (a, b), (one, other), *_ in conditions:
         for body, sign in ((one, -1.0), (other, 1.0)):
             if body < 0:
                 continue
