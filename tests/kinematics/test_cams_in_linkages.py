@@ -11,6 +11,9 @@ from gruebler import LinkageError
 from gruebler.cams import read_lift
 from gruebler.geneva import Geneva
 from gruebler.kinematics import circuit, degrees, measures, move
+from gruebler.kinematics.course import follow
+from gruebler.kinematics.events import dead_centres
+from gruebler.kinematics.outputs import find_output
 from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage, linkage_from_json, to_json
 from gruebler.mechanism import Mechanism
 
@@ -135,3 +138,13 @@ def _with_roller(radius):
         joint: e._replace(radius=radius) if isinstance(e, Circle) else e for joint, e in elements["roller"].items()
     }
     return elements
+
+
+def test_a_dwell_has_no_dead_centres_inside():
+    course = follow(roller_follower())
+    places = [np.degrees(one.drive) for one in dead_centres(course, find_output(course.plan.linkage, "tappet"))]
+    assert places
+    assert not [at for at in places if 91 < at < 149 or 271 < at < 359]
+    single = follow(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
+    outer = [one for one in dead_centres(single, find_output(single.plan.linkage, "valve")) if one.kind == "maximum"]
+    assert [np.degrees(one.drive) for one in outer] == pytest.approx([75])

@@ -97,7 +97,7 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
     if group is None:
         raise LinkageError(f"there is no transmission angle: {output.link!r} is moved by the drive itself")
     if any(member.pair.name not in ("revolute", "prismatic") for member in group.members):
-        raise LinkageError(f"there is no transmission angle: wheels drive the group of {output.link!r}")
+        raise LinkageError(f"there is no transmission angle: a wheel or cam drives the group of {output.link!r}")
     driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
     legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
     others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
