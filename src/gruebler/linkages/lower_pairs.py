@@ -101,8 +101,10 @@ def _idle_rollers(linkage: Linkage) -> list[int]:
     driven = {drive.joint for drive in linkage.mechanism.drives}
     found = []
     for (number, link), circle in elements.items():
+        if not isinstance(circle, Circle):
+            continue
         mine = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
-        if isinstance(circle, Circle) and len(mine) == 1 and mine[0] not in driven:
+        if len(mine) == 1 and mine[0] not in driven:
             pin = elements[mine[0], link]
             if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[mine[0]].links) == 2:
                 found.append(mine[0])

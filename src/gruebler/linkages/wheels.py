@@ -44,7 +44,7 @@ def factors(one: Wheel, other: Wheel) -> tuple[float, float]:
 
     >>> factors(Wheel(0, 0, 12.3, 20), Wheel(0, 0, -36.9, -60))
     (10.0, -30.0)
-    >>> factors(Wheel(0, 0, 20, belt="open"), Wheel(0, 0, 30, belt="open"))
+    >>> factors(Wheel(0, 0, 20.0, belt="open"), Wheel(0, 0, 30.0, belt="open"))
     (20.0, -30.0)
     """
     a, b = one.radius, other.radius
