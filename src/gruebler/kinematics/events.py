@@ -6,7 +6,7 @@ respect to the drive. Definitions, method and errors: docs/theory/events.md.
 
 from __future__ import annotations
 
-from math import pi, radians
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 _STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
-_BESIDE = radians(0.5)  # next to a zero of the output's velocity, where the output moves or dwells
+_BESIDE = pi / 360  # next to a zero of the output's velocity, where the output moves or dwells
 _DWELL = 1e-9  # the velocity (output by drive, in usual sizes) below which it dwells
 _EVEN = 1e-9  # the same for its derivatives
 _EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer

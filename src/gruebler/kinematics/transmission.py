@@ -96,8 +96,6 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
     if group is None:
         raise LinkageError(f"there is no transmission angle: {output.link!r} is moved by the drive itself")
-    if any(member.pair.name not in ("revolute", "prismatic") for member in group.members):
-        raise LinkageError(f"there is no transmission angle: a wheel or cam drives the group of {output.link!r}")
     driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
     legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
     others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
@@ -134,6 +132,8 @@ def _leg(plan: Plan, group: Group, body: int) -> Leg | None:
     outer, inner = ([(n, m) for n, m in mine if m.outer == side] for side in (True, False))
     if len(outer) != 1 or len(inner) != 1:
         return None
+    if any(member.pair.name not in ("revolute", "prismatic") for _, member in mine):
+        return None  # a wheel or cam
     links = _bodies(group)
     other = next(k for k in inner[0][1].links if k != body)
     form = "".join("R" if m.pair.name == "revolute" else "P" for _, m in (outer[0], inner[0]))
