@@ -161,10 +161,10 @@ def system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> System:
             else:
                 law = found.law.scaled(size, found.kind == POLAR)
                 rows.append(_Row(found.kind, found.owners, places, (one / size, two, value / size, 0.0, 0.0), law))
-    ends_of = [end for row in rows for end in row.places]
     for a, b in still:
         owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]
         rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
+    ends_of = [end for row in rows for end in row.places]
     laws, pieces = law_tables([row.law for row in rows])
     conditions = Conditions(
         np.array([row.kind for row in rows], np.int64),
