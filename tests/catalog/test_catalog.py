@@ -198,7 +198,8 @@ def moved(id, path=None, rows=73, **options):
     low, high = record.dimensions.range or (0, 360)
     path = np.linspace(low, high, rows) if path is None else np.asarray(path, float)
     turning = linkage.mechanism.drives[0].direction.startswith("R")
-    return move(linkage, np.radians(path) if turning else path, **options)
+    shares = [1 / (1 + k) for k in range(len(linkage.mechanism.drives))]
+    return move(linkage, np.outer(np.radians(path) if turning else path, shares), **options)
 
 
 @pytest.mark.parametrize("record", ONE_DRIVE, ids=lambda record: record.id)
@@ -260,6 +261,32 @@ def test_what_special_dimensions_give():
         assert abs(turned).max() < 1e-12, id  # guided without turning
     wheels = moved("loco2")
     assert abs(wheels.angle("wheel2") - wheels.drives[:, 0]).max() < 1e-12  # through both change points
+
+
+def test_gears_of_the_catalog_turn_as_their_teeth_say():
+    for id in ("diff", "diff2p"):
+        motion = moved(id, speed=[[1.0, 0.5]])
+        wanted = (30 * 1 + 60 * 0.5) / 90  # Willis: internal ring of 60, sun of 30 teeth
+        assert abs(motion.angular("carrier") - wanted).max() < 1e-13, id
+    for id, link, ratio in (
+        ("geartrain", "gear2", -3 / 2),
+        ("belt", "pulley2", 1 / 2),
+        ("friction_forced", "wheel2", -2 / 3),
+        ("friction_rigid", "wheel2", -2 / 3),
+    ):
+        motion = moved(id)
+        assert abs(motion.angle(link) - ratio * motion.drives[:, 0]).max() < 1e-13, id
+    guide = moved("winch_plane")
+    assert abs(np.diff(guide.slide("P(frame-rope_guide)")) - 10 * np.diff(guide.drives[:, 0])).max() < 1e-12
+
+
+def test_cams_and_the_geneva_drive_of_the_catalog():
+    valve, tappet = moved("cam", [0, 75, 150, 360]), moved("cam_roller", [0, 90, 150, 360])
+    assert valve.slide("P(frame-valve)") - valve.slide("P(frame-valve)")[0] == pytest.approx([0, 8, 0, 0], abs=1e-12)
+    lift = tappet.slide("P(frame-tappet)")
+    assert lift - lift[0] == pytest.approx([0, 20, 20, 0], abs=1e-11)
+    cross = moved("geneva", [0, 45, 180, 360]).angle("cross")
+    assert cross - cross[0] == pytest.approx([0, -np.pi / 4, -np.pi / 4, -np.pi / 2], abs=1e-13)
 
 
 SIZES = """

@@ -52,8 +52,8 @@ def run_designs(
         np.empty((signs.shape[1], rows)),
         np.empty((starts.shape[1], rows)),
     )
-    memory = new_memory(signs.shape[1], starts.shape[1] // 3, len(program.conditions) - 1)
-    scratch = new_scratch(links, len(program.kinds), starts.shape[1] // 3, path.shape[1])
+    memory = new_memory(signs.shape[1], starts.shape[1], len(program.conditions) - 1)
+    scratch = new_scratch(links, len(program.kinds), len(program.roots), path.shape[1])
     _designs(program, sizes, path, speeds, signs, starts, kept, out, part, poses, memory, scratch, np.empty(REGISTERS))
 
 
@@ -79,7 +79,7 @@ def _designs(
     for n in range(part[0], part[1]):
         mine = Program(
             p.operations, p.links, points[n], lines[n], p.conditions, p.kinds, p.sides, p.owners, p.bodies, p.roots,
-            longest[n], lengths[n],
+            longest[n], lengths[n], p.values, p.windings, p.pieces,
         )  # fmt: skip
         end = 0
         if not np.isnan(signs[n].sum()):

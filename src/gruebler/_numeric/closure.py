@@ -1,49 +1,105 @@
-"""Closing conditions of joints between bodies: residual, Jacobian, derivatives; Newton's method on them.
+"""Closing conditions of joints between bodies: residual and Jacobian.
 
 A body has the unknowns x, y and angle. A condition joins slot 2c (first element) and slot 2c + 1 (second) of the
-scratch arrays; ``owners`` names the body of each slot, -1 for what is known. PIN: the points meet, two equations.
-SLIDE: the lines point the same way and lie on one another, two equations. TURN: the second line is turned against the
-first by a given angle. PUSH: the second point lies a given way along the first line. RIDE: the second point lies on the
-first line. Lengths of the equations are in the unit of the points, angles are multiplied by `size`.
+scratch arrays; ``owners`` names the body of each slot, -1 for what is known; ``values[c]`` holds its eight numbers.
+
+- PIN: the points meet, two equations.
+- SLIDE: the lines point the same way and lie on one another, two equations.
+- RIDE: the second point lies value 2 to the left of the first line.
+- REACH: the points lie value 2 apart.
+- MESH: value 0 times the first direction plus value 1 times the second, both against the line from point to point, is
+  value 2. Values 3 and 4 are these angles near by: they say how often directions have gone round. With a `law` the
+  first angle is replaced by its function.
+- RACK: value 0 times the second direction against the first line, plus value 1 times the way of the second point along
+  that line, is value 2. Value 3 is the angle near by.
+- POLAR: the second point lies on a curve about the first: seen from the first direction, the logarithm of its distance
+  is the `law` of its angle. Value 0 is a length.
+- FACE: the first line touches a curve about the second point: its distance from the point is the `law` of the angle of
+  the outward normal against the second direction; value 1 is 1 if the point lies to the left of the line, else -1.
+- TRAIN: value 0 times the angle of the first body plus value 1 times that of the second, both against the angle of body
+  number value 3, is value 2; all angles as they stand in the unknowns, 0 for what is known. With a `law` the first
+  angle plus value 4 is replaced by its function.
+- TRAVEL: RACK with the angles as they stand in the unknowns.
+
+Lengths of the equations are in the unit of the points, angles of a SLIDE are multiplied by `size`.
 """
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import atan2, cos, floor, log, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.planar_jets import turned
 
 __all__ = [
     "EQUATIONS",
+    "FACE",
+    "MESH",
     "PIN",
-    "PUSH",
+    "POLAR",
+    "RACK",
+    "REACH",
     "RIDE",
     "SLIDE",
-    "TURN",
+    "TRAIN",
+    "TRAVEL",
     "closing",
-    "closing_rates",
-    "factor",
-    "newton",
-    "settle",
-    "solve_factored",
+    "law",
+    "wound",
 ]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 
-PIN, SLIDE, TURN, PUSH, RIDE = range(5)
-EQUATIONS = (2, 2, 1, 1, 1)
+PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE, TRAIN, TRAVEL = range(10)
+EQUATIONS = (2, 2, 1, 1, 1, 1, 1, 1, 1, 1)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def wound(direction: complex, near: float) -> float:
+    """The angle of a direction, with as many whole turns as bring it next to one near by."""
+    angle = atan2(direction.imag, direction.real)
+    return float(angle + 2 * pi * floor((near - angle) / (2 * pi) + 0.5))
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def law(pieces: Reals, values: Reals, angle: float) -> tuple[float, float, float, float]:
+    """A function of an angle and its three derivatives; without pieces the angle itself.
+
+    ``values`` of the condition: 5 the first of its pieces, 6 how many, 7 what it grows by in a turn. A piece has its
+    middle, half its width, and the coefficients of a polynomial on [-1, 1].
+    """
+    first, count = int(values[5]), int(values[6])
+    if count == 0:
+        return angle, 1.0, 0.0, 0.0
+    turns = floor((angle - pieces[first, 0] + pieces[first, 1]) / (2 * pi))
+    place = angle - 2 * pi * turns
+    low, high = first, first + count - 1
+    while low < high:
+        middle = (low + high + 1) // 2
+        if place >= pieces[middle, 0] - pieces[middle, 1]:
+            low = middle
+        else:
+            high = middle - 1
+    half = pieces[low, 1]
+    u = (place - pieces[low, 0]) / half
+    f0 = f1 = f2 = f3 = 0.0
+    for k in range(pieces.shape[1] - 1, 1, -1):
+        f3 = f3 * u + 3 * f2
+        f2 = f2 * u + 2 * f1
+        f1 = f1 * u + f0
+        f0 = f0 * u + pieces[low, k]
+    return f0 + turns * values[7], f1 / half, f2 / (half * half), f3 / (half * half * half)
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def closing(
     kinds: Ints,
     values: Reals,
+    pieces: Reals,
     owners: Ints,
     points: Complexes,
     lines: Complexes,
@@ -82,233 +138,70 @@ def closing(
                 jacobian[row, 3 * b + 2], jacobian[row + 1, 3 * b + 2] = -arm_b.imag, arm_b.real
             row += 2
             continue
-        if kind in (SLIDE, TURN):
+        one, two, value = values[c, 0], values[c, 1], values[c, 2]
+        if kind == SLIDE:
             turn = line.conjugate() * other
-            if kind == TURN:
-                turn *= complex(cos(values[c]), -sin(values[c]))
             residual[row] = turn.imag * size
             if a >= 0:
                 jacobian[row, 3 * a + 2] -= turn.real * size
             if b >= 0:
                 jacobian[row, 3 * b + 2] += turn.real * size
             row += 1
-        if kind in (SLIDE, PUSH, RIDE):
-            # along: the part of the gap on the line; across: the part normal to it
-            measure = line if kind == PUSH else 1j * line
-            seen = measure.conjugate() * gap
-            residual[row] = seen.real - values[c] if kind == PUSH else seen.real
-            if a >= 0:
-                jacobian[row, 3 * a] -= measure.real
-                jacobian[row, 3 * a + 1] -= measure.imag
-                jacobian[row, 3 * a + 2] += seen.imag - (measure.conjugate() * 1j * arm_a).real
-            if b >= 0:
-                jacobian[row, 3 * b] += measure.real
-                jacobian[row, 3 * b + 1] += measure.imag
-                jacobian[row, 3 * b + 2] += (measure.conjugate() * 1j * arm_b).real
-            row += 1
+        # what turns with the bodies counts so much, what the gap moves along `measure` so much
+        turn_a, turn_b, measure = 0.0, 0.0, 0j
+        if kind in (SLIDE, RIDE):
+            measure = 1j * line
+            residual[row] = (measure.conjugate() * gap).real - value
+            turn_a = (measure.conjugate() * gap).imag
+        elif kind == REACH:
+            measure = gap / value
+            residual[row] = ((gap * gap.conjugate()).real / value - value) / 2
+        elif kind == MESH:
+            first, second = wound(line * gap.conjugate(), values[c, 3]), wound(other * gap.conjugate(), values[c, 4])
+            first, slope, _, _ = law(pieces, values[c], first)
+            residual[row] = one * first + two * second - value
+            turn_a, turn_b = one * slope, two
+            measure = -(turn_a + two) * 1j * gap / (gap * gap.conjugate()).real
+        elif kind == POLAR:
+            seen = line.conjugate() * gap
+            radius, slope, _, _ = law(pieces, values[c], wound(seen, 0.0))
+            residual[row] = one * (log(abs(seen)) - radius)
+            measure = one * (1 - 1j * slope) * gap / (gap * gap.conjugate()).real
+            turn_a = one * slope
+        elif kind == FACE:
+            measure = two * 1j * line
+            height, slope, _, _ = law(pieces, values[c], wound(-measure * other.conjugate(), 0.0))
+            residual[row] = (measure.conjugate() * gap).real - height
+            turn_a, turn_b = (measure.conjugate() * gap).imag - slope, slope
+        elif kind == TRAIN:
+            arm = int(values[c, 3])
+            line_of_centres = unknowns[3 * arm + 2] if arm >= 0 else 0.0
+            first = (unknowns[3 * a + 2] if a >= 0 else 0.0) - line_of_centres
+            second = (unknowns[3 * b + 2] if b >= 0 else 0.0) - line_of_centres
+            first, slope, _, _ = law(pieces, values[c], first + values[c, 4])
+            residual[row] = one * first + two * second - value
+            turn_a, turn_b = one * slope, two
+            if arm >= 0:
+                jacobian[row, 3 * arm + 2] -= turn_a + two
+        else:
+            measure = two * line
+            if kind == RACK:
+                angle = wound(line.conjugate() * other, values[c, 3])
+            else:
+                angle = (unknowns[3 * b + 2] if b >= 0 else 0.0) - (unknowns[3 * a + 2] if a >= 0 else 0.0)
+            residual[row] = one * angle + (measure.conjugate() * gap).real - value
+            turn_a, turn_b = (measure.conjugate() * gap).imag - one, one
+        if a >= 0:
+            jacobian[row, 3 * a] -= measure.real
+            jacobian[row, 3 * a + 1] -= measure.imag
+            jacobian[row, 3 * a + 2] += turn_a - (measure.conjugate() * 1j * arm_a).real
+        if b >= 0:
+            jacobian[row, 3 * b] += measure.real
+            jacobian[row, 3 * b + 1] += measure.imag
+            jacobian[row, 3 * b + 2] += turn_b + (measure.conjugate() * 1j * arm_b).real
+        row += 1
     largest = 0.0
     for k in range(row):
         if not abs(residual[k]) <= largest:  # so that NaN wins
             largest = abs(residual[k])
     return largest
-
-
-@njit(cache=True, error_model="numpy", _nrt=False)
-def closing_rates(
-    order: int,
-    kinds: Ints,
-    value_rates: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    spins: Reals,
-    turns: Complexes,
-    rates: Reals,
-    places: Complexes,
-    size: float,
-    gap: Complexes,
-    target: Reals,
-) -> None:
-    """Write the right-hand side of ``jacobian @ unknown = target`` for the derivatives of that order.
-
-    ``turns``, ``places`` (derivatives of origins) and ``rates`` are those of the bodies up to order - 1; their entries
-    of this order and above are zero. ``gap`` is scratch, four complex numbers.
-    ``value_rates[c, order - 1]`` is the derivative of a driven value.
-    """
-    row = 0
-    for c in range(len(kinds)):
-        w = a = j = 0.0
-        difference = 0.0
-        for k in range(4):
-            gap[k] = 0j
-        line = lines[2 * c]
-        for side in range(2):
-            slot, sign = 2 * c + side, 2 * side - 1
-            body = owners[slot]
-            if body < 0:
-                for k in range(order + 1):
-                    gap[k] += sign * points[slot, k]
-                difference += sign * spins[slot, order - 1]
-                if side == 0:
-                    w, a, j = spins[slot, 0], spins[slot, 1], spins[slot, 2]
-                continue
-            for k in range(order + 1):
-                gap[k] += sign * places[body, k]
-                gap[k] += sign * turned(
-                    k,
-                    turns[body],
-                    rates[body, 0],
-                    rates[body, 1],
-                    rates[body, 2],
-                    points[slot, 0],
-                    points[slot, 1],
-                    points[slot, 2],
-                    points[slot, 3],
-                )
-            difference += sign * spins[slot, order - 1]
-            if side == 0:
-                line = turns[body] * line
-                w = spins[slot, 0] + rates[body, 0]
-                a = spins[slot, 1] + rates[body, 1]
-                j = spins[slot, 2] + rates[body, 2]
-        kind = kinds[c]
-        if kind == PIN:
-            target[row], target[row + 1] = -gap[order].real, -gap[order].imag
-            row += 2
-            continue
-        if kind in (SLIDE, TURN):
-            wanted = value_rates[c, order - 1] if kind == TURN else 0.0
-            target[row] = (wanted - difference) * size
-            row += 1
-        if kind in (SLIDE, PUSH, RIDE):
-            seen = turned(order, line.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
-            target[row] = value_rates[c, order - 1] - seen.real if kind == PUSH else -seen.imag
-            row += 1
-
-
-@njit(cache=True, error_model="numpy", _nrt=False)
-def factor(matrix: Reals, n: int, pivots: Ints) -> float:
-    """LU factors in place, with partial pivoting; returns the determinant."""
-    determinant = 1.0
-    for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(matrix[i, k]) > abs(matrix[best, k]):
-                best = i
-        pivots[k] = best
-        if best != k:
-            determinant = -determinant
-            for m in range(n):
-                matrix[k, m], matrix[best, m] = matrix[best, m], matrix[k, m]
-        pivot = matrix[k, k]
-        determinant *= pivot
-        if pivot == 0:
-            return 0.0
-        for i in range(k + 1, n):
-            if matrix[i, k] != 0:
-                share = matrix[i, k] / pivot
-                matrix[i, k] = share
-                for m in range(k + 1, n):
-                    matrix[i, m] -= share * matrix[k, m]
-    return determinant
-
-
-@njit(cache=True, error_model="numpy", _nrt=False)
-def solve_factored(matrix: Reals, n: int, pivots: Ints, target: Reals) -> None:
-    """Solve in place with the factors of `factor`."""
-    for k in range(n):
-        best = pivots[k]
-        if best != k:
-            target[k], target[best] = target[best], target[k]
-    for k in range(n):
-        for i in range(k + 1, n):
-            target[i] -= matrix[i, k] * target[k]
-    for k in range(n - 1, -1, -1):
-        for m in range(k + 1, n):
-            target[k] -= matrix[k, m] * target[m]
-        target[k] /= matrix[k, k]
-
-
-@njit(cache=True, error_model="numpy", _nrt=False)
-def newton(
-    kinds: Ints,
-    values: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    unknowns: Reals,
-    size: float,
-    residual: Reals,
-    jacobian: Reals,
-    pivots: Ints,
-    most: int,
-) -> tuple[int, float]:
-    """Newton's method; the unknowns are changed in place. Returns how often it stepped (-1: no convergence) and det.
-
-    It stops when a step is below 1e-9 of `size`: the next would be below rounding (at a singular position, where steps
-    only halve, the residual is). The Jacobian is left factored as it was before the last step.
-    """
-    n = len(unknowns)
-    for step in range(most):
-        miss = closing(kinds, values, owners, points, lines, unknowns, size, residual, jacobian)
-        if not miss < 1e300:
-            return -1, 0.0
-        determinant = factor(jacobian, n, pivots)
-        if determinant == 0:
-            return (step, 0.0) if miss < 1e-14 * size else (-1, 0.0)
-        solve_factored(jacobian, n, pivots, residual)
-        moved = 0.0
-        for k in range(n):
-            scaled = abs(residual[k]) * (size if k % 3 == 2 else 1.0)
-            if not scaled <= moved:
-                moved = scaled
-        if not moved < 10 * size:
-            return -1, 0.0
-        for k in range(n):
-            unknowns[k] -= residual[k]
-        if moved < 1e-9 * size:
-            return step + 1, determinant
-    return -1, 0.0
-
-
-@njit(cache=True, error_model="numpy", _nrt=False)
-def settle(
-    kinds: Ints,
-    values: Reals,
-    owners: Ints,
-    points: Complexes,
-    lines: Complexes,
-    unknowns: Reals,
-    size: float,
-    residual: Reals,
-    jacobian: Reals,
-    normal: Reals,
-    pivots: Ints,
-) -> None:
-    """Close a group near a singular position and leave what its Jacobian does not hold as it is.
-
-    Damped Gauss-Newton steps: directions with a singular value below 1e-6 of the largest hardly change.
-    """
-    n = len(unknowns)
-    for _ in range(4):
-        closing(kinds, values, owners, points, lines, unknowns, size, residual, jacobian)
-        trace = 0.0
-        for i in range(n):
-            if i % 3 == 2:
-                for k in range(n):
-                    jacobian[k, i] /= size
-            for k in range(n):
-                trace += jacobian[k, i] ** 2
-        for i in range(n):
-            for m in range(n):
-                normal[i, m] = 1e-12 * trace if i == m else 0.0
-                for k in range(n):
-                    normal[i, m] += jacobian[k, i] * jacobian[k, m]
-        for i in range(n):
-            jacobian[0, i] = jacobian[0, i] * residual[0]
-            for k in range(1, n):
-                jacobian[0, i] += jacobian[k, i] * residual[k]
-        factor(normal, n, pivots)
-        solve_factored(normal, n, pivots, jacobian[0])
-        for i in range(n):
-            unknowns[i] -= jacobian[0, i] / (size if i % 3 == 2 else 1.0)

@@ -181,14 +181,14 @@ def run(
         path: (rows, drives) drive values.
         speeds: (order, rows, drives) their time derivatives.
         signs: (dyads,) the signs of the assembly modes at the first row.
-        start: (3 bodies,) near the unknowns of larger groups at the first row.
+        start: (3 bodies and windings,) near the unknowns of larger groups at the first row.
         poses: written.
 
     Returns how it ended, how many rows are written, where on the path it stopped (in rows), and what is at fault: the
     number of the dyad, or -1 minus the number of the larger group.
     """
-    memory = new_memory(len(signs), len(start) // 3, len(program.conditions) - 1)
-    s = new_scratch(len(poses.turns), len(program.kinds), len(start) // 3, path.shape[1])
+    memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
+    s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
     return walk(program, path, speeds, signs, start, poses, memory, s, np.empty(REGISTERS))
 
 

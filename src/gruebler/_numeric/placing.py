@@ -7,13 +7,16 @@ from math import cos, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.closure import closing, closing_rates, factor, newton, settle, solve_factored
+from gruebler._numeric.closure import MESH, closing, wound
+from gruebler._numeric.closure_rates import closing_rates
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.dyads import dyad_place, dyad_rates, dyad_square, meeting
+from gruebler._numeric.newton import factor, newton, settle, solve_factored
 from gruebler._numeric.planar_jets import carry, element, turned
 from gruebler._numeric.program import (
     APART,
     APPROACH,
+    FARTHEST,
     GOOD,
     GROUP,
     LOST,
@@ -112,6 +115,8 @@ def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
     """Extrapolate the unknowns of a larger group from the last poses into the trial."""
     t = memory.at
     count = memory.filled[0]
+    if count > 2 and abs(t[0] - t[2]) < 1e-6 * abs(t[0] - t[1]):  # there and back by equal steps
+        count = 2
     for k in range(first, last):
         y = memory.unknowns[0, k]
         if count > 2 and memory.singular[0] > 0:  # a straight line: near poses are too near one another for more
@@ -154,6 +159,48 @@ def _expected(number: int, first: int, last: int, size: float, at: float, memory
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
+def _values(start: int, end: int, program: Program, memory: Memory, s: Scratch) -> None:
+    """The numbers of the closing conditions; angles that count whole turns as they were in the last pose."""
+    for c in range(start, end):
+        for k in range(3):
+            s.values[c - start, k], s.values[c - start, 5 + k] = program.values[c, k], program.values[c, 3 + k]
+        first = program.windings[c]
+        if first >= 0:
+            s.values[c - start, 3], s.values[c - start, 4] = memory.unknowns[0, first], memory.unknowns[0, first + 1]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _wind(start: int, end: int, root: int, program: Program, memory: Memory, s: Scratch) -> bool:
+    """Write the angles that count whole turns into the trial; false if one has turned too far to be sure of them."""
+    for c in range(start, end):
+        first = program.windings[c]
+        if first < 0:
+            continue
+        points, lines = s.ends, s.directions
+        for side in range(2):
+            slot = 2 * (c - start) + side
+            body = program.owners[2 * c + side]
+            points[side], lines[side] = s.group_points[slot, 0], s.group_lines[slot]
+            if body >= 0:
+                k = 3 * (root + body)
+                turn = complex(cos(memory.unknowns[3, k + 2]), sin(memory.unknowns[3, k + 2]))
+                points[side] = complex(memory.unknowns[3, k], memory.unknowns[3, k + 1]) + turn * points[side]
+                lines[side] = turn * lines[side]
+        near = memory.unknowns[0, first], memory.unknowns[0, first + 1]
+        if program.kinds[c] == MESH:
+            along = (points[1] - points[0]).conjugate()
+            memory.unknowns[3, first] = wound(lines[0] * along, near[0])
+            memory.unknowns[3, first + 1] = wound(lines[1] * along, near[1])
+        else:
+            memory.unknowns[3, first] = wound(lines[0].conjugate() * lines[1], near[0])
+            memory.unknowns[3, first + 1] = 0
+        for k in range(2):
+            if memory.filled[0] > 0 and abs(memory.unknowns[3, first + k] - near[k]) > FARTHEST:
+                return False
+    return True
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
 def _group(number: int, program: Program, order: int, at: float, memory: Memory, s: Scratch) -> bool:
     """Place the bodies of a larger group by Newton's method from what is foretold."""
     start, end = program.conditions[number], program.conditions[number + 1]
@@ -172,16 +219,32 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
     for k in range(len(unknowns)):
         foretold[k] = unknowns[k]
     size = program.size
-    values, at_it = s.values[:, 0], memory.singular[0] == -1 - number
+    _values(start, end, program, memory, s)
+    values, at_it = s.values, memory.singular[0] == -1 - number
     if at_it:
-        settle(kinds, values, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.normal, s.pivots)
+        settle(
+            kinds,
+            values,
+            program.pieces,
+            owners,
+            points,
+            lines,
+            unknowns,
+            size,
+            s.residual,
+            s.jacobian,
+            s.normal,
+            s.pivots,
+        )
     else:
         steps, determinant = newton(
-            kinds, values, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
+            kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
         )
         memory.determinants[3, number] = determinant
         if steps < 0 or (memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, size, at, memory, s)):
             return False
+    if not _wind(start, end, first, program, memory, s):
+        return False
     n = 3 * (last - first)
     for k in range(last - first):
         turn = complex(cos(unknowns[3 * k + 2]), sin(unknowns[3 * k + 2]))
@@ -192,13 +255,14 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
             s.body_rates[k, m] = 0
         s.body_places[k, 0] = complex(unknowns[3 * k], unknowns[3 * k + 1])
     if order > 0:
-        closing(kinds, s.values[:, 0], owners, points, lines, unknowns, size, s.residual, s.jacobian)
+        closing(kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian)
         factor(s.jacobian, n, s.pivots)
         for k in range(1, order + 1):
             closing_rates(
                 k,
                 kinds,
-                s.values,
+                values,
+                program.pieces,
                 owners,
                 points,
                 lines,
@@ -208,6 +272,7 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
                 s.body_places,
                 size,
                 s.gap,
+                s.spun,
                 s.residual,
             )
             solve_factored(s.jacobian, n, s.pivots, s.residual)

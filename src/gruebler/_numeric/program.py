@@ -12,6 +12,7 @@ __all__ = [
     "APPROACH",
     "CARRY",
     "DONE",
+    "FARTHEST",
     "FLAT",
     "GOOD",
     "GROUP",
@@ -58,6 +59,9 @@ LEAST = 1e-14  # the smallest step, in rows
 NEAREST = 1e-8  # of the longest step: nearer to a singular position of a larger group it is taken for a limit
 
 
+FARTHEST = 1.0  # radians: a step that turns a wheel further is not taken, so that no whole turn is missed
+
+
 class Program(NamedTuple):
     """What a linkage is to the kernel."""
 
@@ -85,6 +89,12 @@ class Program(NamedTuple):
     """(drives,) the longest step of each drive."""
     size: float
     """A length of the order of the linkage."""
+    values: Reals
+    """(conditions, 6) numbers of each closing condition: 0 to 2 and 5 to 7 of its values."""
+    windings: Ints
+    """(conditions,) where the angles of a condition that counts whole turns stand among the unknowns, else -1."""
+    pieces: Reals
+    """(pieces, 2 + coefficients) of the laws, see `closure.law`."""
 
 
 class Poses(NamedTuple):
@@ -101,7 +111,7 @@ class Poses(NamedTuple):
     roots: Reals
     """(dyads, rows) signed roots"""
     unknowns: Reals
-    """(3 bodies of larger groups, rows)"""
+    """(3 bodies of larger groups, then two angles of each condition that counts whole turns; rows)"""
 
 
 class Memory(NamedTuple):
@@ -110,7 +120,7 @@ class Memory(NamedTuple):
     at: Reals  # (4,) their places on the path
     filled: Ints  # (1,) how many there are
     roots: Reals  # (4, dyads) signed roots
-    unknowns: Reals  # (4, 3 bodies)
+    unknowns: Reals  # (4, 3 bodies and windings)
     determinants: Reals  # (4, groups)
     signs: Reals  # (dyads,) the sign that holds from here on
     change: Reals  # (dyads,) where the root goes through zero, NaN if that is not known
@@ -145,14 +155,17 @@ class Scratch(NamedTuple):
     foretold: Reals
     before: Complexes
     turned: Ints
+    ends: Complexes
+    directions: Complexes
+    spun: Reals
 
 
-def new_memory(dyads: int, bodies: int, groups: int) -> Memory:
+def new_memory(dyads: int, unknowns: int, groups: int) -> Memory:
     return Memory(
         np.zeros(4),
         np.zeros(1, np.int64),
         np.zeros((4, dyads)),
-        np.zeros((4, 3 * bodies)),
+        np.zeros((4, unknowns)),
         np.zeros((4, groups)),
         np.ones(dyads),
         np.full(dyads, np.nan),
@@ -181,7 +194,7 @@ def new_scratch(links: int, conditions: int, bodies: int, drives: int) -> Scratc
         np.zeros((3 * b + 2, 3 * b)),
         np.zeros((3 * b, 3 * b)),
         np.zeros(3 * b + 2, np.int64),
-        np.zeros((c, 3)),
+        np.zeros((c, 8)),
         np.zeros((b, 4), np.complex128),
         np.ones(b, np.complex128),
         np.zeros((b, 3)),
@@ -190,4 +203,7 @@ def new_scratch(links: int, conditions: int, bodies: int, drives: int) -> Scratc
         np.zeros(3 * b),
         np.ones(links, np.complex128),
         np.zeros(links, np.int64),
+        np.zeros(2, np.complex128),
+        np.ones(2, np.complex128),
+        np.zeros((2, 3)),
     )

@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.closure import EQUATIONS, closing, factor
+from gruebler._numeric.closure import EQUATIONS, closing
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.newton import factor
 
 __all__ = [
     "CLOSED",
@@ -59,6 +60,9 @@ class Conditions(NamedTuple):
     points: Complexes
     """(2 conditions, 1)"""
     lines: Complexes
+    values: Reals
+    """(conditions, 8)"""
+    pieces: Reals
 
 
 class Curve(NamedTuple):
@@ -77,7 +81,6 @@ class Curve(NamedTuple):
 class Scratch(NamedTuple):
     """Room to work in."""
 
-    values: Reals
     residual: Reals
     rows: Reals
     work: Reals
@@ -94,7 +97,6 @@ def scratch(c: Conditions) -> Scratch:
     m, n = sum(EQUATIONS[kind] for kind in c.kinds), 3 * (int(c.owners.max()) + 1)
     rows = max(m + 1, n)
     return Scratch(
-        np.zeros(len(c.kinds)),
         np.zeros(rows),
         np.zeros((rows, n)),
         np.zeros((rows, n)),
@@ -167,7 +169,7 @@ def _correct(c: Conditions, x: Reals, normal: Reals, level: float, in_plane: boo
     """Newton's method in place: onto the curve by shortest steps, or in the plane ``normal @ x = level``."""
     m, n = _equations(c.kinds), len(x)
     for _ in range(12):
-        miss = closing(c.kinds, s.values, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
+        miss = closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
         if not miss < 1e3:
             return False
         count = m
@@ -203,7 +205,7 @@ def _lean(c: Conditions, x: Reals, tangent: Reals, s: Scratch) -> tuple[float, f
     Returns how far the joints are open, the gauge (`Curve`) and the rank.
     """
     m, n = _equations(c.kinds), len(x)
-    miss = closing(c.kinds, s.values, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
+    miss = closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
     rank = _reduce(m, n, -1, s)
     for _ in range(2):
         for j in range(rank):
@@ -243,7 +245,7 @@ def settle(c: Conditions, x: Reals, tangent: Reals, s: Scratch) -> tuple[bool, f
 @njit(error_model="numpy", cache=True, _nrt=False)
 def jacobian(c: Conditions, x: Reals, s: Scratch) -> int:
     """Write residual and Jacobian into the scratch; returns how many equations there are."""
-    closing(c.kinds, s.values, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
+    closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
     return _equations(c.kinds)
 
 

@@ -131,6 +131,8 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
         if linkage.mechanism != linkages[0].mechanism:
             raise LinkageError(f"design {number} has another mechanism than the first")
     plan = planned(linkages[0])
+    if plan.wheels and len(linkages) > 1:
+        raise LinkageError("linkages with wheels are moved one by one, by move")
     lower = [with_lower_pairs(linkage) for linkage in linkages]
     arrays = [plan.element_arrays(linkage) for linkage in lower]
     points, lines = (np.array([pair[k] for pair in arrays]) for k in (0, 1))
@@ -265,7 +267,7 @@ def _starts(made: Designs, path: Reals, branch: str | None) -> tuple[Reals, Real
         signs, unknowns = starting(plan, labels, path[0])
         return np.tile(signs, (count, 1)), np.tile(unknowns, (count, 1))
     signs = np.ones((count, len(plan.dyads)))
-    unknowns = np.full((count, 3 * sum(len(part.roots) for part in plan.larger)), np.nan)
+    unknowns = np.full((count, plan.unknowns), np.nan)
     for n in range(count):
         try:
             signs[n], unknowns[n] = start_of(planned(made.linkage(n)), path[0], branch)

@@ -32,8 +32,8 @@ def part_at_fault(plan: Plan, number: int) -> Dyad | Larger:
 
 
 def choices(plan: Plan) -> tuple[Dyad | Larger, ...]:
-    """The groups that have a label."""
-    return tuple(part for part in plan.parts if isinstance(part, Larger) or part.branching)
+    """The groups that have a label; one with wheels has none."""
+    return tuple(part for part in plan.parts if (part.branching if isinstance(part, Dyad) else not part.contacts))
 
 
 def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ...]:
@@ -65,7 +65,7 @@ def starting(plan: Plan, labels: tuple[str, ...], drives: Reals, last: Larger | 
     Raises `Unassembled` for a group that has no such mode there.
     """
     signs = np.ones(len(plan.dyads))
-    unknowns = np.zeros(3 * sum(len(part.roots) for part in plan.larger))
+    unknowns = np.zeros(plan.unknowns)
     found = 0
     for part, label in zip(choices(plan), labels, strict=False):
         if part == last:
@@ -121,7 +121,7 @@ def modes_of(plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Re
     places, turns = pose_before(plan, part, drives, signs, unknowns)
     program = plan.program
     rows = []
-    for kind, a, b, body_a, body_b in plan.conditions[part.number]:
+    for kind, (a, b), (body_a, body_b), *_ in plan.conditions[part.number]:
         (point_a, line_a), (point_b, line_b) = (
             (places[k] + turns[k] * program.points[e], turns[k] * program.lines[e])
             for e, k in ((a, program.links[a]), (b, program.links[b]))

@@ -227,7 +227,9 @@ class Circuit:
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
             arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
-            found = self._poses(np.array([arc]), pose[None], self.at([arc]).tangents(self.system.bodies))
+            slopes = np.zeros((1, self.system.unknowns))
+            slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
+            found = self._poses(np.array([arc]), pose[None], slopes)
             driven = bool(self.system.lower.mechanism.drives)
             yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found)
 
@@ -287,9 +289,10 @@ def circuit(
     if not 1e-4 <= step <= 0.2 or not most > 0:
         raise LinkageError(f"the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}")
     lower = with_lower_pairs(linkage)
-    if len(lower.mechanism.drives) > 1:
-        raise LinkageError(f"a circuit has one drive at most, but this linkage has {len(lower.mechanism.drives)}")
-    made = system(lower)
+    count = len(linkage.mechanism.drives)
+    if count > 1:
+        raise LinkageError(f"a circuit has one drive at most, but this linkage has {count}")
+    made = system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, made, branch, drive)
     found = Circuit(linkage, made, Traced(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0
@@ -312,7 +315,7 @@ def _start(
     if lower.home is not None and branch is None and drive is None:
         rows = [lower.home[link] for link in made.bodies]
         x = np.array([(p.x / lower.size, p.y / lower.size, p.angle) for p in rows]).ravel()
-        pose, tangent, _, rank = on_curve(made, x)
+        pose, tangent, _, rank = on_curve(made, made.with_arms(x))
         return _movable(made, pose, tangent, rank)
     best: tuple[Reals, Reals] | None = None
     largest = 0.0
@@ -370,4 +373,4 @@ def _assembled(linkage: Linkage, made: System, value: float, branch: str | Itera
         k = motion._link(link)
         z = motion.places[0, 0, k] / made.lower.size
         rows.append((z.real, z.imag, float(np.angle(motion.turns[0, k]))))
-    return np.array(rows).ravel()
+    return made.with_arms(np.array(rows).ravel())

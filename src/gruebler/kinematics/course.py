@@ -27,6 +27,7 @@ _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
 _BEND = 1e-3  # by how much a rate may differ from its cubic, of the usual rate
 _MOST_TURNS = 8  # after which a linkage must be back where it was
+_MOST_WITH_WHEELS = 720  # the same with wheels, whose tooth numbers make long cycles
 _FAR = 20.0  # sizes: a slide that goes as far without a limit has none
 _BACK = 1e-7  # how near it is then
 _WELL = 1e-3  # a start with a root below it is near a change point or limit
@@ -130,7 +131,7 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
     Raises `LinkageError` if it has more drives than one, or cannot be assembled or moved at all.
     """
     plan = planned(linkage)
-    count = len(plan.lower.mechanism.drives)
+    count = len(plan.linkage.mechanism.drives)
     if count != 1:
         raise LinkageError(
             f"measures are those of linkages with one drive; this one has {count}",
@@ -215,13 +216,17 @@ def _candidates(plan: Plan) -> Iterator[float]:
 def _span(plan: Plan, start: Motion) -> Span:
     q = float(start.drives[0, 0])
     turning = _turns(plan)
-    longest = 2 * pi * _MOST_TURNS if turning else _FAR * plan.lower.size
-    steps = np.linspace(0, longest, (_MOST_TURNS if turning else 40) + 1)
+    most = _MOST_WITH_WHEELS if plan.wheels else _MOST_TURNS
+    longest = 2 * pi * most if turning else _FAR * plan.lower.size
+    steps = np.linspace(0, longest, (most if turning else 40) + 1)
     above, rows = _run(plan, q + steps, 0, start)
     back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
     if back:
         return Span(q, q + 2 * pi * back[0], True, back[0], (None, None))
-    below, _ = _run(plan, q - steps, 0, start)
+    short = steps[: _MOST_TURNS + 1] if turning else steps
+    if above.complete:
+        above = _rows(above, rows[: len(short)])
+    below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
     return Span(low, high, False, 0, (below.stop, above.stop))
 

@@ -5,15 +5,21 @@ docs/theory/circuits.md has the method, its tolerances and what it may miss.
 
 from __future__ import annotations
 
-from cmath import rect
+from cmath import phase, rect
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import pi
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.linkages import Element, Line, Linkage
+from gruebler.kinematics.contacts import MESH, POLAR, RACK, RIDE, contact_conditions, law_tables
+from gruebler.kinematics.contours import Law
+from gruebler.linkages import Element, Linkage, Place
+from gruebler.linkages.elements import direction
+from gruebler.linkages.wheels import arms, round_joints
 
 if TYPE_CHECKING:
     from gruebler._numeric.tracing import Conditions, Curve, Scratch
@@ -31,24 +37,46 @@ _SMALL = 0.2  # below this gauge a redundantly constrained linkage is looked at 
 class System:
     """The closing conditions of all joints of a linkage with lower pairs.
 
-    The unknowns are x, y and angle of each link but the frame; lengths are in units of the linkage's size.
+    The unknowns are x, y and angle of each link but the frame, and of an arm between the centres of two wheels that no
+    link holds; lengths are in units of the linkage's size.
     """
 
     lower: Linkage
     bodies: tuple[str, ...]
+    """The links; the arms are numbered behind them."""
+    arms: tuple[tuple[tuple[int, str], tuple[int, str]], ...]
+    """For each arm the wheels between which it lies, by joint and link."""
     conditions: Conditions
     room: Scratch
     equations: int
+    meshes: tuple[NDArray[np.int64], NDArray[np.int64]]
+    """The equations that hold the phases of wheels, and their conditions."""
 
     @property
     def unknowns(self) -> int:
         """How many there are."""
-        return 3 * len(self.bodies)
+        return 3 * (len(self.bodies) + len(self.arms))
 
     @property
     def redundant(self) -> bool:
         """Whether there are more equations than a linkage with one freedom needs."""
         return self.equations > self.unknowns - 1
+
+    def with_arms(self, x: Reals) -> Reals:
+        """The unknowns if those of the links are given; the wheels mesh in this position from now on."""
+        where = {link: Place(*x[3 * k : 3 * k + 3]) for k, link in enumerate(self.bodies)}
+        rows = [x]
+        for ends in self.arms:
+            elements = [self.lower.elements[key] for key in ends]
+            centres = [
+                complex(*where.get(link, Place(0, 0, 0)).put(e.x / self.lower.size, e.y / self.lower.size))
+                for (_, link), e in zip(ends, elements, strict=True)
+            ]
+            rows.append(np.array([centres[0].real, centres[0].imag, phase(centres[1] - centres[0])]))
+        out = np.concatenate(rows)
+        self.conditions.values[self.meshes[1], 2] = 0
+        self.conditions.values[self.meshes[1], 2] = self.linearised(out)[0][self.meshes[0]]
+        return out
 
     def linearised(self, x: Reals) -> tuple[Reals, Reals]:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
@@ -88,37 +116,92 @@ class Traced(NamedTuple):
     """The length at which the start lies."""
 
 
-def system(lower: Linkage) -> System:
-    """The equations of a linkage with lower pairs; `LinkageError` if it has more than one freedom by count."""
-    from gruebler._numeric.closure import EQUATIONS, PIN, SLIDE
+def system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> System:
+    """The equations of a linkage with lower pairs, some links of which do not turn against each other.
+
+    `LinkageError` if it has more than one freedom by count.
+    """
+    from gruebler._numeric.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL
     from gruebler._numeric.tracing import Conditions, scratch
 
     chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
     bodies = tuple(link for link in chain.links if link != frame)
-    kinds, owners, ends = [], [], []
+    keys = tuple(lower.elements)
+    wheels, held = round_joints(lower.mechanism, lower.elements), arms(lower.mechanism, lower.elements)
+    rows: list[_Row] = []
+    free: list[tuple[tuple[int, str], tuple[int, str]]] = []
     for number, joint in enumerate(chain.joints):
-        first = joint.links[0]
-        for other in joint.links[1:]:
-            kinds.append(PIN if joint.pair.name == "revolute" else SLIDE)
-            for link in (first, other):
-                owners.append(-1 if link == frame else bodies.index(link))
-                ends.append(lower.elements[number, link])
+        ends = [(number, link) for link in joint.links]
+        owners = [-1 if link == frame else bodies.index(link) for link in joint.links]
+        if number not in wheels:
+            kind = PIN if joint.pair.name == "revolute" else SLIDE
+            rows += [
+                _Row(kind, (owners[0], b), (_at(lower, ends[0]), _at(lower, e)))
+                for b, e in zip(owners[1:], ends[1:], strict=True)
+            ]
+            continue
+        sides = keys.index(ends[0]), keys.index(ends[1])
+        for found in contact_conditions(lower, joint.pair.name, keys, sides, (owners[0], owners[1])):
+            one, two, value = found.values
+            places = _at(lower, keys[found.sides[0]]), _at(lower, keys[found.sides[1]])
+            if found.kind == MESH:
+                arm = len(bodies) + len(free)
+                if number in held:
+                    arm = -1 if held[number].link == frame else bodies.index(held[number].link)
+                else:
+                    free.append((ends[0], ends[1]))
+                    rows.append(_Row(PIN, (arm, owners[0]), ((0j, 1 + 0j), places[0])))
+                    rows.append(_Row(RIDE, (arm, owners[1]), ((0j, 1 + 0j), places[1])))
+                turned = direction(lower.elements[keys[found.sides[0]]])
+                if number in held:
+                    turned -= held[number].direction + (pi if found.sides != sides else 0.0)
+                rows.append(_Row(TRAIN, found.owners, places, (one / size, two / size, 0.0, arm, turned), found.law))
+            elif found.kind == RACK:
+                rows.append(_Row(TRAVEL, found.owners, places, (one / size, two, 0.0, 0.0, 0.0)))
+            else:
+                law = found.law.scaled(size, found.kind == POLAR)
+                rows.append(_Row(found.kind, found.owners, places, (one / size, two, value / size, 0.0, 0.0), law))
+    for a, b in still:
+        owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]
+        rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
+    ends_of = [end for row in rows for end in row.places]
+    laws, pieces = law_tables([row.law for row in rows])
     conditions = Conditions(
-        np.array(kinds, np.int64),
-        np.array(owners, np.int64),
-        np.array([[complex(e.x, e.y) / size] for e in ends], np.complex128),
-        np.array([_direction(e) for e in ends], np.complex128),
+        np.array([row.kind for row in rows], np.int64),
+        np.array([owner for row in rows for owner in row.owners], np.int64),
+        np.array([[point] for point, _ in ends_of], np.complex128),
+        np.array([line for _, line in ends_of], np.complex128),
+        np.array([(*row.values, *law) for row, law in zip(rows, laws, strict=True)]),
+        pieces,
     )
-    equations = sum(EQUATIONS[kind] for kind in kinds)
-    if equations < 3 * len(bodies) - 1:
+    first = np.cumsum([0, *(EQUATIONS[row.kind] for row in rows)])
+    meshes = np.array([k for k, row in enumerate(rows) if row.kind in (TRAIN, TRAVEL)], np.int64)
+    unknowns, equations = 3 * (len(bodies) + len(free)), int(first[-1])
+    if equations < unknowns - 1:
         raise LinkageError(
-            f"a circuit is the motion of a linkage with one freedom, but this one has {3 * len(bodies) - equations}"
+            f"a circuit is the motion of a linkage with one freedom, but this one has {unknowns - equations}"
         )
-    return System(lower, bodies, conditions, scratch(conditions), equations)
+    return System(lower, bodies, tuple(free), conditions, scratch(conditions), equations, (first[meshes], meshes))
+
+
+class _Row(NamedTuple):
+    """A closing condition in the making."""
+
+    kind: int
+    owners: tuple[int, int]
+    places: tuple[tuple[complex, complex], tuple[complex, complex]]
+    """Point and direction on both sides."""
+    values: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
+    law: Law = Law(())
+
+
+def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
+    element = lower.elements[key]
+    return complex(element.x, element.y) / lower.size, _direction(element)
 
 
 def _direction(element: Element) -> complex:
-    return rect(1, element.angle) if isinstance(element, Line) else 1 + 0j
+    return rect(1, direction(element))
 
 
 def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:

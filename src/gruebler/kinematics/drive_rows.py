@@ -30,7 +30,7 @@ def degrees(start: float, stop: float, step: float) -> Reals:
 
 def drive_path(made: Plan, drives: ArrayLike) -> Reals:
     """(rows, drives) values, checked."""
-    wanted = len(made.lower.mechanism.drives)
+    wanted = len(made.linkage.mechanism.drives)
     try:
         path = np.array(drives, np.float64)
     except (TypeError, ValueError):

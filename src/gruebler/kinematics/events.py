@@ -36,6 +36,8 @@ __all__ = [
 ]
 
 _STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
+_BESIDE = pi / 360  # next to a zero of the output's velocity, where the output moves or dwells
+_DWELL = 1e-9  # the velocity (output by drive, in usual sizes) below which it dwells
 _EVEN = 1e-9  # the same for its derivatives
 _EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
 _THERE = 1e-5  # radians: a pose that differs by less is the same
@@ -105,7 +107,7 @@ def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...
             rows = [2 * sine, rows[1] * cosine, rows[2] * cosine - rows[1] ** 2 * sine / 2]
         return np.stack(rows[:3])
 
-    found = _inside(course, zeros(jet, course.grid, least))
+    found = _inside(course, _moving(course, output, zeros(jet, course.grid, least)))
     before = _before(course, output, found, order)
     words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
     return tuple(
@@ -125,6 +127,16 @@ def _inside(course: Course, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
     return tuple(sorted(found, key=lambda zero: course.span.wrapped(zero.at)))
 
 
+def _moving(course: Course, output: Output, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+    """The zeros beside which the output moves: not those within a dwell behind a cam or a Geneva drive."""
+    if not found or not course.plan.dwelling:
+        return found
+    at = np.array([zero.at for zero in found])
+    rates = [np.abs(transfer_function(course, output, at + side * _BESIDE, 1)) for side in (-1, 1)]
+    moves = np.maximum(*rates) > _DWELL * natural(course, output)
+    return tuple(zero for zero, kept in zip(found, moves, strict=True) if kept)
+
+
 def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
     """All positions in which the output stops, with the extreme ones told apart as inner and outer.
 
@@ -138,7 +150,8 @@ def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
         motion = course.at(drives)
         return np.stack([output.track(motion, k) for k in (1, 2, 3)])
 
-    found = _inside(course, zeros(jet, course.grid, _STILL * natural(course, output)))
+    found = zeros(jet, course.grid, _STILL * natural(course, output))
+    found = _inside(course, _moving(course, output, found))
     values = transfer_function(course, output, np.array([zero.at for zero in found])) if found else np.empty(0)
     centres = [
         DeadCentre(

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
+from gruebler.kinematics.contacts import home_angles
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Line
 
@@ -27,14 +28,15 @@ class Home(NamedTuple):
 
 
 def at_home(plan: Plan, near: Reals) -> Home:
-    """The home position; turning drives by whole turns as near as possible to given values."""
-    drives = np.array([_drive(plan, k) for k in range(len(plan.lower.mechanism.drives))])
-    for k, drive in enumerate(plan.lower.mechanism.drives):
-        if drive.direction.startswith("R"):
+    """The home position; turning drives by whole turns as near as possible to given values, but not with wheels."""
+    drives = np.array([_drive(plan, k) for k in range(len(plan.linkage.mechanism.drives))])
+    for k, drive in enumerate(plan.linkage.mechanism.drives):
+        if drive.direction.startswith("R") and not plan.wheels:
             drives[k] += 2 * pi * round((near[k] - drives[k]) / (2 * pi))
     signs = np.array([_sign(plan, dyad) for dyad in plan.dyads])
     unknowns = [_against(plan, root, part.base) for part in plan.larger for root in part.roots]
-    return Home(drives, signs, np.array(unknowns).ravel())
+    windings = [home_angles(plan.lower, plan.keys, condition) for condition in plan.windings]
+    return Home(drives, signs, np.concatenate([np.array(unknowns).ravel(), np.array(windings).ravel()]))
 
 
 def check_home(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:

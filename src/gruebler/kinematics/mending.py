@@ -41,7 +41,7 @@ def _limit(
     made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals, row: int
 ) -> tuple[NDArray[np.complex128], Reals] | None:
     way = speeds[0, row].copy()
-    scale = np.array([1.0 if d.direction.startswith("R") else made.lower.size for d in made.lower.mechanism.drives])
+    scale = np.array([1.0 if d.direction.startswith("R") else made.lower.size for d in made.linkage.mechanism.drives])
     if not way.any():  # at rest: any direction does
         way = scale.copy()
     length = float(np.abs(way / scale).max())

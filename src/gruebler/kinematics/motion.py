@@ -137,7 +137,7 @@ class Motion:
     @cached_property
     def closure(self) -> float:
         """The largest distance by which a joint of any pose is open, relative to the linkage's size."""
-        from gruebler.kinematics.ways import openness
+        from gruebler.kinematics.openness import openness
 
         return openness(self)
 

@@ -86,16 +86,31 @@ def move(
 
 def start_of(made: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
     """Signs of dyads and unknowns of larger groups at the first row."""
-    if branch is not None or made.lower.home is None or not choices(made):
+    if not made.wheels and (branch is not None or made.lower.home is None or not choices(made)):
         return starting(made, read_branch(made, branch), first)
     begin = at_home(made, first)
+    if branch is not None:
+        begin = begin._replace(signs=_other_signs(made, begin.signs, read_branch(made, branch)))
     path = np.array([begin.drives, first])
     rows = run_rows(made.program, made, path, None, 0, begin.signs, begin.unknowns)
-    if rows.reached:
+    if rows.reached and branch is None:
         check_home(made, rows.places[0, 0], rows.turns[0])
     if rows.reached < 2:
         raise Unassembled(part_at_fault(made, rows.fault))
     return np.where(rows.roots[1] < 0, -1.0, 1.0), rows.unknowns[1]
+
+
+def _other_signs(made: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
+    """The signs of these labels, in a linkage with wheels: they may differ from the home's behind the last wheel."""
+    out = signs.copy()
+    for part, label in zip(choices(made), labels, strict=True):
+        if isinstance(part, Larger):
+            raise LinkageError("branch: a linkage with wheels and a larger group is assembled as in its home only")
+        out[part.number] = -1.0 if label == "-" else 1.0
+        behind = made.parts[made.parts.index(part) :]
+        if out[part.number] != signs[part.number] and any(isinstance(p, Larger) and p.contacts for p in behind):
+            raise LinkageError("branch: what wheels depend on is assembled as in the home, where their teeth are known")
+    return out
 
 
 def _from_home(made: Plan, path: Reals, speeds: Reals, order: int) -> Rows:
@@ -117,7 +132,7 @@ def _never(made: Plan, path: Reals, order: int, found: Unassembled) -> Motion:
         np.empty((order, 0, links)),
         np.empty((0, links), np.int32),
         np.empty((0, len(made.dyads))),
-        np.empty((0, 3 * sum(len(part.roots) for part in made.larger))),
+        np.empty((0, made.unknowns)),
         _stop(made, 0.0, path[0], found.part, "start"),
     )
 

@@ -7,11 +7,10 @@ from typing import NamedTuple
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.motion import Motion, Reals
 from gruebler.linkages import Linkage
+from gruebler.linkages.wheels import sliding_joint
 from gruebler.mechanism import Mechanism
 
 __all__ = ["Output", "find_output"]
-
-_SLIDING = ("prismatic", "roll_slide")
 
 
 class Output(NamedTuple):
@@ -48,14 +47,10 @@ def find_output(linkage: Linkage, output: str | None = None) -> Output:
     if name in mechanism.chain.links:
         return Output(name, name, _slide_at_frame(mechanism, name))
     number = mechanism.chain.find_joint(name) if isinstance(name, str) else None
-    if number is not None and mechanism.chain.joints[number].pair.name in _SLIDING:
+    if number is not None and sliding_joint(linkage, number):
         first, other = mechanism.chain.joints[number].links[:2]
         return Output(name, first if other == mechanism.frame else other, number)
-    sliding = [
-        text
-        for text, joint in zip(mechanism.chain.joint_names(), mechanism.chain.joints, strict=True)
-        if joint.pair.name in _SLIDING
-    ]
+    sliding = [text for k, text in enumerate(mechanism.chain.joint_names()) if sliding_joint(linkage, k)]
     known = [*mechanism.chain.links, *sliding]
     raise LinkageError(
         f"an output is a link or a sliding joint{nearest(str(name), known)}; {name!r} is none of {', '.join(known)}"

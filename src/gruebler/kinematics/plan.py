@@ -13,11 +13,15 @@ import numpy as np
 from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
-from gruebler.linkages import Line, Linkage, with_lower_pairs
+from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.linkages import Linkage, with_lower_pairs
+from gruebler.linkages.elements import direction
+from gruebler.linkages.wheels import round_joints
 
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
 
 _DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
+_LETTERS = {"revolute": "R", "prismatic": "P"}
 _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
 _LONGEST_TURN = radians(5)
@@ -53,6 +57,8 @@ class Larger:
     """Its number among the larger groups."""
     base: str
     """The link that stands for what it is found against."""
+    contacts: bool = False
+    """Whether wheels or circles are in it: then its modes are not searched for, and it is followed from the home."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +73,8 @@ class Plan:
     parts: tuple[Dyad | Larger, ...]
     """Dyads and larger groups in solving order."""
     operations: tuple[tuple[int, ...], ...]
-    conditions: tuple[tuple[tuple[int, int, int, int, int], ...], ...]
-    """For each larger group its closing conditions: kind, two elements, two bodies."""
+    conditions: tuple[tuple[Condition, ...], ...]
+    """For each larger group its closing conditions."""
     keys: tuple[tuple[int, str], ...]
     """The joint and link of each element by number."""
 
@@ -82,6 +88,33 @@ class Plan:
         """The larger groups in solving order."""
         return tuple(part for part in self.parts if isinstance(part, Larger))
 
+    @property
+    def wheels(self) -> bool:
+        """Whether wheels or circles are in it, so that every motion is followed from the home."""
+        return any(part.contacts for part in self.larger)
+
+    @cached_property
+    def held(self) -> np.ndarray:
+        """The values of the drives that hold idle rollers; they stand behind the others."""
+        home, drives = self.lower.home, range(len(self.linkage.mechanism.drives), len(self.lower.mechanism.drives))
+        links = [self.lower.reference(k) for k in drives]
+        return np.array([home[b].angle - home[a].angle if home is not None else 0.0 for a, b in links])
+
+    @property
+    def dwelling(self) -> bool:
+        """Whether there are cams or Geneva drives, behind which links may rest."""
+        return any(c.law.pieces for group in self.conditions for c in group)
+
+    @cached_property
+    def windings(self) -> tuple[Condition, ...]:
+        """The closing conditions that count whole turns."""
+        return tuple(c for group in self.conditions for c in group if c.winds)
+
+    @property
+    def unknowns(self) -> int:
+        """How many numbers describe a pose of the larger groups: 3 for each body, 2 for each of `windings`."""
+        return 3 * sum(len(part.roots) for part in self.larger) + 2 * len(self.windings)
+
     def operation(self, dyad: Dyad) -> tuple[int, ...]:
         """The operation that places a dyad: kind, six elements, two links, its number."""
         return next(o for o in self.operations if o[0] in _FORMS and o[9] == dyad.number)
@@ -92,6 +125,7 @@ class Plan:
         chain = self.lower.mechanism.chain
         points, lines = self.element_arrays(self.lower)
         flat = [c for group in self.conditions for c in group]
+        laws, pieces = law_tables([c.law for c in flat])
         roots = [root for part in self.larger for root in part.roots]
         return Program(
             _table(self.operations, 10),
@@ -99,13 +133,16 @@ class Plan:
             points,
             lines,
             _starts(len(group) for group in self.conditions),
-            np.array([c[0] for c in flat], np.int64),
-            np.array([side for c in flat for side in c[1:3]], np.int64),
-            np.array([owner for c in flat for owner in c[3:5]], np.int64),
+            np.array([c.kind for c in flat], np.int64),
+            np.array([side for c in flat for side in c.sides], np.int64),
+            np.array([owner for c in flat for owner in c.owners], np.int64),
             _starts(len(part.roots) for part in self.larger),
             np.array([chain.index(root) for root in roots], np.int64),
             self.longest_steps,
             self.lower.size,
+            np.array([(*c.values, *law) for c, law in zip(flat, laws, strict=True)]).reshape(-1, 6),
+            np.array([3 * len(roots) + 2 * self.windings.index(c) if c.winds else -1 for c in flat], np.int64),
+            pieces,
         )
 
     @property
@@ -143,7 +180,7 @@ class Plan:
         """Points and directions (complex) of the elements of a linkage of this structure, with lower pairs."""
         elements = [lower.elements[key] for key in self.keys]
         points = np.array([complex(e.x, e.y) for e in elements], np.complex128)
-        lines = np.array([rect(1, e.angle) if isinstance(e, Line) else 1 for e in elements], np.complex128)
+        lines = np.array([rect(1, direction(e)) for e in elements], np.complex128)
         return points, lines
 
 
@@ -162,6 +199,10 @@ def _starts(lengths: Iterable[int]) -> np.ndarray:
 def plan(linkage: Linkage) -> Plan:
     """The plan of a linkage; `LinkageError` says what its drives leave free or hold twice."""
     lower = with_lower_pairs(linkage)
+    if lower.home is None and round_joints(lower.mechanism, lower.elements):
+        raise LinkageError(
+            "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
+        )
     parts = decompose(lower.mechanism)
     if not parts.complete:
         raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
@@ -177,7 +218,7 @@ class _Planner:
         self.keys = tuple(sorted(lower.elements, key=lambda key: (key[0], self.chain.index(key[1]))))
         self.number = {key: k for k, key in enumerate(self.keys)}
         self.operations: list[tuple[int, ...]] = []
-        self.conditions: list[tuple[tuple[int, int, int, int, int], ...]] = []
+        self.conditions: list[tuple[Condition, ...]] = []
         self.parts: list[Dyad | Larger] = []
         self.against: dict[str, str] = {}
 
@@ -230,7 +271,8 @@ class _Planner:
             count = len(self.conditions)
             self.operations.append((GROUP, count))
             self.conditions.append(self._conditions(group, base, roots))
-            self.parts.append(Larger(number, roots, count, base))
+            contacts = any(member.pair.name not in _LETTERS for _, member in group.joints)
+            self.parts.append(Larger(number, roots, count, base, contacts))
         for root in roots:
             for link in [link for link, at in self.against.items() if at == root and link != root]:
                 self.operations.append((CARRY, self.chain.index(link), self.chain.index(root)))
@@ -246,17 +288,16 @@ class _Planner:
         if (
             len(group.bodies) != 2
             or len(group.joints) != 3
-            or any(len(m.links) + m.outer != 2 for _, m in group.joints)
+            or any(len(m.links) + m.outer != 2 or m.pair.name not in _LETTERS for _, m in group.joints)
         ):
             return None
-        letter = {"revolute": "R", "prismatic": "P"}
         outer: dict[int, tuple[int, str]] = {}
         inner = (-1, "")
         for joint, member in group.joints:
             if member.outer:
-                outer[member.links[0]] = joint, letter[member.pair.name]
+                outer[member.links[0]] = joint, _LETTERS[member.pair.name]
             else:
-                inner = joint, letter[member.pair.name]
+                inner = joint, _LETTERS[member.pair.name]
         one, two = 0, 1
         form = outer[0][1] + inner[1] + outer[1][1]
         if form not in _DYADS:
@@ -272,14 +313,18 @@ class _Planner:
         ]
         return _DYADS[form], elements, first, second
 
-    def _conditions(
-        self, group: Group, base: str, roots: tuple[str, ...]
-    ) -> tuple[tuple[int, int, int, int, int], ...]:
-        out = []
+    def _conditions(self, group: Group, base: str, roots: tuple[str, ...]) -> tuple[Condition, ...]:
+        out: list[Condition] = []
         for joint, member in group.joints:
-            kind = {"revolute": 0, "prismatic": 1}[member.pair.name]
             sides = [(self._element(joint, base), -1)] if member.outer else []
             sides += [(self._element(joint, roots[body]), body) for body in member.links]
             for element, body in sides[1:]:
-                out.append((kind, sides[0][0], element, sides[0][1], body))
+                both, owners = (sides[0][0], element), (sides[0][1], body)
+                if member.pair.name in _LETTERS:
+                    out.append(Condition({"revolute": PIN, "prismatic": SLIDE}[member.pair.name], both, owners))
+                else:
+                    try:
+                        out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
+                    except LinkageError as error:
+                        raise LinkageError(f"{self.chain.joint_names()[joint]}: {error}") from None
         return tuple(out)

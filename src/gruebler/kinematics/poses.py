@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, nearest
-from gruebler.linkages import Element, Line, Linkage, Named, Pin, Place
+from gruebler.linkages import Element, Line, Linkage, Named, Place
+from gruebler.linkages.wheels import sliding_joint
 
 __all__ = ["Poses"]
 
@@ -69,12 +70,12 @@ class Poses:
         """
         chain, frame = self.linkage.mechanism.chain, self.linkage.mechanism.frame
         number = joint if isinstance(joint, int) else chain.find_joint(joint)
-        if number is None or chain.joints[number].pair.name not in ("prismatic", "roll_slide", "double_slide"):
+        if number is None or not sliding_joint(self.linkage, number):
             raise LinkageError(f"{joint!r} is no sliding joint")
         first, other = chain.joints[number].links[:2]
-        if other == frame or isinstance(self.linkage.elements[number, first], Pin):
+        if other == frame or not isinstance(self.linkage.elements[number, first], Line):
             first, other = other, first
-        if isinstance(self.linkage.elements[number, first], Pin):
+        if not isinstance(self.linkage.elements[number, first], Line):
             first, other = other, first
         return self._way(self.linkage, number, first, other, order, 1j if across else 1)
 

@@ -157,7 +157,12 @@ def _joined(rows: Rows, count: int, back: Rows, whole: NDArray[np.int32]) -> Row
 def run_rows(
     program: Program, made: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
 ) -> Rows:
-    """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`."""
+    """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`; idle rollers are held."""
+    idle = made.held
+    if len(idle) and path.shape[1] < len(made.lower.mechanism.drives):
+        path = np.ascontiguousarray(np.concatenate([path, np.tile(idle, (len(path), 1))], axis=1))
+        if speeds is not None:
+            speeds = np.concatenate([speeds, np.zeros((*speeds.shape[:2], len(idle)))], axis=2)
     extra = _passed(made, path)
     if len(extra):
         return _with_extra_rows(program, made, path, speeds, order, signs, unknowns, extra)
@@ -174,6 +179,7 @@ def run_rows(
     )
     if speeds is None:
         speeds = np.zeros((order, *path.shape))
+    speeds = np.ascontiguousarray(speeds)
     status, count, at, fault = run(program, path, speeds, signs, unknowns, poses)
     found: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
     return Rows(status, count, at, fault, *found)

@@ -154,13 +154,15 @@ class Solver:
     """Newton's method on the conditions of one group, with its working arrays. Poses are flat: x, y, angle, x, ..."""
 
     def __init__(self, group: Conditions) -> None:
-        from gruebler._numeric.closure import closing, newton
+        from gruebler._numeric.closure import closing
+        from gruebler._numeric.newton import newton
 
         self.size, n = group.size, 3 * group.bodies
         self._group = group
         self._arguments = (
             group.kinds,
-            np.zeros(len(group.kinds)),
+            np.zeros((len(group.kinds), 8)),
+            np.zeros((0, 14)),
             group.owners,
             group.points.reshape(-1, 1),
             group.lines,

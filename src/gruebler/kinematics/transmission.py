@@ -147,6 +147,8 @@ def _leg(plan: Plan, group: Group, body: int) -> Leg | None:
     outer, inner = ([(n, m) for n, m in mine if m.outer == side] for side in (True, False))
     if len(outer) != 1 or len(inner) != 1:
         return None
+    if any(member.pair.name not in ("revolute", "prismatic") for _, member in mine):
+        return None  # a wheel or cam
     links = _bodies(group)
     other = next(k for k in inner[0][1].links if k != body)
     form = "".join("R" if m.pair.name == "revolute" else "P" for _, m in (outer[0], inner[0]))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from gruebler.errors import LinkageError
 from gruebler.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.linkages import Linkage
-from gruebler.mechanism import Mechanism
+from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism.roles import Role
 
 __all__ = ["DriveRange", "Rotatability", "drive_range", "motion_roles", "rotatability"]
@@ -71,7 +71,7 @@ def rotatability(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
     R(frame-rocker) False 79.846
     """
     made = _circuit(linkage, branch)
-    return tuple(_row(made, *which) for which in _pairs(made.linkage.mechanism))
+    return tuple(_row(made, *which) for which in _pairs(made.linkage))
 
 
 def _circuit(linkage: Linkage | Circuit, branch: str | Iterable[str] | None) -> Circuit:
@@ -82,8 +82,13 @@ def _circuit(linkage: Linkage | Circuit, branch: str | Iterable[str] | None) -> 
     return linkage
 
 
-def _pairs(mechanism: Mechanism) -> Iterator[tuple[int, tuple[str, str], str]]:
+def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
+    """Joints, links and freedoms; wheels and circles that touch are no neighbours."""
+    mechanism = linkage.mechanism
+    wheels = round_joints(mechanism, linkage.elements)
     for number, joint in enumerate(mechanism.chain.joints):
+        if number in wheels:
+            continue
         for one, two in itertools.combinations(joint.links, 2):
             for freedom in _FREEDOMS[joint.pair.name]:
                 yield number, (two, one) if two == mechanism.frame else (one, two), freedom
@@ -121,7 +126,7 @@ def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
     mechanism = made.linkage.mechanism
     out = dict.fromkeys(mechanism.chain.links, Role.COUPLER)
     out[mechanism.frame] = Role.FRAME
-    for number, links, freedom in _pairs(mechanism):
+    for number, links, freedom in _pairs(made.linkage):
         kind = mechanism.chain.joints[number].pair.name
         if mechanism.frame not in links or kind == "roll_slide":
             continue

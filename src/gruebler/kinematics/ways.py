@@ -7,22 +7,19 @@ from cmath import rect
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.motion import Complexes, Motion, Reals
+from gruebler.kinematics.motion import Motion, Reals
 from gruebler.linkages import Line, Named
+from gruebler.linkages.wheels import sliding_joint
 
-__all__ = ["openness", "slide"]
+__all__ = ["slide"]
 
 
 def slide(motion: Motion, joint: str | int, order: int) -> Reals:
     """See `Motion.slide`."""
     mechanism = motion.linkage.mechanism
     number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
-    if number is None or mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
-        sliding = [
-            name
-            for name, j in zip(mechanism.chain.joint_names(), mechanism.chain.joints, strict=True)
-            if j.pair.name in ("prismatic", "roll_slide")
-        ]
+    if number is None or not sliding_joint(motion.linkage, number):
+        sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
         raise LinkageError(f"{joint!r} is no sliding joint; there are {', '.join(sliding) or 'none'}")
     first, other = mechanism.chain.joints[number].links[:2]
     elements = motion.linkage.elements
@@ -51,30 +48,3 @@ def slide(motion: Motion, joint: str | int, order: int) -> Reals:
         seen = gaps[3] - 3j * w * gaps[2] + 3 * (-1j * a - w**2) * gaps[1] + (1j * (w**3 - j) - 3 * w * a) * gaps[0]
     out: Reals = (direction * seen).real
     return out
-
-
-def openness(motion: Motion) -> float:
-    """See `Motion.closure`."""
-    lower = motion.plan.lower
-    largest = 0.0
-    for number, joint in enumerate(lower.mechanism.chain.joints):
-        first = joint.links[0]
-        for other in joint.links[1:]:
-            one, two = lower.elements[number, first], lower.elements[number, other]
-            gap = _at(motion, other, two.x, two.y) - _at(motion, first, one.x, one.y)
-            if isinstance(one, Line):
-                assert isinstance(two, Line)
-                turns = motion.turns
-                direction = turns[:, motion._link(first)] * rect(1, one.angle)
-                other_way = turns[:, motion._link(other)] * rect(1, two.angle)
-                gap = np.conj(direction) * gap
-                largest = max(largest, float(np.max(np.abs(gap.imag))) / lower.size)
-                largest = max(largest, float(np.max(np.abs(other_way - direction))))
-            else:
-                largest = max(largest, float(np.max(np.abs(gap))) / lower.size)
-    return largest
-
-
-def _at(motion: Motion, link: str, x: float, y: float) -> Complexes:
-    k = motion._link(link)
-    return motion.places[0, :, k] + motion.turns[:, k] * complex(x, y)

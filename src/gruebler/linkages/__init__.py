@@ -6,7 +6,7 @@ transmission angles and closed forms of their motion: docs/theory/four-bar.md.
 """
 
 from gruebler.linkages.crank_motion import CrankMotion, InvertedMotion, Track
-from gruebler.linkages.elements import Element, Line, Named, Pin, Place
+from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, Line, Named, Pin, Place, Wheel
 from gruebler.linkages.extremes import Arc, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
 from gruebler.linkages.files import linkage_from_json, read_linkage, to_json, to_toml, write_linkage
 from gruebler.linkages.four_bar import FourBar
@@ -30,9 +30,13 @@ __all__ = [
     "INVERTED_SLIDER_CRANK_TYPES",
     "SLIDER_CRANK_TYPES",
     "Arc",
+    "Circle",
     "CrankMotion",
+    "Cross",
     "DeadCentre",
     "DeadCentres",
+    "Disc",
+    "Driver",
     "Element",
     "FourBar",
     "Grashof",
@@ -51,6 +55,7 @@ __all__ = [
     "Track",
     "Transmission",
     "TransmissionAngle",
+    "Wheel",
     "grashof",
     "linkage_from_json",
     "read_linkage",

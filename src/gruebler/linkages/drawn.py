@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from math import atan2, cos, hypot, sin
 
 from gruebler.errors import LinkageError
-from gruebler.linkages.elements import Element, Line, Pin, Place, read_element
+from gruebler.linkages.elements import CENTRED, Circle, Element, Line, Pin, Place, Wheel, read_element
 from gruebler.linkages.model import Linkage, joint_number
 from gruebler.mechanism import Mechanism
 
@@ -27,7 +27,10 @@ def from_drawing(
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
         x, y = home[link].seen(element.x, element.y)
-        elements[link][number] = (x, y) if isinstance(element, Pin) else (x, y, element.angle - home[link].angle)
+        seen_there = element._replace(x=x, y=y)
+        if not isinstance(seen_there, Pin | Wheel | Circle):
+            seen_there = seen_there._replace(angle=seen_there.angle - home[link].angle)
+        elements[link][number] = seen_there
     seen = {}
     for name, (link, x, y) in points.items():
         if link not in home:
@@ -46,13 +49,23 @@ def _elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[
         if number not in given:
             raise LinkageError(f"the place of {names[number]} is missing")
         raw, slot = given[number], None
+        if isinstance(raw, Mapping):
+            for link in joint.links:
+                if link not in raw:
+                    raise LinkageError(f"{names[number]}: the element of {link!r} is missing")
+                drawn[number, link] = read_element(raw[link], f"{link}, {names[number]}")
+            continue
         if isinstance(raw, list | tuple) and len(raw) == 4:
             *raw, slot = raw
             if slot not in joint.links:
                 raise LinkageError(f"{names[number]}: the slot is in one of its links, not in {slot!r}")
         element = read_element(raw, names[number])
         if joint.pair.name == "roll_slide" and slot is None:
-            raise LinkageError(f"{names[number]}: say which link has the slot: [x, y, angle, link]")
+            raise LinkageError(
+                f"{names[number]}: say which link has the slot: [x, y, angle, link]; wheels are given for each link"
+            )
+        if isinstance(element, CENTRED):
+            raise LinkageError(f"{names[number]}: wheels are given for each of its links")
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element
     for (number, link), element in list(drawn.items()):

@@ -1,7 +1,4 @@
-"""What a joint is on one of its links: a pin, or a line along which something slides.
-
-Circles and contours of gears and cams are further kinds of elements; each kind is one row of `_WANTED`.
-"""
+"""What a joint is on one of its links: a pin, a line along which something slides, a wheel, or a smooth circle."""
 
 from __future__ import annotations
 
@@ -11,7 +8,23 @@ from typing import NamedTuple
 from gruebler.errors import LinkageError
 from gruebler.pairs import Pair
 
-__all__ = ["Element", "Line", "Named", "Pin", "Place", "fitting", "read_element"]
+__all__ = [
+    "CENTRED",
+    "ROUND",
+    "Circle",
+    "Cross",
+    "Disc",
+    "Driver",
+    "Element",
+    "Line",
+    "Named",
+    "Pin",
+    "Place",
+    "Wheel",
+    "direction",
+    "fitting",
+    "read_element",
+]
 
 
 class Pin(NamedTuple):
@@ -29,7 +42,76 @@ class Line(NamedTuple):
     angle: float
 
 
-Element = Pin | Line
+class Wheel(NamedTuple):
+    """A wheel that rolls without slip, on another one or along a line; ``x, y`` is its centre.
+
+    A negative radius is internal toothing. Tooth numbers, with the sign of the radius, make the ratio exact; a wheel of
+    a belt or chain is ``open`` or ``crossed`` and touches nothing.
+    """
+
+    x: float
+    y: float
+    radius: float
+    teeth: int = 0
+    belt: str = ""
+
+
+class Circle(NamedTuple):
+    """A smooth circle, on which a contact may slide: an eccentric disc, a roller; a negative radius is a hole."""
+
+    x: float
+    y: float
+    radius: float
+
+
+class Disc(NamedTuple):
+    """A disc cam, by the lift that it gives a follower (`gruebler.cams`): a roller, or a flat face across its motion.
+
+    ``x, y`` is the axis; the cam's own frame is turned by the angle; lengths, those of the lift too, are multiplied by
+    ``scale``.
+    """
+
+    x: float
+    y: float
+    angle: float
+    lift: str
+    base: float
+    roller: float = 0.0
+    offset: float = 0.0
+    flat: bool = False
+    scale: float = 1.0
+
+
+class Driver(NamedTuple):
+    """The driver of a Geneva drive: its axis, the direction of a pin, the number of pins."""
+
+    x: float
+    y: float
+    angle: float
+    pins: int = 1
+
+
+class Cross(NamedTuple):
+    """The slotted wheel of a Geneva drive: its axis, the direction of a slot, the number of slots."""
+
+    x: float
+    y: float
+    angle: float
+    slots: int
+    internal: bool = False
+
+
+Element = Pin | Line | Wheel | Circle | Disc | Driver | Cross
+
+ROUND = (Wheel, Circle)
+"""The elements with a centre and a radius."""
+CENTRED = (Wheel, Circle, Disc, Driver, Cross)
+"""The elements that turn about a centre and touch another element."""
+
+
+def direction(element: Element) -> float:
+    """The angle of an element on its link; 0 for one that has none."""
+    return element.angle if isinstance(element, Line | Disc | Driver | Cross) else 0.0
 
 
 class Named(NamedTuple):
@@ -62,11 +144,32 @@ class Place(NamedTuple):
         return c * (x - self.x) + s * (y - self.y), c * (y - self.y) - s * (x - self.x)
 
 
-_WANTED: dict[str, tuple[tuple[type, ...], str]] = {
-    "revolute": ((Pin, Pin), "a pin [x, y] on each of its links"),
-    "prismatic": ((Line, Line), "a line [x, y, angle] on each of its links"),
-    "roll_slide": ((Line, Pin), "a line [x, y, angle] on one of its links and a pin [x, y] on the other"),
-    "double_slide": ((Line, Line), "a line [x, y, angle] on each of its links"),
+_KINDS: dict[type, str] = {
+    Pin: "a pin [x, y]",
+    Line: "a line [x, y, angle]",
+    Wheel: "a wheel (at, radius or teeth)",
+    Circle: "a circle (at, circle)",
+    Disc: "a cam (at, cam)",
+    Driver: "pins (at, pins)",
+    Cross: "slots (at, slots)",
+}
+
+_WANTED: dict[str, tuple[tuple[type, type], ...]] = {
+    "revolute": ((Pin, Pin),),
+    "prismatic": ((Line, Line),),
+    "roll_slide": (
+        (Line, Pin),
+        (Wheel, Wheel),
+        (Wheel, Line),
+        (Circle, Circle),
+        (Circle, Line),
+        (Disc, Circle),
+        (Disc, Pin),
+        (Disc, Line),
+        (Driver, Cross),
+    ),
+    "double_slide": ((Line, Line),),
+    "rolling": ((Wheel, Wheel), (Wheel, Line)),
 }
 
 
@@ -74,11 +177,16 @@ def fitting(pair: Pair, name: str, elements: dict[str, Element]) -> None:
     """Check that a joint has the elements of its pair; `LinkageError` names the joint."""
     if pair.name not in _WANTED:
         raise LinkageError(f"{name}: dimensions of this kind of joint ({pair.name}) are not known here")
-    kinds, wanted = _WANTED[pair.name]
-    made = sorted((type(e) for e in elements.values()), key=lambda kind: kind.__name__)
-    asked = [kinds[0]] * len(made) if kinds[0] is kinds[1] else sorted(kinds, key=lambda kind: kind.__name__)
-    if made != asked:
-        raise LinkageError(f"{name} needs {wanted}")
+    made = {type(e) for e in elements.values()}
+    if any(made == set(kinds) for kinds in _WANTED[pair.name]):
+        return
+    wanted = " or ".join(
+        f"{_KINDS[one]} on each of its links"
+        if one is other
+        else f"{_KINDS[one]} on one of its links and {_KINDS[other]} on the other"
+        for one, other in _WANTED[pair.name]
+    )
+    raise LinkageError(f"{name} needs {wanted}")
 
 
 def read_element(raw: object, where: str) -> Element:
@@ -87,6 +195,12 @@ def read_element(raw: object, where: str) -> Element:
     >>> read_element([3, 4], "crank")
     Pin(x=3.0, y=4.0)
     """
+    if isinstance(raw, Wheel | Circle):
+        return _round(raw, where)
+    if isinstance(raw, Disc | Driver | Cross):
+        for value in raw[:3]:
+            _number(value, where)
+        return raw
     if isinstance(raw, Pin | Line):
         numbers: tuple[object, ...] = tuple(raw)
     elif isinstance(raw, list | tuple):
@@ -95,12 +209,32 @@ def read_element(raw: object, where: str) -> Element:
         raise LinkageError(f"{where}: expected [x, y] or [x, y, angle], but found {raw!r}")
     if len(numbers) not in (2, 3):
         raise LinkageError(f"{where}: expected two or three numbers, but found {len(numbers)}")
-    made = []
-    for value in numbers:
-        if isinstance(value, bool) or not isinstance(value, int | float) or not _usable(value):
-            raise LinkageError(f"{where}: expected finite numbers, but found {value!r}")
-        made.append(float(value))
+    made = [_number(value, where) for value in numbers]
     return Pin(*made) if len(made) == 2 else Line(*made)
+
+
+def _round(raw: Wheel | Circle, where: str) -> Wheel | Circle:
+    x, y, radius = (_number(value, where) for value in raw[:3])
+    if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
+        raise LinkageError(f"{where}: a radius is positive, or negative for internal toothing, not {radius!r}")
+    if isinstance(raw, Circle):
+        return Circle(x, y, radius)
+    teeth: object = raw.teeth
+    if isinstance(teeth, bool) or not isinstance(teeth, int) or not -(10**6) < teeth < 10**6:
+        raise LinkageError(f"{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}")
+    if teeth * radius < 0:
+        raise LinkageError(f"{where}: radius and teeth are both negative (internal toothing) or both positive")
+    if raw.belt not in ("", "open", "crossed"):
+        raise LinkageError(f"{where}: a belt is 'open' or 'crossed', not {raw.belt!r}")
+    if raw.belt and radius < 0:
+        raise LinkageError(f"{where}: a wheel of a belt has a positive radius, not {radius:g}")
+    return Wheel(x, y, radius, teeth, raw.belt)
+
+
+def _number(value: object, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not _usable(value):
+        raise LinkageError(f"{where}: expected finite numbers, but found {value!r}")
+    return float(value)
 
 
 def _usable(value: float) -> bool:

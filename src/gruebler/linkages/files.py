@@ -14,7 +14,7 @@ from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages.angles import in_degrees
 from gruebler.linkages.documents import fitted, load
-from gruebler.linkages.elements import Line, Pin, Place
+from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, Place, Wheel
 from gruebler.linkages.model import Linkage
 from gruebler.linkages.records import Dimensions, dimensioned
 from gruebler.mechanism import Mechanism
@@ -117,8 +117,18 @@ def to_json(linkage: Linkage) -> dict[str, Any]:
     return document
 
 
-def _plain(element: Pin | Line | Place) -> list[float | str]:
-    return [*element[:2], *(in_degrees(angle) for angle in element[2:])]
+def _plain(element: Element | Place) -> Any:
+    at = [element.x, element.y]
+    if isinstance(element, Circle):
+        return {"at": at, "circle": element.radius}
+    if isinstance(element, Wheel):
+        more = {"teeth": element.teeth, "belt": element.belt}
+        return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
+    if isinstance(element, Disc | Driver | Cross):
+        found = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
+        renamed = {{"lift": "cam"}.get(key, key): value for key, value in found.items() if key not in "xy"}
+        return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
+    return [*at, *(in_degrees(angle) for angle in element[2:])]
 
 
 def to_toml(linkage: Linkage) -> str:

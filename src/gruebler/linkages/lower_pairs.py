@@ -1,12 +1,16 @@
-"""The same linkage with turning and sliding joints only: a pin in a slot becomes a block that turns and slides."""
+"""The same linkage with joints as simple as can be: a pin in a slot becomes a block that turns and slides.
+
+Pairs of wheels and circles stay, but for what others say already.
+"""
 
 from __future__ import annotations
 
 from math import cos, pi, sin
 
 from gruebler.chain import Chain, Joint
-from gruebler.linkages.elements import Line, Pin
+from gruebler.linkages.elements import Circle, Element, Line, Pin
 from gruebler.linkages.model import Linkage
+from gruebler.linkages.wheels import arms, redundant, round_joints
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.pairs import pair
 
@@ -17,44 +21,33 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     """The linkage with a further link for each pin in a slot and each double slide; the other links keep their names.
 
     Drives keep their order. A pin in a slot is the pin on a block that slides in the slot; a double slide is a block
-    that slides along the first link's line, and at right angles to it in the second link.
+    that slides along the first link's line, and at right angles to it in the second link. Wheels that roll on each
+    other while a link holds their centres are a roll-slide pair, since the link repeats what holds them together; pairs
+    of wheels or circles that say nothing new are left out. The pin of a round roller whose spin moves nothing gets a
+    drive of its own, behind the others, that holds it.
     """
     mechanism = linkage.mechanism
     chain = mechanism.chain
-    split = [n for n, joint in enumerate(chain.joints) if joint.pair.name in ("roll_slide", "double_slide")]
-    if not split:
+    split, idle, eased = _to_do(linkage)
+    rollers = _idle_rollers(linkage)
+    if not split and not idle and not eased and not rollers:
         return linkage
     joints: list[Joint] = []
     elements: dict[str, dict[str | int, object]] = {link: {} for link in chain.links}
     place: dict[tuple[int, str], tuple[int, tuple[str, str]]] = {}  # (joint, direction) -> new joint and its links
     for number, joint in enumerate(chain.joints):
+        if number in idle:
+            continue
         if number not in split:
             for link in joint.links:
                 elements[link][len(joints)] = linkage.elements[number, link]
             place[number, ""] = len(joints), (joint.links[0], joint.links[1])
-            joints.append(joint)
+            joints.append(Joint(pair("roll_slide"), joint.links) if number in eased else joint)
             continue
         block = f"block {chain.joint_names()[number]}"
         elements[block] = {}
-        first, second = joint.links
-        one, other = linkage.elements[number, first], linkage.elements[number, second]
-        if joint.pair.name == "roll_slide":
-            slotted, pinned = (first, second) if isinstance(one, Line) else (second, first)
-            line, pin = (one, other) if isinstance(one, Line) else (other, one)
-            assert isinstance(line, Line)
-            parts = [
-                ("Tx", "prismatic", slotted, line, Line(0, 0, line.angle)),
-                ("Rz", "revolute", pinned, pin, Pin(0, 0)),
-            ]
-        else:
-            assert isinstance(one, Line)
-            assert isinstance(other, Line)
-            turned = Line(other.x, other.y, other.angle + pi / 2)
-            parts = [
-                ("Tx", "prismatic", first, one, Line(0, 0, one.angle)),
-                ("Ty", "prismatic", second, turned, Line(0, 0, one.angle + pi / 2)),
-            ]
-        measured_from = mechanism.frame if mechanism.frame in joint.links else first
+        parts = _halves(linkage, number)
+        measured_from = mechanism.frame if mechanism.frame in joint.links else joint.links[0]
         for direction, kind, link, mine, on_block in parts:
             links = (link, block) if link == measured_from else (block, link)
             place[number, direction] = len(joints), links
@@ -67,6 +60,9 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         new, links = place[key]
         between = links if drive.joint in split else drive.between
         drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], between))
+    for number in rollers:
+        new, links = place[number, ""]
+        drives.append(Drive(new, joints[new].pair.freedoms[chain.space][0], links))
     blocks = [link for link in elements if link not in chain.links]
     made = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
     home = None
@@ -84,6 +80,57 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         home=home,  # type: ignore[arg-type]
         outputs=linkage.outputs,
     )
+
+
+def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
+    """The joints to split, to leave out, and to take for a roll-slide pair."""
+    mechanism, elements = linkage.mechanism, linkage.elements
+    joints = mechanism.chain.joints
+    wheels, held = round_joints(mechanism, elements), arms(mechanism, elements)
+    idle = redundant(mechanism, elements) | {
+        n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
+    }
+    eased = {n for n in held if n not in idle and joints[n].pair.name == "rolling"}
+    kinds = ("roll_slide", "double_slide")
+    return [n for n, joint in enumerate(joints) if joint.pair.name in kinds and n not in wheels], idle, eased
+
+
+def _idle_rollers(linkage: Linkage) -> list[int]:
+    """The turning joints in the centre of a circle on a link that has no other joint but its contact."""
+    chain, elements = linkage.mechanism.chain, linkage.elements
+    driven = {drive.joint for drive in linkage.mechanism.drives}
+    found = []
+    for (number, link), circle in elements.items():
+        if not isinstance(circle, Circle):
+            continue
+        mine = [n for n, joint in enumerate(chain.joints) if link in joint.links and n != number]
+        if len(mine) == 1 and mine[0] not in driven:
+            pin = elements[mine[0], link]
+            if isinstance(pin, Pin) and pin == Pin(circle.x, circle.y) and len(chain.joints[mine[0]].links) == 2:
+                found.append(mine[0])
+    return found
+
+
+def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element, Element]]:
+    """The two joints that a block makes of one: direction of a drive, pair, link, its element and the block's."""
+    joint = linkage.mechanism.chain.joints[number]
+    first, second = joint.links
+    one, other = linkage.elements[number, first], linkage.elements[number, second]
+    if joint.pair.name == "roll_slide":
+        slotted, pinned = (first, second) if isinstance(one, Line) else (second, first)
+        line, pin = (one, other) if isinstance(one, Line) else (other, one)
+        assert isinstance(line, Line)
+        return [
+            ("Tx", "prismatic", slotted, line, Line(0, 0, line.angle)),
+            ("Rz", "revolute", pinned, pin, Pin(0, 0)),
+        ]
+    assert isinstance(one, Line)
+    assert isinstance(other, Line)
+    turned = Line(other.x, other.y, other.angle + pi / 2)
+    return [
+        ("Tx", "prismatic", first, one, Line(0, 0, one.angle)),
+        ("Ty", "prismatic", second, turned, Line(0, 0, one.angle + pi / 2)),
+    ]
 
 
 def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:

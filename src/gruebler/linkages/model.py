@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
 from math import hypot, pi
 from types import MappingProxyType
@@ -10,7 +10,21 @@ from typing import Any
 
 from gruebler import views
 from gruebler.errors import LinkageError, nearest
-from gruebler.linkages.elements import Element, Line, Named, Pin, Place, fitting, read_element
+from gruebler.linkages.elements import (
+    CENTRED,
+    ROUND,
+    Circle,
+    Disc,
+    Element,
+    Line,
+    Named,
+    Pin,
+    Place,
+    Wheel,
+    fitting,
+    read_element,
+)
+from gruebler.linkages.wheels import check_wheels, settled
 from gruebler.mechanism import Mechanism
 from gruebler.pairs import Space
 
@@ -27,7 +41,7 @@ class Linkage:
     Args:
         mechanism: a planar mechanism.
         elements: for each link and each of its joints (by number or text) ``(x, y)`` for a pin, ``(x, y, angle)`` for a
-            line, in the link's coordinates; angles in radians.
+            line, `Wheel` or `Circle`, in the link's coordinates; angles in radians.
         points: further points by name: ``(link, x, y)``.
         unit: the unit of all lengths; a name only.
         home: where the links lie in one position (``(x, y, angle)`` for each link), if the assembly mode is to be that
@@ -77,6 +91,8 @@ class Linkage:
                     raise LinkageError(f"{chain.joint_names()[number]} is no joint of {link!r}")
                 made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
         self._check_joints(mechanism, made)
+        made = settled(mechanism, made)
+        check_wheels(mechanism, made)
         named = {
             name: _named(mechanism, name, *place) if len(place) == 3 else _refuse_point(name)
             for name, place in (points or {}).items()
@@ -101,6 +117,8 @@ class Linkage:
                 if (number, link) not in made:
                     raise LinkageError(f"{names[number]} has no dimensions on {link!r}")
             fitting(joint.pair, names[number], {link: made[number, link] for link in joint.links})
+        if any(isinstance(element, CENTRED) for element in made.values()):
+            return  # shafts on one axis
         for link in mechanism.chain.links:
             pins = [(n, e) for (n, owner), e in made.items() if owner == link and isinstance(e, Pin)]
             for k, (n, pin) in enumerate(pins):
@@ -125,7 +143,8 @@ class Linkage:
         """The linkage that is drawn in one position: where each joint lies in the plane.
 
         A turning joint is given by ``(x, y)``, a slide by ``(x, y, angle)``. A pin in a slot is
-        ``(x, y, angle, link)``, the link being the one with the slot. Points are given by where they lie in the
+        ``(x, y, angle, link)``, the link being the one with the slot; wheels are given for each link, as
+        ``{link: Wheel(x, y, radius), ...}``. Points are given by where they lie in the
         drawing. Each link's x axis goes from its driven (else its first) joint to the next, or along its slide; the
         ways of slides are counted from pin to pin where the links have pins.
 
@@ -174,6 +193,7 @@ class Linkage:
         for link in self.mechanism.chain.links:
             mine = [e for (_, owner), e in self.elements.items() if owner == link]
             out = max([out, *(hypot(a.x - b.x, a.y - b.y) for a in mine for b in mine)])
+            out = max([out, *(abs(e.radius) for e in mine if isinstance(e, ROUND))])
         return out or 1.0
 
     def reference(self, drive: int) -> tuple[str, str]:
@@ -206,8 +226,12 @@ class Linkage:
         if not 0 < factor < 1e100:
             raise LinkageError(f"a scale is a positive number, not {factor!r}")
 
-        def element(e: Element) -> tuple[float, ...]:
-            return (e.x * factor, e.y * factor, *e[2:])
+        def element(e: Element) -> Element:
+            if isinstance(e, Wheel | Circle):
+                return e._replace(x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
+            if isinstance(e, Disc):
+                return e._replace(x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
+            return e._replace(x=e.x * factor, y=e.y * factor)
 
         return self._changed(
             elements=self._by_link(element),
@@ -220,8 +244,10 @@ class Linkage:
     def mirrored(self) -> Linkage:
         """The mirror image in the x axis: every y and every angle with the other sign."""
 
-        def element(e: Element) -> tuple[float, ...]:
-            return (e.x, -e.y, *(-angle for angle in e[2:]))
+        def element(e: Element) -> Element:
+            if isinstance(e, Disc):
+                raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
+            return e._replace(y=-e.y) if isinstance(e, Pin | Wheel | Circle) else e._replace(y=-e.y, angle=-e.angle)
 
         return self._changed(
             elements=self._by_link(element),
@@ -229,7 +255,7 @@ class Linkage:
             home=None if self.home is None else {k: (p.x, -p.y, -p.angle) for k, p in self.home.items()},
         )
 
-    def _by_link(self, change: Any = tuple) -> dict[str, dict[str | int, object]]:
+    def _by_link(self, change: Callable[[Element], Element] = lambda e: e) -> dict[str, dict[str | int, object]]:
         out: dict[str, dict[str | int, object]] = {link: {} for link in self.mechanism.chain.links}
         for (number, link), e in self.elements.items():
             out[link][number] = change(e)

@@ -13,7 +13,7 @@ import msgspec
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.angles import in_radians
 from gruebler.linkages.documents import fitted
-from gruebler.linkages.elements import Place
+from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Place, Wheel
 from gruebler.linkages.four_bar import FourBar
 from gruebler.linkages.inverted_slider_crank import InvertedSliderCrank
 from gruebler.linkages.mapped_doors import Door, mapped
@@ -57,6 +57,37 @@ class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
 
     link: str
     at: list[float]
+
+
+class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A wheel, or a smooth circle: its centre and its size."""
+
+    at: list[float]
+    radius: float | None = None
+    teeth: int = 0
+    module: float | None = None
+    belt: str = ""
+    circle: float | None = None
+    angle: Any = 0
+    """Degrees, of a cam, pins or slots."""
+    cam: str | None = None
+    base: float | None = None
+    roller: float = 0.0
+    offset: float = 0.0
+    flat: bool = False
+    scale: float = 1.0
+    pins: int | None = None
+    slots: int | None = None
+    internal: bool = False
+
+
+_KINDS = {
+    "circle": {"circle"},
+    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale"},
+    "pins": {"pins", "angle"},
+    "slots": {"slots", "angle", "internal"},
+}
+"""What makes an element something else than a wheel, and its keys."""
 
 
 class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -143,9 +174,45 @@ def _by_joint(
 
 
 def _element(raw: Any, where: str, slots: bool) -> object:
+    if slots and isinstance(raw, Mapping):
+        return {link: _element(one, f"{where}.{link}", False) for link, one in raw.items()}
+    if isinstance(raw, Mapping):
+        return _round(fitted(raw, RoundRecord, LinkageError, where), raw, where)
     if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
         return (*_numbers(raw[:3], where, (3,)), raw[3])
     return _numbers(raw, where, (2, 3))
+
+
+def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Wheel | Circle | Disc | Driver | Cross:
+    kind = next((key for key in _KINDS if key in given), "")
+    allowed = _KINDS.get(kind, {"radius", "teeth", "module", "belt"})
+    wrong = next((key for key in given if key not in {"at", *allowed}), None)
+    if wrong is not None:
+        raise LinkageError(f"{where}.{wrong}: does not go with {kind or 'a wheel'}")
+    if kind in ("", "circle"):
+        x, y = _numbers(record.at, f"{where}.at", (2,))
+        return Circle(x, y, record.circle) if record.circle is not None else _wheel(record, x, y, where)
+    x, y, angle = _numbers([*record.at, record.angle], f"{where}.at", (3,))
+    if record.cam is not None:
+        if record.base is None:
+            raise LinkageError(f"{where}.base: the radius of the base circle is missing")
+        sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
+        return Disc(x, y, angle, record.cam, *sizes)
+    if record.pins is not None:
+        return Driver(x, y, angle, record.pins)
+    assert record.slots is not None
+    return Cross(x, y, angle, record.slots, record.internal)
+
+
+def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
+    radius = record.radius
+    if record.module is not None:
+        if radius is not None or not record.teeth or not record.module > 0:
+            raise LinkageError(f"{where}.module: a positive number that goes with teeth, and without a radius")
+        radius = record.module * record.teeth / 2
+    if radius is None and not record.teeth:
+        raise LinkageError(f"{where}: expected a radius, teeth or a circle")
+    return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
 
 
 def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:

@@ -6,11 +6,13 @@ value of its closing conditions (docs/theory/realisation.md).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.plan import Plan
 
 if TYPE_CHECKING:
@@ -50,18 +52,16 @@ def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complex
     return worst
 
 
-def _closing(
-    conditions: tuple[tuple[int, int, int, int, int], ...], bodies: int, points: Complexes, lines: Complexes, arm: float
-) -> Reals:
+def _closing(conditions: Sequence[Condition], bodies: int, points: Complexes, lines: Complexes, arm: float) -> Reals:
     """The derivative of the closing conditions by the motion of the bodies: (rows, 3 bodies, 3 bodies).
 
     A body moves by the velocity of the mean of its joints and by its angular velocity times `arm`.
     """
-    sides = [(body, element) for _, a, b, one, other in conditions for body, element in ((one, a), (other, b))]
+    sides = [(body, element) for _, (a, b), (one, other), *_ in conditions for body, element in ((one, a), (other, b))]
     centres = [np.mean([points[:, e] for body, e in sides if body == k], axis=0) for k in range(bodies)]
     out = np.zeros((len(points), 3 * bodies, 3 * bodies))
     row = 0
-    for kind, a, b, one, other in conditions:
+    for kind, (a, b), (one, other), *_ in conditions:
         for body, sign in ((one, -1.0), (other, 1.0)):
             if body < 0:
                 continue

@@ -1,0 +1,145 @@
+"""Closing conditions of wheels and circles, their numbers taken from the home position; docs/theory/wheels.md."""
+
+from __future__ import annotations
+
+from cmath import phase, rect
+from collections.abc import Sequence
+from math import floor, pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.kinematics.contours import COEFFICIENTS, Law, cam_law, geneva_law
+from gruebler.linkages import Circle, Cross, Disc, Driver, Element, Line, Linkage, Wheel
+from gruebler.linkages.elements import direction
+from gruebler.linkages.wheels import factors
+
+__all__ = ["PIN", "SLIDE", "Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
+
+PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE = range(8)
+"""Kinds of closing conditions, as in the kernel `closure`."""
+
+Keys = tuple[tuple[int, str], ...]
+
+
+class Condition(NamedTuple):
+    """One closing condition of a group."""
+
+    kind: int
+    sides: tuple[int, int]
+    """Its two elements, by number."""
+    owners: tuple[int, int]
+    """The bodies of the group that carry them, -1 for what is known."""
+    values: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    law: Law = Law(())
+
+    @property
+    def winds(self) -> bool:
+        """Whether it counts whole turns."""
+        return self.kind in (MESH, RACK)
+
+
+def contact_conditions(
+    lower: Linkage, pair: str, keys: Keys, sides: tuple[int, int], owners: tuple[int, int]
+) -> list[Condition]:
+    """What a roll-slide or rolling pair of wheels, circles and lines asks for."""
+    one, other = (lower.elements[keys[side]] for side in sides)
+    if _rank(other) < _rank(one):
+        one, other, sides, owners = other, one, sides[::-1], owners[::-1]
+    if isinstance(one, Disc):
+        return [Condition(POLAR, sides, owners, (one.base * one.scale, 0.0, 0.0), cam_law(one))]
+    if isinstance(other, Disc):
+        return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(other))]
+    if isinstance(one, Driver):
+        assert isinstance(other, Cross)
+        return [
+            _phased(lower, keys, Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), geneva_law(one, other)))
+        ]
+    out = []
+    if isinstance(other, Wheel):
+        if isinstance(one, Line):
+            raw = Condition(RACK, sides, owners, (other.radius * side_of(lower, keys, sides), 1.0, 0.0))
+        else:
+            assert isinstance(one, Wheel)
+            raw = Condition(MESH, sides, owners, (*factors(one, other), 0.0))
+        out.append(_phased(lower, keys, raw))
+    if pair == "rolling" or isinstance(other, Circle):
+        assert isinstance(other, Wheel | Circle)
+        if isinstance(one, Line):
+            offset = other.radius * side_of(lower, keys, sides)
+            out.append(Condition(RIDE, sides, owners, (0.0, 0.0, offset)))
+        else:
+            assert isinstance(one, Wheel | Circle)
+            out.append(Condition(REACH, sides, owners, (0.0, 0.0, abs(one.radius + other.radius))))
+    return out
+
+
+def _rank(element: Element) -> int:
+    """Which element comes first in a condition."""
+    return next((k for k, kind in enumerate((Line, Disc, Driver)) if isinstance(element, kind)), 3)
+
+
+def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
+    """The condition as it holds at home."""
+    one, two, _ = raw.values
+    first, second = home_angles(lower, keys, raw)
+    if raw.kind == RACK:
+        second = _way(lower, keys, raw.sides).real
+    elif raw.law.pieces:
+        first = law_at(raw.law, first)
+    return raw._replace(values=(one, two, one * first + two * second))
+
+
+def law_at(law: Law, angle: float) -> float:
+    """The value of a law."""
+    turns = floor((angle - law.pieces[0][0] + law.pieces[0][1]) / (2 * pi))
+    place = angle - 2 * pi * turns
+    middle, half, *coefficients = next(p for p in reversed(law.pieces) if place >= p[0] - p[1] or p is law.pieces[0])
+    value = 0.0
+    for c in reversed(coefficients):
+        value = value * (place - middle) / half + c
+    return value + turns * law.advance
+
+
+def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
+    """The angles of a condition that counts whole turns, at home."""
+    assert lower.home is not None
+    angles = [lower.home[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides]
+    if condition.kind == MESH:
+        here, there = (_put(lower, keys, side) for side in condition.sides)
+        along = phase(there - here)
+        return angles[0] - along, angles[1] - along
+    return angles[1] - angles[0], 0.0
+
+
+def law_tables(laws: Sequence[Law]) -> tuple[list[tuple[float, float, float]], NDArray[np.float64]]:
+    """For each law its first piece, the number of pieces and the advance; and all pieces."""
+    rows: list[tuple[float, ...]] = []
+    found = []
+    for law in laws:
+        found.append((float(len(rows)), float(len(law.pieces)), law.advance))
+        rows += law.pieces
+    return found, np.array(rows).reshape(-1, 2 + COEFFICIENTS)
+
+
+def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:
+    """On which side of a line a centre lies at home: 1 if on the left, seen along the line."""
+    return -1 if _way(lower, keys, sides).imag < 0 else 1
+
+
+def _way(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> complex:
+    """A centre at home, seen from a line: along it, and to the left of it."""
+    assert lower.home is not None
+    number, link = keys[sides[0]]
+    line = lower.elements[number, link]
+    assert isinstance(line, Line)
+    gap = _put(lower, keys, sides[1]) - _put(lower, keys, sides[0])
+    return gap * rect(1, -lower.home[link].angle - line.angle)
+
+
+def _put(lower: Linkage, keys: Keys, side: int) -> complex:
+    assert lower.home is not None
+    number, link = keys[side]
+    element = lower.elements[number, link]
+    return complex(*lower.home[link].put(element.x, element.y))

@@ -1,0 +1,132 @@
+"""Curves of cams and the angle of a Geneva wheel as piecewise polynomials, for the kernel; docs/theory/wheels.md."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from itertools import pairwise
+from math import log, pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.cams import Cam, CamError, Flat, Roller, read_lift
+from gruebler.errors import GrueblerError, LinkageError
+from gruebler.geneva import Geneva
+from gruebler.linkages import Cross, Disc, Driver
+
+__all__ = ["COEFFICIENTS", "Law", "cam_law", "geneva_law"]
+
+Reals = NDArray[np.float64]
+COEFFICIENTS = 12
+_EXACT = 5e-16  # of the largest value: what the last two terms of a piece may be
+_SHORTEST = 0.04  # radians: shorter pieces would lose in their rates what they gain in themselves
+
+
+class Law(NamedTuple):
+    """A function of an angle on one turn."""
+
+    pieces: tuple[tuple[float, ...], ...]
+    """Middle, half the width, coefficients on [-1, 1], by rising angle."""
+    advance: float = 0.0
+    """What it grows by in a turn."""
+
+    def scaled(self, size: float, logarithm: bool) -> Law:
+        """The same in another unit of length: values by size, of a logarithm less its logarithm."""
+        if logarithm:
+            return Law(tuple((m, h, c - log(size), *rest) for m, h, c, *rest in self.pieces))
+        return Law(tuple((m, h, *(c / size for c in rest)) for m, h, *rest in self.pieces))
+
+
+@lru_cache(maxsize=64)
+def cam_law(disc: Disc) -> Law:
+    """The curve of a cam.
+
+    For a roller: the logarithm of the pitch curve's radius by its direction; for a flat face: its distance by the
+    direction of its outward normal. `LinkageError` for a cam that cannot be.
+    """
+    follower = Flat() if disc.flat else Roller(disc.roller, disc.offset)
+    try:
+        if disc.flat and (disc.roller or disc.offset):
+            raise CamError("a flat face has no roller and no offset")
+        cam = Cam(read_lift(disc.lift), disc.base, follower)
+        undercut = cam.findings().undercut
+    except GrueblerError as error:
+        raise LinkageError(f"cam: {error}") from None
+    if undercut:
+        raise LinkageError("cam: the profile crosses itself, so that the follower cannot follow the lift")
+    breaks = [span.start for span in cam.lift.spans()] + [2 * pi]
+    if disc.flat:
+        bounds = [pi / 2 - phi for phi in reversed(breaks)]
+        return Law(_pieces(lambda t, _a, _b: disc.scale * (disc.base + cam.lift.at(pi / 2 - t)), bounds))
+    grid = np.linspace(0, 2 * pi, 2881)
+    if not (np.diff(_bearing(cam, disc, grid)) < 0).all():
+        raise LinkageError(
+            "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
+        )
+    bounds = _bearing(cam, disc, np.array(breaks[::-1]) - 1e-300).tolist()
+
+    def radius(t: Reals, low: float, high: float) -> Reals:
+        ends = np.interp([low, high], bounds, breaks[::-1])
+        phi = _turned(cam, disc, t, *ends)
+        out: Reals = np.log(disc.scale * np.hypot(disc.offset, cam.start + cam.lift.at(phi)))
+        return out
+
+    return Law(_pieces(radius, bounds))
+
+
+def _bearing(cam: Cam, disc: Disc, phi: Reals) -> Reals:
+    """The direction of the roller's centre in the cam's frame."""
+    out: Reals = np.arctan2(cam.start + cam.lift.at(phi), disc.offset) - phi
+    return out
+
+
+def _turned(cam: Cam, disc: Disc, t: Reals, high: float, low: float) -> Reals:
+    """The cam's angles at which the roller's centre lies in given directions; Newton's method."""
+    phi: Reals = high + (low - high) * (t - t.min()) / max(float(np.ptp(t)), 1e-300)
+    for _ in range(40):
+        s, rate = cam.start + cam.lift.at(phi), cam.lift.at(phi, 1)
+        off = np.arctan2(s, disc.offset) - phi - t
+        slope = disc.offset * rate / (s * s + disc.offset**2) - 1
+        step = off / slope
+        phi -= step
+        if np.abs(step).max() < 1e-14:
+            break
+    return phi
+
+
+@lru_cache(maxsize=64)
+def geneva_law(driver: Driver, cross: Cross) -> Law:
+    """The angle of the slotted wheel by that of a pin against the line of centres."""
+    try:
+        drive = Geneva(cross.slots, cross.internal, driver.pins)
+    except GrueblerError as error:
+        raise LinkageError(f"Geneva drive: {error}") from None
+    pitch = 2 * pi / driver.pins
+    bounds = sorted({k * pitch + side * drive.engaged for k in range(driver.pins) for side in (-1, 1)})
+    bounds = [*bounds, bounds[0] + 2 * pi]
+    ends = drive.move(np.array([0.0, 2 * pi])).angle
+    return Law(_pieces(lambda t, _a, _b: drive.move(t).angle, bounds), float(ends[1] - ends[0]))
+
+
+def _pieces(function: Callable[[Reals, float, float], Reals], bounds: Sequence[float]) -> tuple[tuple[float, ...], ...]:
+    """Polynomials through Chebyshev's points, each piece halved until it is exact."""
+    nodes = np.cos(pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS)
+    out: list[tuple[float, ...]] = []
+
+    def add(low: float, high: float) -> None:
+        middle, half = (low + high) / 2, (high - low) / 2
+        values = function(middle + half * nodes, low, high)
+        series = np.polynomial.chebyshev.chebfit(nodes, values, COEFFICIENTS - 1)
+        if np.abs(series[-2:]).max() > _EXACT * max(1.0, float(np.abs(values).max())) and half > _SHORTEST:
+            add(low, middle)
+            add(middle, high)
+        else:
+            coefficients = np.polynomial.chebyshev.cheb2poly(series)
+            out.append((middle, half, *np.pad(coefficients, (0, COEFFICIENTS - len(coefficients))).tolist()))
+
+    for low, high in pairwise(bounds):
+        if high - low > 1e-12:
+            add(low, high)
+    return tuple(out)

@@ -1,0 +1,109 @@
+"""By how much the joints of a motion are open."""
+
+from __future__ import annotations
+
+from cmath import rect
+
+import numpy as np
+
+from gruebler.kinematics.contacts import law_at
+from gruebler.kinematics.contours import cam_law, geneva_law
+from gruebler.kinematics.motion import Complexes, Motion
+from gruebler.linkages import Circle, Cross, Disc, Driver, Line, Wheel
+from gruebler.linkages.wheels import arms, factors, round_joints
+
+__all__ = ["openness"]
+
+
+def openness(motion: Motion) -> float:
+    """See `Motion.closure`."""
+    lower = motion.plan.lower
+    wheels = round_joints(lower.mechanism, lower.elements)
+    largest = max(
+        (_open_contact(motion, k) for k in round_joints(motion.linkage.mechanism, motion.linkage.elements)), default=0.0
+    )
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        if number in wheels:
+            continue
+        first = joint.links[0]
+        for other in joint.links[1:]:
+            one, two = lower.elements[number, first], lower.elements[number, other]
+            gap = _at(motion, other, two.x, two.y) - _at(motion, first, one.x, one.y)
+            if isinstance(one, Line):
+                assert isinstance(two, Line)
+                turns = motion.turns
+                direction = turns[:, motion._link(first)] * rect(1, one.angle)
+                other_way = turns[:, motion._link(other)] * rect(1, two.angle)
+                gap = np.conj(direction) * gap
+                largest = max(largest, float(np.max(np.abs(gap.imag))) / lower.size)
+                largest = max(largest, float(np.max(np.abs(other_way - direction))))
+            else:
+                largest = max(largest, float(np.max(np.abs(gap))) / lower.size)
+    return largest
+
+
+def _open_contact(motion: Motion, number: int) -> float:
+    """How far wheels or circles leave each other, or turn against each other since the first row, in sizes."""
+    linkage = motion.linkage
+    chain, elements = linkage.mechanism.chain, linkage.elements
+    a, b = chain.joints[number].links
+    if isinstance(elements[number, b], Line):
+        a, b = b, a
+    one, other = elements[number, a], elements[number, b]
+    if isinstance(one, Disc | Driver) or isinstance(other, Disc | Driver):
+        return _open_curve(motion, number) / linkage.size
+    assert isinstance(other, Wheel | Circle)
+    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    touching = chain.joints[number].pair.name == "rolling" or isinstance(other, Circle)
+    if isinstance(one, Line):
+        gap *= np.conj(motion.turns[:, motion._link(a)] * rect(1, one.angle))
+        radius = np.copysign(other.radius, gap.imag)
+        far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
+    else:
+        assert isinstance(one, Wheel | Circle)
+        far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
+        arm = arms(linkage.mechanism, elements).get(number)
+        along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
+        if isinstance(one, Wheel) and isinstance(other, Wheel):
+            first, second = factors(one, other)
+            rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
+    largest = float(far.max()) if touching else 0.0
+    if isinstance(other, Wheel):
+        largest = max(largest, float(np.abs(rolled - rolled[0]).max()))
+    return largest / linkage.size
+
+
+def _open_curve(motion: Motion, number: int) -> float:
+    """How far a follower leaves its cam, or how far a Geneva wheel turns from where it should be, times a length."""
+    elements = motion.linkage.elements
+    a, b = motion.linkage.mechanism.chain.joints[number].links
+    if isinstance(elements[number, b], Disc | Driver):
+        a, b = b, a
+    one, other = elements[number, a], elements[number, b]
+    assert isinstance(one, Disc | Driver)
+    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    along = motion.turns[:, motion._link(a)] * rect(1, one.angle)
+    if isinstance(one, Driver):
+        assert isinstance(other, Cross)
+        law = geneva_law(one, other)
+        bearing = np.unwrap(np.angle(gap))
+        turned = motion.angle(a) + one.angle - bearing
+        turned += np.angle(along[0] / gap[0] * abs(gap[0])) - turned[0]
+        wheel = motion.angle(b) - bearing
+        off = np.array([law_at(law, float(t)) for t in turned]) - wheel
+        return float(np.abs(off - off[0]).max()) * motion.linkage.size
+    law = cam_law(one)
+    if isinstance(other, Line):
+        normal = 1j * motion.turns[:, motion._link(b)] * rect(1, other.angle)
+        height = (np.conj(normal) * gap).real
+        normal, height = normal * np.sign(height), np.abs(height)
+        wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / along)])
+    else:
+        wanted = np.exp([law_at(law, float(t)) for t in np.angle(gap / along)])
+        height = np.abs(gap)
+    return float(np.abs(height - wanted).max())
+
+
+def _at(motion: Motion, link: str, x: float, y: float) -> Complexes:
+    k = motion._link(link)
+    return motion.places[0, :, k] + motion.turns[:, k] * complex(x, y)

@@ -1,0 +1,226 @@
+"""Wheels in pairs: what fits together, which link holds their centres, and what ties their angles.
+
+Two wheels tie the angles of their links against the direction of the line of centres: ``a (one - line) + b (other -
+line)`` stays what it is. docs/theory/wheels.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from math import atan2, floor, hypot, log2
+from typing import NamedTuple, Protocol
+
+from gruebler.errors import LinkageError
+from gruebler.linkages.elements import CENTRED, Circle, Disc, Driver, Element, Line, Pin, Wheel
+from gruebler.mechanism import Mechanism
+
+__all__ = ["Arm", "arms", "check_wheels", "factors", "redundant", "round_joints", "settled", "sliding_joint"]
+
+Elements = Mapping[tuple[int, str], Element]
+_SAME = 1e-9  # of a length: a distance that fits
+
+
+class _Sized(Protocol):
+    """A linkage."""
+
+    @property
+    def mechanism(self) -> Mechanism: ...
+    @property
+    def elements(self) -> Elements: ...
+
+
+class Arm(NamedTuple):
+    """The link that holds the centres of two wheels or circles, and their distance on it."""
+
+    link: str
+    distance: float
+    direction: float
+    """Of the second centre, seen from the first, in the link's coordinates."""
+
+
+def factors(one: Wheel, other: Wheel) -> tuple[float, float]:
+    """What the turns of two wheels against the line of centres are multiplied by; exact from tooth numbers.
+
+    >>> factors(Wheel(0, 0, 12.3, 20), Wheel(0, 0, -36.9, -60))
+    (10.0, -30.0)
+    >>> factors(Wheel(0, 0, 20.0, belt="open"), Wheel(0, 0, 30.0, belt="open"))
+    (20.0, -30.0)
+    """
+    a, b = one.radius, other.radius
+    if one.teeth and other.teeth:
+        scale = 2.0 ** floor(log2(abs(a / one.teeth)))
+        a, b = one.teeth * scale, other.teeth * scale
+    return a, -b if one.belt == "open" else b
+
+
+def round_joints(mechanism: Mechanism, elements: Elements) -> dict[int, tuple[str, str]]:
+    """The joints with a wheel or circle, and their links."""
+    chain = mechanism.chain
+    return {
+        number: (joint.links[0], joint.links[1])
+        for number, joint in enumerate(chain.joints)
+        if any(isinstance(elements[number, link], CENTRED) for link in joint.links)
+    }
+
+
+def sliding_joint(linkage: _Sized, number: int) -> bool:
+    """Whether one link of a joint slides, or rolls, along a line of the other."""
+    links = linkage.mechanism.chain.joints[number].links
+    return any(isinstance(linkage.elements[number, link], Line) for link in links)
+
+
+def arms(mechanism: Mechanism, elements: Elements) -> dict[int, Arm]:
+    """For each pair of wheels or circles the link that carries both centres by pins, if there is one."""
+    wheels = round_joints(mechanism, elements)
+    if not wheels:
+        return {}
+    axis = _axes(mechanism, elements)
+    found = {}
+    for number, (a, b) in wheels.items():
+        if not all(isinstance(elements[number, link], CENTRED) for link in (a, b)):
+            continue
+        for link in mechanism.chain.links:
+            ends = [
+                next(
+                    (e for (n, owner), e in elements.items() if owner == link and axis.get((n, owner)) == wanted), None
+                )
+                for wanted in (axis[number, a], axis[number, b])
+            ]
+            if link not in (a, b) and ends[0] is not None and ends[1] is not None:
+                x, y = ends[1].x - ends[0].x, ends[1].y - ends[0].y
+                found[number] = Arm(link, hypot(x, y), atan2(y, x))
+                break
+    return found
+
+
+def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tuple[int, str]]:
+    """For each pin and centre one that stands for all on the same axis."""
+    centres = {key: e for key, e in elements.items() if isinstance(e, (Pin, *CENTRED))}
+    axis = {key: key for key in centres}
+
+    def merge(one: tuple[int, str], other: tuple[int, str]) -> None:
+        old, new = axis[one], axis[other]
+        for key, at in axis.items():
+            if at == old:
+                axis[key] = new
+
+    for one, e in centres.items():
+        for other, f in centres.items():
+            joined = one[0] == other[0] and mechanism.chain.joints[one[0]].pair.name == "revolute"
+            near = hypot(e.x - f.x, e.y - f.y) <= _SAME * max(abs(e.x), abs(e.y), abs(f.x), abs(f.y))
+            if joined or (one[1] == other[1] and near):
+                merge(one, other)
+    return axis
+
+
+def settled(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], Element]:
+    """The elements with a radius for each wheel that has tooth numbers only: from the distance of the centres."""
+    out = dict(elements)
+    bare = {number for (number, _), e in elements.items() if isinstance(e, Wheel) and not e.radius}
+    held = arms(mechanism, elements) if bare else {}
+    for number in bare:
+        links = mechanism.chain.joints[number].links
+        wheels = [e for e in (elements[number, link] for link in links) if isinstance(e, Wheel)]
+        teeth = sum(wheel.teeth for wheel in wheels)
+        fit = len(wheels) == 2 and all(wheel.teeth and not wheel.radius for wheel in wheels) and teeth
+        if number not in held or not fit or wheels[0].belt:
+            raise LinkageError(
+                f"{mechanism.chain.joint_names()[number]}: tooth numbers without a radius or module need wheels with "
+                "tooth numbers on both links, and a link that carries both centres by pins"
+            )
+        for link, wheel in zip(links, wheels, strict=True):
+            out[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))
+    return out
+
+
+def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
+    """`LinkageError` names the joint whose wheels do not fit together."""
+    held = arms(mechanism, elements)
+    for number, links in round_joints(mechanism, elements).items():
+        name = mechanism.chain.joint_names()[number]
+        joint = mechanism.chain.joints[number]
+        if len(joint.links) > 2:
+            raise LinkageError(f"{name}: wheels touch in pairs; write a joint for each two of them")
+        if any(drive.joint == number for drive in mechanism.drives):
+            raise LinkageError(f"{name}: a pair of wheels is not driven; drive a shaft")
+        one, other = (elements[number, link] for link in links)
+        if isinstance(one, Disc) or isinstance(other, Disc):
+            _check_disc(name, *((one, other) if isinstance(one, Disc) else (other, one)))
+            continue
+        if isinstance(one, Driver) or isinstance(other, Driver):
+            continue
+        if isinstance(one, Line) or isinstance(other, Line):
+            _check_rack(name, other if isinstance(one, Line) else one)
+            continue
+        assert isinstance(one, Wheel | Circle)
+        assert isinstance(other, Wheel | Circle)
+        _check_pair(name, joint.pair.name == "rolling", one, other)
+        apart = abs(one.radius + other.radius)
+        touching = joint.pair.name == "rolling" or isinstance(one, Circle)
+        if number in held and touching and abs(held[number].distance - apart) > _SAME * apart:
+            raise LinkageError(
+                f"{name}: the centres are {held[number].distance:.12g} apart on {held[number].link!r}, "
+                f"but the radii make {apart:.12g}"
+            )
+
+
+def _check_disc(name: str, disc: Element, other: Element) -> None:
+    assert isinstance(disc, Disc)
+    if disc.flat != isinstance(other, Line):
+        raise LinkageError(f"{name}: a cam for a flat face touches a line, one for a roller a circle or a pin")
+    radius = other.radius if isinstance(other, Circle) else 0.0
+    if abs(radius - disc.roller * disc.scale) > _SAME * disc.base * disc.scale:
+        raise LinkageError(f"{name}: the cam is made for a roller of {disc.roller * disc.scale:g}, not {radius:g}")
+
+
+def _check_rack(name: str, wheel: Element) -> None:
+    assert isinstance(wheel, Wheel | Circle)
+    if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
+        raise LinkageError(f"{name}: along a line rolls a wheel of positive radius, without a belt")
+
+
+def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Circle) -> None:
+    low, high = sorted((one.radius, other.radius))
+    if high < 0:
+        raise LinkageError(f"{name}: two internal wheels do not touch")
+    if low < 0 <= low + high:
+        raise LinkageError(
+            f"{name}: the internal wheel (minus) must be larger than the one in it: {low:g} and {high:g}"
+        )
+    if not isinstance(one, Wheel) or not isinstance(other, Wheel):
+        return
+    if one.belt != other.belt:
+        raise LinkageError(f"{name}: both wheels of a belt are 'open' or both 'crossed'")
+    if one.belt and rolling:
+        raise LinkageError(f"{name}: a belt is no rolling contact; write it as a roll-slide joint G")
+    if bool(one.teeth) != bool(other.teeth):
+        raise LinkageError(f"{name}: tooth numbers on both wheels or on none")
+    if one.teeth and abs(one.radius / one.teeth - other.radius / other.teeth) > _SAME * abs(one.radius / one.teeth):
+        modules = " and ".join(f"{2 * wheel.radius / wheel.teeth:.9g}" for wheel in (one, other))
+        raise LinkageError(f"{name}: the modules differ: {modules}")
+
+
+def redundant(mechanism: Mechanism, elements: Elements) -> set[int]:
+    """The pairs of wheels on common arms that repeat what pairs before them say, such as those of a second planet."""
+    known: list[dict[str, Fraction]] = []
+    out = set()
+    for number, arm in arms(mechanism, elements).items():
+        a, b = mechanism.chain.joints[number].links
+        one, other = elements[number, a], elements[number, b]
+        if not isinstance(one, Wheel) or not isinstance(other, Wheel):
+            continue
+        size_a, size_b = (Fraction(x) for x in factors(one, other))
+        row = {a: size_a, b: size_b}
+        row[arm.link] = row.get(arm.link, Fraction(0)) - size_a - size_b
+        row.pop(mechanism.frame, None)
+        for other_row in known:
+            pivot = next(iter(other_row))
+            share = row.get(pivot, Fraction(0)) / other_row[pivot]
+            row = {k: row.get(k, Fraction(0)) - share * other_row.get(k, Fraction(0)) for k in {**row, **other_row}}
+        row = {k: value for k, value in row.items() if value}
+        if row:
+            known.append(row)
+        else:
+            out.add(number)
+    return out
