@@ -241,6 +241,22 @@ def test_two_drives_sweep_as_one() -> None:
     assert np.abs(middle - motion.point("R(2-3)", 1)[1:-1]).max() < 1e-3 * np.abs(middle).max()
 
 
+def test_drives_may_move_one_after_the_other_and_rest() -> None:
+    five = Linkage.drawn(FIVE_BAR, {0: (0, 0), 1: (1, 0.5), 2: (2.5, 7), 3: (4, 0.6), 4: (5, 0)})
+    first, second = np.linspace(0.5, 7, 300), np.linspace(2.5, 15, 700)
+    one = np.concatenate([first, np.full(len(second) + 5, first[-1]), first[::-1]])
+    other = np.concatenate([np.full(len(first), second[0]), second, np.full(len(first) + 5, second[-1])])
+    path = np.stack([one, other], axis=1)
+    motion = move(five, path)
+    assert motion.complete
+    for row in range(0, len(path), 7):
+        alone = move(five, path[row : row + 1], branch=motion.branch)
+        assert np.allclose(alone.turns[0], motion.turns[row], rtol=0, atol=1e-12)
+    for link in motion.plan.lower.mechanism.chain.links:
+        assert np.abs(np.diff(motion.angle(link))).max() < 0.1
+    assert np.allclose(motion.angle("1") - motion.angle("1")[0], one - one[0], rtol=0, atol=1e-12)
+
+
 @given(st.floats(-3, 3), st.floats(0.2, 3))
 @settings(max_examples=20)
 def test_a_pose_fed_back_goes_on_alike(start: float, way: float) -> None:

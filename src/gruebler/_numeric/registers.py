@@ -1,7 +1,8 @@
 """Registers for many rows of a motion at once: rows of `LANES` numbers at fixed places of one array.
 
-The compiler knows that they do not overlap, and makes loops over them that work on several numbers at a time. A pair of
-registers is a row of points x + iy; the derivatives of a point are four pairs.
+The compiler knows that they do not overlap, and makes loops over them that work on several numbers at a time; but only
+if an index cannot be negative (else it would count from the end): loops start at 0, in slices where the place is not a
+constant. A pair of registers is a row of points x + iy; the derivatives of a point are four pairs.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.program import Poses
 
 __all__ = [
     "LANES",
@@ -29,6 +31,7 @@ __all__ = [
     "V",
     "W",
     "circle",
+    "copy",
     "load",
     "point",
     "put",
@@ -38,7 +41,7 @@ __all__ = [
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-LANES = 64
+LANES = 128
 PAIR = 2 * LANES
 
 # P, Q: jets of the two outer joints; T, U: turns of the two bodies; V, W: their rates; A, B: arms from outer to inner
@@ -49,15 +52,22 @@ REGISTERS = 37 * LANES
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def load(source: Complexes, x: Reals, to: int) -> None:
+    real, imag = x[to : to + LANES], x[to + LANES : to + PAIR]
     for i in range(len(source)):
-        x[to + i] = source[i].real
-        x[to + LANES + i] = source[i].imag
+        real[i], imag[i] = source[i].real, source[i].imag
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def store(x: Reals, at: int, target: Complexes) -> None:
+    real, imag = x[at : at + LANES], x[at + LANES : at + PAIR]
     for i in range(len(target)):
-        target[i] = complex(x[at + i], x[at + LANES + i])
+        target[i] = complex(real[i], imag[i])
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def copy(source: Reals, target: Reals) -> None:
+    for i in range(min(len(source), len(target))):
+        target[i] = source[i]
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -95,32 +105,22 @@ def add_arm(order: int, sign: float, arm: int, rates: int, x: Reals, to: int) ->
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def point(
-    order: int,
-    link: int,
-    point: complex,
-    fixed: bool,
-    places: Complexes,
-    turns: Complexes,
-    rates: Reals,
-    x: Reals,
-    to: int,
+    order: int, link: int, point: complex, fixed: bool, poses: Poses, row: int, end: int, x: Reals, to: int
 ) -> None:
-    """The jet of a link's point; of a fixed link, the point."""
+    """The jet of a link's point in some rows; of a fixed link, the point."""
     if fixed:
-        for i in range(LANES):
-            x[to + i], x[to + LANES + i] = point.real, point.imag
-        for i in range(2 * LANES, (2 * order + 2) * LANES):
-            x[to + i] = 0
+        x[to : to + LANES] = point.real
+        x[to + LANES : to + PAIR] = point.imag
+        x[to + PAIR : to + (order + 1) * PAIR] = 0
         return
     for k in range(order + 1):
-        load(places[k, link], x, to + k * PAIR)
+        load(poses.places[k, link, row:end], x, to + k * PAIR)
     if point == 0:
         return
-    load(turns[link], x, E)
+    load(poses.turns[link, row:end], x, E)
     rotate(x, E, point, E)
     for k in range(order):
-        for i in range(rates.shape[2]):
-            x[F + k * LANES + i] = rates[k, link, i]
+        copy(poses.rates[k, link, row:end], x[F + k * LANES : F + (k + 1) * LANES])
     if to == P:
         add_arm(order, 1.0, E, F, x, P)
     else:
@@ -128,15 +128,12 @@ def point(
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def put(
-    order: int, link: int, point: complex, first: bool, places: Complexes, turns: Complexes, rates: Reals, x: Reals
-) -> None:
-    """Write a link whose point lies where jet P (of the first body) or Q (of the second) says."""
+def put(order: int, link: int, point: complex, first: bool, poses: Poses, row: int, end: int, x: Reals) -> None:
+    """Write some rows of a link whose point lies where jet P (of the first body) or Q (of the second) says."""
     turn, spin, at = (T, V, P) if first else (U, W, Q)
-    store(x, turn, turns[link])
+    store(x, turn, poses.turns[link, row:end])
     for k in range(order):
-        for i in range(rates.shape[2]):
-            rates[k, link, i] = x[spin + k * LANES + i]
+        copy(x[spin + k * LANES : spin + (k + 1) * LANES], poses.rates[k, link, row:end])
     if point != 0:
         if first:
             rotate(x, T, point, E)
@@ -145,7 +142,7 @@ def put(
             rotate(x, U, point, E)
             add_arm(order, -1.0, E, W, x, Q)
     for k in range(order + 1):
-        store(x, at + k * PAIR, places[k, link])
+        store(x, at + k * PAIR, poses.places[k, link, row:end])
 
 
 _HALF_PI = (1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21)
@@ -155,10 +152,10 @@ _SHIFT = 6755399441055744.0  # adding it and taking it off again rounds to a who
 @njit(cache=True, error_model="numpy", _nrt=False)
 def circle(x: Reals) -> None:
     """Cosine and sine of register E into the pair A, to an ulp: quarter turns off, then the polynomials of fdlibm."""
-    largest = 0.0
+    near = 0
     for i in range(LANES):
-        largest = max(largest, abs(x[E + i]))
-    if not largest < 1e5:
+        near += int(abs(x[E + i]) < 1e5)
+    if near < LANES:
         for i in range(LANES):
             x[A + i], x[A + LANES + i] = cos(x[E + i]), sin(x[E + i])
         return

@@ -29,6 +29,7 @@ from gruebler._numeric.registers import (
     V,
     W,
     circle,
+    copy,
     load,
     point,
     put,
@@ -73,21 +74,23 @@ def swept_links(program: Program) -> int:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _drive(
-    order: int, link: int, sign: float, drives: Reals, speeds: Reals, d: int, turns: Complexes, rates: Reals, x: Reals
+    order: int, link: int, d: int, sign: float, path: Reals, speeds: Reals, poses: Poses, row: int, end: int, x: Reals
 ) -> None:
     """The turn and the rates of a link driven against another."""
+    drives = path[row:end]
     for i in range(len(drives)):
         x[E + i] = sign * drives[i, d]
     circle(x)
-    load(turns[link], x, E)
+    load(poses.turns[link, row:end], x, E)
     for i in range(LANES):
         c, s = x[A + i], x[A + LANES + i]
         a, b = x[E + i], x[E + LANES + i]
         x[T + i] = a * c - b * s
         x[T + LANES + i] = a * s + b * c
     for k in range(order):
-        for i in range(len(drives)):
-            x[V + k * LANES + i] = rates[k, link, i] + sign * speeds[k, i, d]
+        rates, fast = poses.rates[k, link, row:end], speeds[k, row:end]
+        for i in range(len(rates)):
+            x[V + k * LANES + i] = rates[i] + sign * fast[i, d]
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -101,7 +104,8 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
         m = (d + l1 - l2) / 2
         root = sqrt((l1 * d - m * m) * scale)
         x[ROOT + i] = sign * root
-        along, across = m / d, area * root / d
+        inverse = 1 / d
+        along, across = m * inverse, area * root * inverse
         x[A + i] = ax = dx * along - dy * across
         x[A + LANES + i] = ay = dx * across + dy * along
         x[B + i] = ax - dx
@@ -223,13 +227,25 @@ def _dyad(order: int, operation: Ints, program: Program, sign: float, x: Reals) 
         _rrp(order, sign, line, q2 - q1, turn * (q3 - q4), turn, x)
 
 
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _goes_on(root: float, last: float, before: float) -> int:
+    """1 if a root is not small, and does not change too much."""
+    now, past = abs(root), abs(last)
+    return int(now > NEAR) & int(4 * now > past) & int(1.5 * past >= abs(before))
+
+
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _trusted(roots: Reals, row: int, end: int) -> int:
-    """The first row from `row` on whose root is small, or whose change is too large."""
-    for r in range(row, end):
-        root, now = abs(roots[r]), abs(roots[r - 1])
-        if not root > max(NEAR, 0.25 * now) or (r > 1 and 2 * now - abs(roots[r - 2]) < 0.5 * now):
-            return r
+    """The first row from `row` on whose root does not go on."""
+    now, last, before = roots[row:end], roots[row - 1 : end - 1], roots[row - 2 : end - 2]
+    good = 0
+    for i in range(len(now)):
+        good += _goes_on(now[i], last[i], before[i])
+    if good == len(now):
+        return end
+    for i in range(len(now)):
+        if not _goes_on(now[i], last[i], before[i]):
+            return row + i
     return end
 
 
@@ -250,6 +266,19 @@ def steady(path: Reals, row: int) -> bool:
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _near(path: Reals, most: Reals, row: int, end: int) -> int:
     """The first row from `row` on that is too far from the one before, or not in line."""
+    if row < 2:
+        return row
+    now, last, before = path[row:end], path[row - 1 : end - 1], path[row - 2 : end - 2]
+    near = moving = 0
+    for d in range(len(most)):
+        moved = 0
+        for i in range(len(now)):
+            way, past = now[i, d] - last[i, d], last[i, d] - before[i, d]
+            near += int(way * past >= 0) & int(abs(way) <= 1.5 * abs(past)) & int(abs(way) <= most[d])
+            moved += int(way != 0)
+        moving = max(moving, moved)
+    if near == len(now) * len(most) and moving == len(now):
+        return end
     for r in range(row, end):
         if not steady(path, r):
             return r
@@ -262,21 +291,21 @@ def _near(path: Reals, most: Reals, row: int, end: int) -> int:
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _count_turns(turns: Complexes, whole: NDArray[np.int32], row: int, end: int) -> None:
     """Whole turns: the negative x axis is crossed upwards or downwards. They are 0 already."""
+    now, last, mine = turns[row:end], turns[row - 1 : end - 1], whole[row:end]
     crossed = 0
-    for r in range(row, end):
-        now, last = turns[r], turns[r - 1]
-        crossed += int((now.imag < 0) != (last.imag < 0)) & int(now.real + last.real < 0)
+    for i in range(len(now)):
+        crossed += int((now[i].imag < 0) != (last[i].imag < 0)) & int(now[i].real + last[i].real < 0)
     count = whole[row - 1]
     if crossed == 0:
         if count != 0:
-            for r in range(row, end):
-                whole[r] = count
+            for i in range(len(mine)):
+                mine[i] = count
         return
-    for r in range(row, end):
-        now, last = turns[r], turns[r - 1]
-        if (now.imag < 0) != (last.imag < 0) and last.real * abs(now.imag) + now.real * abs(last.imag) < 0:
-            count += 1 if now.imag < 0 else -1
-        whole[r] = count
+    for i in range(len(now)):
+        a, b = now[i], last[i]
+        if (a.imag < 0) != (b.imag < 0) and b.real * abs(a.imag) + a.real * abs(b.imag) < 0:
+            count += 1 if a.imag < 0 else -1
+        mine[i] = count
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -290,29 +319,25 @@ def sweep(
     end = _near(path, program.most, row, min(row + LANES, len(path)))
     if end == row:
         return row
-    at = slice(row, end)
-    order, roots = len(poses.rates), poses.roots
-    mine, turned, spun = poses.places[:, :, at], poses.turns[:, at], poses.rates[:, :, at]
-    good = end
+    order, good = len(poses.rates), end
     for operation in program.operations:
         if operation[0] == TURN:
             near, other = operation[2], operation[3]
             link, far, d, sign = program.links[near], program.links[other], operation[1], operation[4]
-            point(order, link, program.points[near], not placed >> link & 1, mine, turned, spun, x, P)
-            _drive(order, link, float(sign), path[at], speeds[:, at], d, turned, spun, x)
-            put(order, far, program.points[other], True, mine, turned, spun, x)
+            point(order, link, program.points[near], not placed >> link & 1, poses, row, end, x, P)
+            _drive(order, link, d, float(sign), path, speeds, poses, row, end, x)
+            put(order, far, program.points[other], True, poses, row, end, x)
             continue
         for slot, to in ((0, P), (5, Q)):
             e = operation[1 + slot]
             link = program.links[e]
-            point(order, link, program.points[e], not placed >> link & 1, mine, turned, spun, x, to)
+            point(order, link, program.points[e], not placed >> link & 1, poses, row, end, x, to)
         number = operation[9]
         _dyad(order, operation, program, signs[number], x)
-        for r in range(row, end):
-            roots[number, r] = x[ROOT + r - row]
-        good = _trusted(roots[number], row, good)
-        put(order, operation[7], program.points[operation[2]], True, mine, turned, spun, x)
-        put(order, operation[8], program.points[operation[5]], False, mine, turned, spun, x)
+        copy(x[ROOT : ROOT + LANES], poses.roots[number, row:end])
+        good = _trusted(poses.roots[number], row, good)
+        put(order, operation[7], program.points[operation[2]], True, poses, row, end, x)
+        put(order, operation[8], program.points[operation[5]], False, poses, row, end, x)
     for link in range(len(poses.turns)):
         if placed >> link & 1:
             _count_turns(poses.turns[link], poses.whole[link], row, good)

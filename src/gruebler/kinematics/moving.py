@@ -54,7 +54,7 @@ def move(
             one that leads from the linkage's home to the first row, or all ``+`` and 1.
         order: 0 positions, 1 with velocities, 2 with accelerations, 3 with jerks; 2 if a speed is given, else 0.
 
-    Returns a `Motion`; if the path cannot be followed to its end it says where it stopped and why. Cost: 20 to 50 ns a
+    Returns a `Motion`; if the path cannot be followed to its end it says where it stopped and why. Cost: 10 to 30 ns a
     pose of a dyad where rows are taken in sweeps, 0.1 to 0.3 us where each is walked to, 1 to 3 us of a group of four
     links.
 
