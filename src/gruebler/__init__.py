@@ -31,11 +31,14 @@ if TYPE_CHECKING:
     from gruebler.drawing.animation import animated_svg
     from gruebler.drawing.animation_frames import animated_frames
     from gruebler.drawing.animation_page import animated_page
+    from gruebler.drawing.cam_picture import animate_cam, draw_cam
     from gruebler.drawing.curve_plots import coupler_plot, family_plot, hodograph
+    from gruebler.drawing.geneva_picture import animate_geneva, draw_geneva
     from gruebler.drawing.linkage_picture import draw_linkage
     from gruebler.drawing.motion_picture import draw_motion
     from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
     from gruebler.drawing.plots import ratio_diagram
+    from gruebler.drawing.train_picture import animate_train, draw_train
     from gruebler.enumeration import chains, count_chains
     from gruebler.errors import CatalogError, ChainError, GrueblerError, LinkageError, NotationError, PairError
     from gruebler.exercises import exercise, fresh, solve, teaching_table
@@ -75,7 +78,19 @@ if TYPE_CHECKING:
         move_many,
         rotatability,
     )
-    from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, read_linkage, write_linkage
+    from gruebler.linkages import (
+        Circle,
+        Cross,
+        Disc,
+        Driver,
+        FourBar,
+        InvertedSliderCrank,
+        Linkage,
+        SliderCrank,
+        Wheel,
+        read_linkage,
+        write_linkage,
+    )
     from gruebler.linkages.expressions import Expression
     from gruebler.mechanism import Mechanism, check_drives
     from gruebler.mobility import counted, generic_mobility, mobility_report
@@ -97,8 +112,12 @@ __all__ = [
     "CatalogError",
     "Chain",
     "ChainError",
+    "Circle",
     "Circuit",
     "CouplerCurve",
+    "Cross",
+    "Disc",
+    "Driver",
     "Expression",
     "FourBar",
     "Freedoms",
@@ -125,7 +144,11 @@ __all__ = [
     "SpatialLinkage",
     "Statics",
     "Train",
+    "Wheel",
     "access_features",
+    "animate_cam",
+    "animate_geneva",
+    "animate_train",
     "animated_frames",
     "animated_page",
     "animated_svg",
@@ -146,8 +169,11 @@ __all__ = [
     "degrees",
     "derive",
     "draw",
+    "draw_cam",
+    "draw_geneva",
     "draw_linkage",
     "draw_motion",
+    "draw_train",
     "drive_range",
     "driven_mechanisms",
     "exercise",
@@ -221,10 +247,18 @@ _ROOMS = {
     "drawing.animation": ("animated_svg",),
     "drawing.animation_frames": ("animated_frames",),
     "drawing.animation_page": ("animated_page",),
+    "drawing.cam_picture": (
+        "animate_cam",
+        "draw_cam",
+    ),
     "drawing.curve_plots": (
         "coupler_plot",
         "family_plot",
         "hodograph",
+    ),
+    "drawing.geneva_picture": (
+        "animate_geneva",
+        "draw_geneva",
     ),
     "drawing.linkage_picture": ("draw_linkage",),
     "drawing.motion_picture": ("draw_motion",),
@@ -233,6 +267,10 @@ _ROOMS = {
         "transmission_plot",
     ),
     "drawing.plots": ("ratio_diagram",),
+    "drawing.train_picture": (
+        "animate_train",
+        "draw_train",
+    ),
     "enumeration": (
         "chains",
         "count_chains",
@@ -313,10 +351,15 @@ _ROOMS = {
         "rotatability",
     ),
     "linkages": (
+        "Circle",
+        "Cross",
+        "Disc",
+        "Driver",
         "FourBar",
         "InvertedSliderCrank",
         "Linkage",
         "SliderCrank",
+        "Wheel",
         "read_linkage",
         "write_linkage",
     ),
@@ -365,23 +408,28 @@ _ROOMS = {
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 
 
+_DRAWN: dict[str, tuple[str, str, dict[str, Any]]] = {
+    "Chain": ("structure", "draw", {"labels": True}),
+    "Mechanism": ("structure", "draw", {"labels": True}),
+    "Linkage": ("linkage_picture", "draw_linkage", {"labels": True}),
+    "Motion": ("motion_picture", "draw_motion", {}),
+    "Cam": ("cam_picture", "draw_cam", {}),
+    "Geneva": ("geneva_picture", "draw_geneva", {}),
+    "Train": ("train_picture", "draw_train", {}),
+}
+
+
 def _picture(thing: Any) -> str:
-    from gruebler.chain import Chain
-    from gruebler.mechanism import Mechanism
+    """The SVG of a value for a notebook; of a linkage that cannot be placed, its structure."""
+    from gruebler.errors import LinkageError
 
-    if isinstance(thing, Chain | Mechanism):
-        from gruebler.drawing import draw
-
-        return str(draw(thing, labels=True).svg())
-    from gruebler.linkages import Linkage
-
-    if isinstance(thing, Linkage):
-        from gruebler.drawing.linkage_picture import draw_linkage
-
-        return str(draw_linkage(thing, labels=True).svg())
-    from gruebler.drawing.motion_picture import draw_motion
-
-    return str(draw_motion(thing).svg())
+    room, name, options = _DRAWN[type(thing).__name__]
+    try:
+        return str(getattr(import_module(f"gruebler.drawing.{room}"), name)(thing, **options).svg())
+    except LinkageError:
+        if type(thing).__name__ != "Linkage":
+            raise
+        return _picture(thing.mechanism)
 
 
 views.picture = _picture

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler import views
 from gruebler.errors import GrueblerError
 
 __all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
@@ -175,6 +176,10 @@ class Geneva:
         third = -lam * (1 - lam**2) * (cosine * square + 4 * side * lam * sine**2) / square**3
         ratio, acceleration, jerk = (np.where(dwell, 0.0, side * one) for one in (rate, second, third))
         return GenevaMotion(side * (index * self.step + moved), ratio, acceleration, jerk, dwell)
+
+    def _repr_svg_(self) -> str | None:
+        """The drive to scale, a pin on the line of centres, for notebooks."""
+        return views.picture(self) if views.picture else None
 
     @property
     def _side(self) -> int:

@@ -144,3 +144,63 @@ def test_wrong_usage_is_one_sentence_and_status_2(capsys, arguments, words):
     assert (status, out) == (2, "")
     assert words in err
     assert len(err.strip().splitlines()) == 1
+
+
+# --- pictures --------------------------------------------------------------------------------------
+
+MACHINES = {
+    "cam": ["cam", LIFT, "--base", "60", "--roller", "10"],
+    "geneva": ["geneva", "4"],
+    "gears": ["gears", f"{PLANETARY} planets=3; hold ring; drive sun=7"],
+}
+
+
+@pytest.mark.parametrize("name", MACHINES)
+def test_pictures_besides_the_table(capsys, tmp_path, name):
+    _, table, _ = run(capsys, *MACHINES[name])
+    for kind in ("svg", "html"):
+        path = tmp_path / f"x.{kind}"
+        moving = ["--animate", "--seconds", "2"] if kind == "html" else []
+        status, out, err = run(capsys, *MACHINES[name], "-o", str(path), *moving, "--lang", "en")
+        assert (status, out, err) == (0, table, "")
+        text = path.read_text(encoding="utf-8")
+        assert text.startswith("<svg" if kind == "svg" else "<!doctype html>")
+        assert ("<animateTransform" in text) == (kind == "html")
+
+
+def test_options_of_pictures(capsys, tmp_path):
+    path = tmp_path / "x.svg"
+    run(capsys, *MACHINES["cam"], "-o", str(path), "--plot", "--at", "30", "--lang", "de")
+    assert "Bei 30° ist der Hub 10, der Druckwinkel" in path.read_text(encoding="utf-8")
+    run(capsys, *MACHINES["geneva"], "-o", str(path), "--at", "180", "--plot")
+    assert "The wheel is locked." in path.read_text(encoding="utf-8")
+    run(capsys, *MACHINES["gears"], "-o", str(path))
+    plain = path.stat().st_size
+    run(capsys, *MACHINES["gears"], "-o", str(path), "--teeth")
+    assert path.stat().st_size > 2 * plain
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([*MACHINES["geneva"], "--animate"], "-o FILE"),
+        ([*MACHINES["geneva"], "--at", "3"], "-o FILE"),
+        ([*MACHINES["geneva"], "--seconds", "0"], "-o FILE"),
+        ([*MACHINES["gears"], "--teeth"], "-o FILE"),
+        (["cam", "--laws", "-o", "x.svg"], "of a cam for a lift"),
+        ([*MACHINES["cam"], "-o", "x.html"], "end it with"),
+        ([*MACHINES["cam"], "-o", "x.pdf", "--animate"], "end it with"),
+        ([*MACHINES["cam"], "-o", "x.svg", "--seconds", "3"], "goes with --animate"),
+        ([*MACHINES["cam"], "-o", "x.svg", "--animate", "--at", "3"], "all positions"),
+        ([*MACHINES["cam"], "-o", "x.svg", "--at", "inf"], "finite number"),
+        ([*MACHINES["cam"], "-o", "x.svg", "--animate", "--seconds", "-1"], "number of seconds"),
+        (["gears", "a:10 b:20; c:10 d:20; a=1", "-o", "x.svg", "--animate"], "do not determine"),
+        (["gears", "a:10 b:20", "-o", "no/such/folder/x.svg"], "cannot be written"),
+    ],
+)
+def test_pictures_that_cannot_be(capsys, tmp_path, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run(capsys, *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert list(tmp_path.iterdir()) == []

@@ -229,7 +229,7 @@ def walk(
     placed = swept_links(program) if len(path) > 8 else 0
     if placed:
         _fill_fixed(placed, poses)
-    pause = row = 1
+    row, pause = 1, 2
     step, fault = 1.0, np.inf
     while row < len(path):
         if placed and row >= pause and fault == np.inf and not _expecting(memory):

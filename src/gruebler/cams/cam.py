@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler import views
 from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
@@ -141,6 +142,10 @@ class Cam:
             room=room,
             face=both(lambda contact: contact.face),
         )
+
+    def _repr_svg_(self) -> str | None:
+        """The cam with its follower, to scale, for notebooks."""
+        return views.picture(self) if views.picture else None
 
     def _at(self, angle: ArrayLike) -> _Contact:
         phi = finite(angle, "the cam's angles")

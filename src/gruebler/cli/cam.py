@@ -25,7 +25,9 @@ from gruebler.cams import (
     law,
     read_lift,
 )
+from gruebler.cli.machine_pictures import angle_of, refuse_picture, write_picture
 from gruebler.cli.tables import print_table
+from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
 
 __all__ = ["run"]
@@ -80,6 +82,12 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.laws + (arguments.lift is not None) + (arguments.contour is not None) != 1:
         example = "'rise 20 60; dwell 30; fall 20 90; dwell'"
         raise GrueblerError(f"expected one of: a lift such as {example}, --laws, --contour FILE")
+    if arguments.lift is None:
+        refuse_picture(
+            arguments,
+            "a picture is drawn of a cam for a lift",
+            "gezeichnet wird eine Kurvenscheibe zu einem Hubverlauf",
+        )
     if arguments.laws:
         return _laws(arguments.json, words)
     follower = _follower(arguments)
@@ -91,12 +99,24 @@ def run(arguments: argparse.Namespace) -> int:
     if follower.swings:
         lift = Lift(one._replace(scale=math.radians(one.scale)) for one in lift.segments)
     cam = Cam(lift, arguments.base, follower)
-    table = _table(cam, _angles(arguments.step)) if arguments.step is not None else None
+    table = _table(cam, turn_degrees(arguments.step)) if arguments.step is not None else None
+    _picture(arguments, cam)
     if arguments.json:
         print(json.dumps(_document(cam, table), ensure_ascii=False, indent=2))
     else:
         _print(cam, table, words)
     return int(cam.findings().undercut)
+
+
+def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
+    from gruebler.drawing.cam_picture import animate_cam, draw_cam
+
+    at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
+    write_picture(
+        arguments,
+        lambda: draw_cam(cam, at, plot=plot, lang=lang),
+        lambda seconds: animate_cam(cam, plot=plot, seconds=seconds, lang=lang),
+    )
 
 
 def _laws(as_json: bool, words: dict[str, Any]) -> int:
@@ -124,12 +144,6 @@ def _follower(arguments: argparse.Namespace) -> Follower:
     return Roller(arguments.roller or 0.0, arguments.offset, arm, distance)
 
 
-def _angles(step: float) -> NDArray[np.float64]:
-    if not 0.001 <= step <= 360:
-        raise GrueblerError(f"--step: expected degrees from 0.001 to 360, not {step:g}")
-    return np.arange(0, 360 - step / 1e6, step)
-
-
 def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str, Any]) -> int:
     path = Path(arguments.contour)
     try:
@@ -146,17 +160,16 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
                 raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}") from None
             if len(cells) != 2:
                 raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}")
-    degrees = _angles(arguments.step or 10)
+    degrees = turn_degrees(10 if arguments.step is None else arguments.step)
     found = follow(SmoothContour.through(points), follower, np.radians(degrees))
     scale = 180 / math.pi if follower.swings else 1.0
     rows = np.stack([degrees, *(one * scale for one in found)], axis=1).tolist()
     if arguments.json:
         keys = ("cam_deg", "follower", "velocity", "acceleration")
-        print(json.dumps({"motion": [dict(zip(keys, row, strict=True)) for row in rows]}, indent=2))
+        print(json.dumps({"motion": records(keys, rows)}, indent=2))
     else:
         unit = "°" if follower.swings else ""
-        shown = [[f"{row[0]:g}°", f"{row[1]:.6f}{unit}", *(f"{one:.6f}" for one in row[2:])] for row in rows]
-        print_table(words["contour"], shown, numbers=range(4))
+        print_turn(words["contour"], rows, ("{:g}°", f"{{:.6f}}{unit}", "{:.6f}", "{:.6f}"))
     return 0
 
 
@@ -206,8 +219,7 @@ def _print(cam: Cam, table: list[list[float]] | None, words: dict[str, Any]) -> 
     if table is not None:
         print()
         marks = ("°", unit, "", "", "°", "", "", "")
-        shown = [[f"{one + 0.0:.6g}{mark}" for one, mark in zip(row, marks, strict=True)] for row in table]
-        print_table(words["table"], shown, numbers=range(8))
+        print_turn(words["table"], table, [f"{{:.6g}}{mark}" for mark in marks])
 
 
 def _degrees(angle: float) -> str:
@@ -236,8 +248,7 @@ def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     }
     if table is not None:
         keys = ("cam_deg", "lift", "velocity", "acceleration", "pressure_angle_deg", "radius", "x", "y")
-        rows = [[one if math.isfinite(one) else None for one in row] for row in table]
-        document["table"] = [dict(zip(keys, row, strict=True)) for row in rows]
+        document["table"] = records(keys, table)
     return document
 
 

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from gruebler.cli.machine_pictures import is_few, write_picture
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
@@ -38,6 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     reading = _read(arguments.train)
     found = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
+    _picture(arguments, reading)
     if arguments.json:
         print(json.dumps(_document(reading, found, forces), ensure_ascii=False, indent=2))
     else:
@@ -47,6 +49,21 @@ def run(arguments: argparse.Namespace) -> int:
             _print_speeds(reading, found, forces, arguments.lang)
     possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     return int((bool(reading.drives) and not found.complete) or not possible)
+
+
+_FEW = 6  # turns of the fastest link in a file of pictures
+
+
+def _picture(arguments: argparse.Namespace, reading: Reading) -> None:
+    from gruebler.drawing.train_picture import Options, animate_train, draw_train
+
+    options = Options(planets=reading.planets, teeth=arguments.teeth, lang=arguments.lang)
+    most = {"most": _FEW} if is_few(arguments) else {}
+    write_picture(
+        arguments,
+        lambda: draw_train(reading.train, **options),
+        lambda seconds: animate_train(reading.train, reading.drives, seconds=seconds, **most, **options),
+    )
 
 
 def _read(word: str) -> Reading:

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from gruebler.cli.machine_pictures import angle_of, write_picture
 from gruebler.cli.tables import print_table
+from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
 from gruebler.geneva import Geneva
 
@@ -52,11 +54,12 @@ def run(arguments: argparse.Namespace) -> int:
     drive = Geneva(arguments.slots, arguments.internal, arguments.pins)
     figures = _figures(drive, arguments.distance, arguments.speed)
     table = _table(drive, arguments.step) if arguments.step is not None else None
+    _picture(arguments, drive)
     if arguments.json:
         document: dict[str, Any] = {"slots": drive.slots, "internal": drive.internal, "pins": drive.pins, **figures}
         if table is not None:
             keys = ("driver_deg", "wheel_deg", *_TABLE["en"][2:])
-            document["motion"] = [dict(zip(keys, row, strict=True)) for row in table]
+            document["motion"] = records(keys, table)
         print(json.dumps(document, ensure_ascii=False, indent=2))
         return 0
     german = arguments.lang == "de"
@@ -64,10 +67,21 @@ def run(arguments: argparse.Namespace) -> int:
     print_table(("Größe", "Wert") if german else ("quantity", "value"), rows, numbers=(1,))
     if table is not None:
         print()
-        yes = ("", "Rast" if german else "dwell")
-        cells = [(f"{row[0]:g}°", f"{row[1]:.6f}°", *(f"{one:.6f}" for one in row[2:5]), yes[row[5]]) for row in table]
-        print_table(_TABLE[arguments.lang], cells, numbers=range(5))
+        rest = _TABLE[arguments.lang][-1]
+        shown = [[*row[:5], rest if row[5] else ""] for row in table]
+        print_turn(_TABLE[arguments.lang], shown, ("{:g}°", "{:.6f}°", "{:.6f}", "{:.6f}", "{:.6f}", "{}"))
     return 0
+
+
+def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
+    from gruebler.drawing.geneva_picture import animate_geneva, draw_geneva
+
+    at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
+    write_picture(
+        arguments,
+        lambda: draw_geneva(drive, at or 0.0, plot=plot, lang=lang),
+        lambda seconds: animate_geneva(drive, plot=plot, seconds=seconds, lang=lang),
+    )
 
 
 def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict[str, float]:
@@ -100,9 +114,7 @@ def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict
 
 
 def _table(drive: Geneva, step: float) -> list[list[Any]]:
-    if not 0.001 <= step <= 360:
-        raise GrueblerError(f"--step: expected degrees from 0.001 to 360, not {step:g}")
-    driver = np.arange(0, 360 + step / 2, step)
+    driver = turn_degrees(step, closed=True)
     moved = drive.move(np.radians(driver))
     numbers = (np.degrees(moved.angle), moved.ratio, moved.acceleration, moved.jerk)
     plain = [(column + 0.0).tolist() for column in (driver, *numbers)]  # no minus before a zero

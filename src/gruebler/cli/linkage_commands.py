@@ -123,11 +123,13 @@ def _add_gears(commands: _Commands) -> None:
         "'on ARM' names the carrier of their axes. Other kinds: belt, chain, crossed, friction, bevel, rack, screw, "
         "winch. Then drive LINK=SPEED, hold LINK, load LINK=TORQUE; planets=N asks whether so many can be put in.",
         epilog="Example: gruebler gears 'sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; "
-        "load arm=-50'. Exit status: 0 determined (or nothing driven), 1 undetermined, contradicted or not to be "
-        "assembled, 2 wrong usage or unreadable input.",
+        "load arm=-50'; with -o train.html --animate --teeth it moves. Exit status: 0 determined (or nothing driven), "
+        "1 undetermined, contradicted or not to be assembled, 2 wrong usage or unreadable input.",
     )
     gears.add_argument("train", metavar="TRAIN|FILE", help="a text, a file of statements (.txt) or a table (.toml)")
     gears.add_argument("--json", action="store_true", help="an object; numbers as exact fractions and decimals")
+    gears.add_argument("--teeth", action="store_true", help="with -o: involute teeth instead of pitch circles")
+    _add_picture(gears, "a turn of the fastest link")
     _finish(gears, "gears")
 
 
@@ -138,8 +140,8 @@ def _add_cam(commands: _Commands) -> None:
         description="A disc cam that turns counter-clockwise. LIFT is a row of 'rise LIFT ANGLE [LAW]', 'fall LIFT "
         "ANGLE [LAW]', 'dwell [ANGLE]' with angles in degrees (the lift of a swinging follower too); instead of a law "
         "boundary values per radian, such as v0=0 a0=0 v1=5 a1=0. Rates are told per radian of the cam.",
-        epilog="Example: gruebler cam 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell' --base 40 --roller 10. "
-        "Exit status: 0 good, 1 undercut, 2 wrong usage or unreadable input.",
+        epilog="Example: gruebler cam 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell' --base 40 --roller 10 "
+        "-o cam.svg --plot. Exit status: 0 good, 1 undercut, 2 wrong usage or unreadable input.",
     )
     cam.add_argument("lift", nargs="?", metavar="LIFT", help="the lift over a turn; one dwell may take the rest")
     cam.add_argument("--laws", action="store_true", help="the laws of motion with C_v, C_a, C_j")
@@ -156,6 +158,11 @@ def _add_cam(commands: _Commands) -> None:
     )
     cam.add_argument("--step", type=float, metavar="DEG", help="a table of the turn in such steps")
     cam.add_argument("--json", action="store_true", help="as JSON")
+    cam.add_argument(
+        "--at", type=float, metavar="DEG", help="with -o: the cam's angle (default: greatest pressure angle)"
+    )
+    cam.add_argument("--plot", action="store_true", help="with -o: lift, velocity and acceleration beneath")
+    _add_picture(cam, "a turn")
     _finish(cam, "cam")
 
 
@@ -164,7 +171,8 @@ def _add_geneva(commands: _Commands) -> None:
         "geneva",
         help="a Geneva drive: dwell, ratio, acceleration",
         description="A Geneva drive with radial slots that the pins enter without a blow.",
-        epilog="Example: gruebler geneva 4 --distance 100 --speed 60 --step 15",
+        epilog="Examples: gruebler geneva 4 --distance 100 --speed 60 --step 15; gruebler geneva 6 --pins 2 --animate "
+        "-o geneva.html. PNG, PDF, GIF and WebP need matplotlib: pip install 'gruebler[plot]'.",
     )
     geneva.add_argument("slots", type=int, metavar="N", help="number of slots, at least 3")
     geneva.add_argument("--internal", action="store_true", help="the driver turns inside the wheel")
@@ -173,7 +181,20 @@ def _add_geneva(commands: _Commands) -> None:
     geneva.add_argument("--speed", type=float, metavar="RPM", help="of the driver, turns a minute: times are told")
     geneva.add_argument("--step", type=float, metavar="DEG", help="a table of the driver's turn in such steps")
     geneva.add_argument("--json", action="store_true", help="as JSON")
+    geneva.add_argument("--at", type=float, metavar="DEG", help="with -o: the driver's angle (default: 0)")
+    geneva.add_argument("--plot", action="store_true", help="with -o: angle, ratio and acceleration beneath")
+    _add_picture(geneva, "a turn")
     _finish(geneva, "geneva")
+
+
+def _add_picture(machine: argparse.ArgumentParser, time: str) -> None:
+    """Options for the picture of a machine, besides its table."""
+    machine.add_argument("-o", "--output", type=Path, metavar="FILE", help="also a picture: .svg, .png or .pdf")
+    machine.add_argument(
+        "--animate", action="store_true", help="with -o: moving, as .svg, .html, .gif, .webp or .png (APNG)"
+    )
+    machine.add_argument("--seconds", type=float, metavar="S", help=f"with --animate: for {time} (default: 4)")
+    machine.add_argument("--dark", action="store_true", help="with -o: pictures and PDF on dark ground")
 
 
 def _add_cognates(commands: _Commands) -> None:
@@ -257,7 +278,7 @@ def _add_draw(commands: _Commands) -> None:
         ),
         help="also show this; repeatable",
     )
-    draw.add_argument("--ghosts", type=int, default=0, metavar="N", help="so many other positions thinly, for print")
+    draw.add_argument("--ghosts", type=int, metavar="N", help="so many other positions thinly, for print")
     draw.add_argument(
         "--of", metavar="LINK", help="the link whose dead centres, transmission angle, centrodes, ... are shown"
     )
@@ -267,7 +288,7 @@ def _add_draw(commands: _Commands) -> None:
     draw.add_argument("--frame", metavar="LINK", help="the link that stands still")
     draw.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
     draw.add_argument("--labels", action="store_true", help="name the links")
-    draw.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; SVG is on that of the reader")
+    draw.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; not SVG, which is on the reader's")
     view = draw.add_mutually_exclusive_group()
     view.add_argument("--graph", action="store_true", help="the link graph instead")
     view.add_argument("--contracted", action="store_true", help="the contracted graph instead")
@@ -310,12 +331,12 @@ def _add_gallery(commands: _Commands) -> None:
     )
     gallery.add_argument("ids", nargs="*", metavar="ID", help="entries of the catalog, instead of a request")
     gallery.add_argument("--links", type=int, metavar="N", help="number of links")
-    gallery.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
+    gallery.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
     gallery.add_argument(
-        "--fractionated", choices=("none", "link", "joint", "all"), default="none", help="as for enumerate"
+        "--fractionated", choices=("none", "link", "joint", "all"), help="as for enumerate (default: none)"
     )
     gallery.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
-    gallery.add_argument("--multiple-joints", default="0", metavar="K|any", help="as for enumerate (default: 0)")
+    gallery.add_argument("--multiple-joints", metavar="K|any", help="as for enumerate (default: 0)")
     gallery.add_argument("--inversions", action="store_true", help="each chain with every frame that matters")
     gallery.add_argument("--labels", action="store_true", help="name the links")
     gallery.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="a file .html or .pdf")

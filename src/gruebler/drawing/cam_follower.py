@@ -42,7 +42,7 @@ def _offset(cam: Cam) -> float:
 
 def _translating(cam: Cam, scale: float) -> list[Shape]:
     """A rod with its origin at the roller's centre, the edge or the face."""
-    low, high = _travel(cam, scale)
+    low = _travel(cam, scale)[0]
     top = -(_above(cam, scale) - low) - _GUIDE.y - 22.0  # the rod sticks out of its guide when it is lowest
     if isinstance(cam.follower, Flat):
         face = cam.findings().face
@@ -63,14 +63,14 @@ def _swinging(cam: Cam, scale: float, side: float) -> list[Shape]:
         face = scale * cam.follower.face
         reach = scale * max(one.value for one in cam.findings().face) + _BEYOND
         # The face lies on the side of the cam, its body on the other: upwards for a pivot on the left.
-        edge, back = (face, face - _THICK) if side < 0 else (-face, -face + _THICK)
-        return [_block(_box(-_ROD, _ROD, *sorted((0.0, back)))), _block(_box(-_ROD, reach, *sorted((edge, back)))), pin]
+        edge, far = (face, face - _THICK) if side < 0 else (-face, -face + _THICK)
+        return [_block(_box(-_ROD, _ROD, *sorted((0.0, far)))), _block(_box(-_ROD, reach, *sorted((edge, far)))), pin]
     length = scale * cam.follower.arm
     r = scale * cam.follower.radius
     if not r:
         back = Point(length, side * _WEDGE.y)
-        edge = Lines(((Point(length, 0.0), back.plus(Point(-1, 0), 7.0), back.plus(Point(1, 0), 7.0)),), "block", True)
-        return [edge, *_bar(Point(0.0, 0.0), back), pin]
+        wedge = Point(length, 0.0), back.plus(Point(-1, 0), 7.0), back.plus(Point(1, 0), 7.0)
+        return [_block(wedge), *_bar(Point(0.0, 0.0), back), pin]
     return [*_bar(Point(0.0, 0.0), Point(length, 0.0)), *_roller(Point(length, 0.0), r), pin]
 
 

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.cams import Cam, CamError, Roller
-from gruebler.drawing.axes import Axis, angles, decimals
 from gruebler.drawing.cam_follower import follower_body, ground
-from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text, bounds, moved
-from gruebler.drawing.moving_picture import Body, Clock, MovingPicture, Shift, even, listed, moving, still
-from gruebler.drawing.plots import Curve, Mark, Panel, plotted
-from gruebler.drawing.styles import LINES
+from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text, bounds
+from gruebler.drawing.moving_picture import Body, Clock, MovingPicture, even, lasting, listed, moving, still
 from gruebler.drawing.symbols import arrow_head
 from gruebler.drawing.thinning import FINE, thinned
+from gruebler.drawing.turn_diagram import beneath, running, turn_diagram
 
 __all__ = ["animate_cam", "draw_cam", "lift_diagram"]
 
@@ -27,9 +25,9 @@ Complexes = NDArray[np.complex128]
 _PIXELS = 150.0  # from the axis to the farthest point of the cam
 _ROWS = 720  # points of the contour
 _KEYS = 180  # of a turn
-_PANEL = Point(460.0, 120.0)
-_GAP = 34.0  # pixels between the cam and its diagram
+_HOLE = 56.0  # pixels: with a smaller base circle a cam has no mark
 _ALPHA = 62.0  # pixels: radius of the arc of the pressure angle
+_BESIDE = 0.4  # radians: a smaller pressure angle is written beside the guide
 _FOLLOWERS = {
     (False, "roller"): ("a translating roller follower", "Rollenstößel"),
     (False, "knife"): ("a translating knife-edge follower", "Schneidenstößel"),
@@ -85,11 +83,13 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
     if at is None:
         at = max(found.pressure, key=lambda one: abs(one.value)).at
     if isinstance(at, bool) or not isinstance(at, int | float) or not math.isfinite(at):
-        raise CamError(f"the cam's angle is a finite number, not {at!r}")
+        raise CamError(
+            f"the cam's angle is a finite number, not {at!r}", f"der Kurvenwinkel ist eine endliche Zahl, nicht {at!r}"
+        )
     scale = _scale(cam)
     shown = [*_machine(cam, scale, np.array([at]), lang), Body(tuple(_pressure(cam, scale, at)))]
     if plot:
-        shown += [Body(tuple(_beneath(cam, shown, lang, at)))]
+        shown += [Body(tuple(beneath(lift_diagram(cam, at, lang), shown)))]
     lift = float(cam.lift.at(at))
     told = words["pose"].format(
         at=_short(math.degrees(at)),
@@ -104,7 +104,7 @@ def animate_cam(
 ) -> MovingPicture:
     """A turn of the cam with its follower; a cursor runs through the diagram of the lift beneath.
 
-    Raises `CamError` for a time that is no positive number.
+    Raises `gruebler.GrueblerError` for a time that is no positive number of seconds.
 
     >>> from gruebler.cams import Flat, read_lift
     >>> from gruebler.drawing.moving_picture import moving_svg
@@ -112,14 +112,12 @@ def animate_cam(
     >>> moving_svg(animate_cam(cam)).count("<animateTransform")
     3
     """
-    if not 0 < seconds <= 3600:
-        raise CamError(f"the time is a number of seconds up to 3600, not {seconds!r}")
     scale = _scale(cam)
     bodies = _machine(cam, scale, np.linspace(0, math.tau, _KEYS + 1), lang)
     if plot:
-        bodies += _running(_beneath(cam, bodies, lang, None))
+        bodies += running(beneath(lift_diagram(cam, None, lang), bodies))
     about = f"{_about(cam, lang)} {_WORDS[lang]['turn'].format(seconds=seconds)}"
-    return moving(bodies, Clock(seconds, 0.0, 360.0, "°"), name or _title(cam, lang), about)
+    return moving(bodies, Clock(lasting(seconds), 0.0, 360.0, "°"), name or _title(cam, lang), about)
 
 
 def _scale(cam: Cam) -> float:
@@ -161,9 +159,15 @@ def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     if found.undercut:
         disc.append(Lines(tuple(_line(part, scale) for part in _undercut(cam)), "drive"))
         rows.append(("drive", words["under"]))
-    disc.append(Circle(Point(min(0.55 * scale * cam.base, scale * cam.base - 8.0), 0.0), 3.0, "node"))
+    if scale * cam.base > _HOLE:
+        disc.append(Circle(Point(0.6 * scale * cam.base, 0.0), 3.0, "node"))
     arrow = Arc(middle, 24.0, math.radians(-30), math.radians(-120), "drive")
-    fixed = [Circle(middle, scale * cam.base, "dead"), arrow, arrow_head(arrow), Circle(middle, 6.2, "joint")]
+    fixed: list[Shape] = [
+        Circle(middle, scale * cam.base, "dead"),
+        arrow,
+        arrow_head(arrow),
+        Circle(middle, 6.2, "joint"),
+    ]
     guide = ground(cam, scale)
     shapes = [*disc, *guide, *follower_body(cam, scale, phi[:1]).shapes]
     corner, size = bounds(shapes, 0.0)
@@ -227,7 +231,9 @@ def _pressure(cam: Cam, scale: float, at: float) -> Iterator[Shape]:
     beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
     words = f"α = {math.degrees(alpha) + 0.0:.1f}°".replace("-", "−")
     anchor = "start" if beside.x >= 0 else "end"
-    yield Text(start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0), words, "mark", anchor)
+    yield Text(
+        start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), words, "mark", anchor
+    )
 
 
 # --- the diagram -----------------------------------------------------------------------------------
@@ -236,34 +242,8 @@ def _pressure(cam: Cam, scale: float, at: float) -> Iterator[Shape]:
 def lift_diagram(cam: Cam, at: float | None = None, lang: str = "en") -> Figure:
     """Lift, velocity and acceleration over a turn, one below the other, with an angle (radians) marked."""
     unit = math.degrees(1.0) if cam.follower.swings else 1.0
-    names = ("ψ in °", "ψ′ = dψ/dφ", "ψ″ = d²ψ/dφ²") if unit > 1 else ("s", "s′ = ds/dφ", "s″ = d²s/dφ²")
+    names = ("ψ in °", "ψ′ = dψ/dφ", "ψ″ = d²ψ/dφ²") if cam.follower.swings else ("s", "s′ = ds/dφ", "s″ = d²s/dφ²")
     spans = [(span, np.linspace(span.start, span.end, 73)) for span in cam.lift.spans()]
-    x = np.degrees(np.concatenate([phi for _, phi in spans]))
-    marks = () if at is None else (Mark(math.degrees(at % math.tau), f"{_short(math.degrees(at % math.tau))}°"),)
-    panels = []
-    for order, words in enumerate(names):
-        y = np.concatenate([span.orders[order](phi) for span, phi in spans]) * (unit if order == 0 else 1.0)
-        axis = Axis(words, decimals(float(y.min()), float(y.max()), few=4))
-        shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
-        curves = (Curve(x, y, "", LINES[0]),)
-        panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
-    return plotted(panels, _WORDS[lang]["diagram"], "")
-
-
-def _beneath(cam: Cam, bodies: list[Body], lang: str, at: float | None) -> list[Shape]:
-    """The shapes of the diagram, below those of the bodies and in their middle."""
-    diagram = lift_diagram(cam, at, lang)
-    corner, size = bounds([shape for shape in still(bodies, "", "").shapes], 0.0)
-    first = [shape for body in bodies for shape in body.shapes if not body.steps]
-    left = bounds(first, 0.0)[0].x
-    top = _PIXELS + _GAP
-    return [moved(shape, Point(left + (size.x - diagram.width) / 2, top)) for shape in diagram.shapes]
-
-
-def _running(diagram: list[Shape]) -> list[Body]:
-    """The diagram and a cursor that goes through all of its panels."""
-    frames = [shape.parts[0] for shape in diagram if isinstance(shape, Lines) and shape.style == "axis"]
-    corner, right = frames[0][1], frames[0][2]
-    lines = tuple((Point(0.0, frame[0].y), Point(0.0, frame[1].y)) for frame in frames)
-    run = Shift((Point(corner.x, 0.0), Point(right.x, 0.0)))
-    return [Body(tuple(diagram)), Body((Lines(lines, "drive"),), (run,))]
+    rates = [np.concatenate([span.orders[order](phi) for span, phi in spans]) for order in range(3)]
+    rows = [*zip(names, (unit * rates[0], *rates[1:]), strict=True)]
+    return turn_diagram(np.concatenate([phi for _, phi in spans]), rows, at, _WORDS[lang]["diagram"])

@@ -14,6 +14,7 @@ from numbers import Rational
 from types import MappingProxyType
 from typing import NamedTuple
 
+from gruebler import views
 from gruebler.errors import GrueblerError, nearest
 from gruebler.gears.rational import Row, echelon, reduced
 
@@ -248,6 +249,10 @@ class Train:
         if not self.comparable(found[0]):
             raise GearError(f"{', '.join(found[0])}: {MIXED}")
         return found[0]
+
+    def _repr_svg_(self) -> str | None:
+        """Its wheels to scale, for notebooks."""
+        return views.picture(self) if views.picture else None
 
 
 def _whole(row: Row[str]) -> dict[str, int]:

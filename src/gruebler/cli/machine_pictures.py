@@ -1,0 +1,66 @@
+"""What `gruebler cam`, `geneva` and `gears` do with -o: the machine as a picture, or moving."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Callable
+
+from gruebler.drawing import Figure
+from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.drawing.moving_files import MOVING, moving_bytes
+from gruebler.drawing.moving_picture import MovingPicture
+from gruebler.errors import GrueblerError
+
+__all__ = ["angle_of", "is_few", "refuse_picture", "write_picture"]
+
+_OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
+_FEW = ("gif", "webp", "png")
+
+
+def refuse_picture(arguments: argparse.Namespace, why: str, warum: str) -> None:
+    """`GrueblerError` if there is an option for pictures, with the reason in English and German."""
+    for option in ("output", *_OPTIONS):
+        value = getattr(arguments, option, None)
+        if value is not None and value is not False:
+            raise GrueblerError(f"--{option}: {why}", f"--{option}: {warum}")
+
+
+def angle_of(arguments: argparse.Namespace) -> float | None:
+    """The angle of --at in radians."""
+    if arguments.at is not None and not math.isfinite(arguments.at):
+        raise GrueblerError(
+            f"--at: expected a finite number of degrees, not {arguments.at}",
+            f"--at: eine endliche Zahl von Grad ist verlangt, nicht {arguments.at}",
+        )
+    return None if arguments.at is None else math.radians(arguments.at)
+
+
+def is_few(arguments: argparse.Namespace) -> bool:
+    """Whether the file is of pictures one after another, of which there are not many."""
+    return arguments.output is not None and arguments.output.suffix.lower().removeprefix(".") in _FEW
+
+
+def write_picture(
+    arguments: argparse.Namespace, still: Callable[[], Figure], moving: Callable[[float], MovingPicture]
+) -> None:
+    """Write the picture if a file is named; ``moving`` is told the seconds."""
+    from gruebler.cli.draw import written
+
+    if arguments.output is None:
+        refuse_picture(arguments, "needs a file for the picture: -o FILE", "verlangt eine Datei für das Bild: -o DATEI")
+        return
+    if not arguments.animate:
+        if arguments.seconds is not None:
+            raise GrueblerError("--seconds goes with --animate", "--seconds gehört zu --animate")
+        suffix = suffix_of(arguments.output, SUFFIXES)
+        written(arguments.output, picture_bytes(still(), suffix, dark=arguments.dark))
+        return
+    if getattr(arguments, "at", None) is not None:
+        raise GrueblerError(
+            "--at does not go with --animate, which shows all positions",
+            "--at geht nicht mit --animate zusammen, das alle Stellungen zeigt",
+        )
+    suffix = suffix_of(arguments.output, MOVING)
+    shown = moving(4.0 if arguments.seconds is None else arguments.seconds)
+    written(arguments.output, moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang))

@@ -1,0 +1,44 @@
+"""Tables over a turn: the angles of their rows, as text, as JSON."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
+
+__all__ = ["print_turn", "records", "turn_degrees"]
+
+
+def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
+    """Angles from 0 in such steps, the full turn included if it is closed.
+
+    >>> turn_degrees(120).tolist(), turn_degrees(120, closed=True).tolist()
+    ([0.0, 120.0, 240.0], [0.0, 120.0, 240.0, 360.0])
+    """
+    if not 0.001 <= step <= 360:
+        raise GrueblerError(f"--step: expected degrees from 0.001 to 360, not {step:g}")
+    return np.arange(0, 360 + (step / 2 if closed else -step / 1e6), step)
+
+
+def print_turn(headers: Sequence[str], rows: Sequence[Sequence[Any]], formats: Sequence[str]) -> None:
+    """Print rows of numbers, each column in its format; no minus stands before a zero."""
+    cells = [
+        [form.format(one if isinstance(one, str) else one + 0.0) for one, form in zip(row, formats, strict=True)]
+        for row in rows
+    ]
+    print_table(headers, cells, numbers=range(len(headers)))
+
+
+def records(keys: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
+    """The rows as objects; null for what is not finite.
+
+    >>> records(["a", "b"], [[1.0, float("inf")]])
+    [{'a': 1.0, 'b': None}]
+    """
+    return [dict(zip(keys, (one if math.isfinite(one) else None for one in row), strict=True)) for row in rows]

@@ -1,0 +1,268 @@
+"""Where the wheels of a gear train stand: distances from sizes, directions chosen so that wheels keep clear.
+
+A train tells ratios only. Meshes that share a carrier and hang together are a *stage*; stages stand side by side, and a
+link that is in two of them is drawn in both. Lengths: the pitch diameter is the size, so that the module is 1.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from gruebler.gears import Mesh, Train
+
+__all__ = ["Placed", "Stage", "Wheel", "stages"]
+
+FRAME = "frame"
+_APART = 1.7  # sums of radii: the distance of the axes of a belt
+_CLOSE = 1e-6
+_PER_SIZE = {"rack by pitch": 1 / math.tau, "rack": 1.0, "winch": 1.0}  # radius by size; of toothed wheels a half
+_FLAT = ("gear", "friction", "belt", "chain", "crossed", "bevel")
+
+
+class Wheel(NamedTuple):
+    """A wheel of a stage, at home."""
+
+    link: str
+    size: float
+    """Teeth or radius as it is told; negative: internal (for a bevel wheel: seen from the other side)."""
+    radius: float
+    at: complex
+    phase: float
+    """Where the middle of a tooth is, or of a space of an internal wheel; radians."""
+    planet: bool = False
+    """Whether it goes round with the carrier."""
+
+    @property
+    def internal(self) -> bool:
+        """Whether its teeth point inwards."""
+        return self.size < 0
+
+
+class Placed(NamedTuple):
+    """A mesh with the places of its axes."""
+
+    mesh: Mesh
+    a: complex
+    b: complex
+    radii: tuple[float, float]
+
+
+@dataclass
+class Stage:
+    """Wheels whose axes one carrier holds; the carrier's own axis is 0."""
+
+    carrier: str
+    meshes: list[Mesh]
+    copies: int = 1
+    """How many equal planets there are."""
+    wheels: list[Wheel] = field(default_factory=list)
+    placed: list[Placed] = field(default_factory=list)
+    axes: dict[str, complex] = field(default_factory=dict)
+    central: set[str] = field(default_factory=set)
+
+    @property
+    def is_bevel(self) -> bool:
+        """Whether it is drawn unfolded, as its carrier sees it."""
+        return self.meshes[0].kind == "bevel"
+
+
+def stages(train: Train, planets: Mapping[str, int]) -> list[Stage]:
+    """The stages of a train with all wheels placed, planets repeated so many times.
+
+    >>> from gruebler.gears import read_train
+    >>> (one,) = stages(read_train("sun:24 planet:18 ring:-60 on arm").train, {"planet": 3})
+    >>> [(wheel.link, round(wheel.radius, 9), round(abs(wheel.at), 9)) for wheel in one.wheels][:3]
+    [('sun', 12.0, 0.0), ('planet', 9.0, 21.0), ('planet', 9.0, 21.0)]
+    """
+    found = [*_grouped(train.meshes)]
+    for stage in found:
+        stage.copies = max((planets.get(link, 1) for mesh in stage.meshes for link in (mesh.a, mesh.b)), default=1)
+        stage.central = _central(stage, train)
+        _place(stage)
+        _wheels(stage)
+    return found
+
+
+def _grouped(meshes: Iterable[Mesh]) -> Iterator[Stage]:
+    """Meshes with the same carrier that hang together by their links."""
+    groups: list[Stage] = []
+    for mesh in dict.fromkeys(meshes):
+        links = {mesh.a, mesh.b} - {FRAME}
+        bevel = mesh.kind == "bevel"
+        mine = [
+            group
+            for group in groups
+            if group.carrier == mesh.carrier
+            and group.is_bevel == bevel
+            and any(links & {one.a, one.b} for one in group.meshes)
+        ]
+        merged = Stage(mesh.carrier, [one for group in mine for one in group.meshes] + [mesh])
+        spot = groups.index(mine[0]) if mine else len(groups)
+        groups = [group for group in groups if group not in mine]
+        groups.insert(spot, merged)
+    yield from groups
+
+
+def _central(stage: Stage, train: Train) -> set[str]:
+    """The links whose axis is that of the moving carrier."""
+    if stage.carrier == FRAME or stage.is_bevel:
+        return set()
+    mates: dict[str, list[str]] = {}
+    for mesh in stage.meshes:
+        mates.setdefault(mesh.a, []).append(mesh.b)
+        mates.setdefault(mesh.b, []).append(mesh.a)
+    others = [mesh for mesh in train.meshes if mesh not in stage.meshes]
+    sure = {FRAME, *(link for mesh in others for link in (mesh.a, mesh.b, mesh.carrier))}
+    sure |= {link for mesh in stage.meshes for link, size in _sides(mesh) if size < 0}
+    planets = {mate for link in sure for mate in mates.get(link, ())} - sure
+    found = sure & set(mates)
+    found |= {
+        link for link in mates if link not in planets and (len(mates[link]) == 1 or planets.issuperset(mates[link]))
+    }
+    for mesh in stage.meshes:
+        if {mesh.a, mesh.b} <= found:
+            found.discard(mesh.a if mesh.b in sure and mesh.a not in sure else mesh.b)
+    return found or {stage.meshes[0].a}
+
+
+def _sides(mesh: Mesh) -> tuple[tuple[str, float], ...]:
+    """Links with their wheels; one only where the second link slides."""
+    both = ((mesh.a, float(mesh.size_a)), (mesh.b, float(mesh.size_b)))
+    return both if mesh.kind in _FLAT else both[:1]
+
+
+def _distance(mesh: Mesh) -> float:
+    a, b = (abs(size) / 2 for _, size in _sides(mesh))
+    if mesh.kind in ("belt", "chain", "crossed"):
+        return _APART * (a + b)
+    return a + b if mesh.kind == "bevel" else abs(float(mesh.size_a + mesh.size_b)) / 2
+
+
+# --- axes ------------------------------------------------------------------------------------------
+
+
+def _place(stage: Stage) -> None:
+    """All axes, one after another, each beside those it meshes with."""
+    axes = stage.axes
+    axes |= dict.fromkeys(sorted(stage.central) or [stage.meshes[0].a], 0j)
+    flat = [mesh for mesh in stage.meshes if mesh.kind in _FLAT]
+    leads = _leads(stage, flat)
+    while left := [mesh for mesh in stage.meshes if any(link not in axes for link, _ in _sides(mesh))]:
+        near = next((mesh for mesh in flat if (mesh.a in axes) != (mesh.b in axes)), None)
+        if near is None:
+            axes[left[0].a] = _beside(stage, left[0])
+            continue
+        known, link = (near.a, near.b) if near.a in axes else (near.b, near.a)
+        circles = [
+            (axes[other], _distance(mesh))
+            for mesh in flat
+            for other in (mesh.a, mesh.b)
+            if link in (mesh.a, mesh.b) and other != link and other in axes
+        ]
+        if stage.central:
+            axes[link] = _around(circles, axes[known], leads.get(link, 0.0), near)
+        else:
+            axes[link] = _clear(stage, near, known, link)
+
+
+def _reach(stage: Stage) -> dict[str, float]:
+    """The greatest radius of each link."""
+    found: dict[str, float] = {}
+    for mesh in stage.meshes:
+        for link, size in _sides(mesh):
+            radius = abs(size) * _PER_SIZE.get(mesh.kind, 0.5)
+            found[link] = max(found.get(link, 0.0), radius)
+    return found
+
+
+def _beside(stage: Stage, mesh: Mesh) -> complex:
+    """To the right of all others, its lowest point as low as that of the first: a rack may lie below both."""
+    reach, radius = _reach(stage), abs(float(mesh.size_a))
+    first = next(iter(stage.axes))
+    right = max(at.real + reach.get(link, 0.0) for link, at in stage.axes.items())
+    return complex(right + 1.5 * radius, stage.axes[first].imag - reach.get(first, 0.0) + radius)
+
+
+def _leads(stage: Stage, flat: Sequence[Mesh]) -> dict[str, float]:
+    """The directions of the planets that mesh with a central wheel: evenly, with room for their copies."""
+    direct = dict.fromkeys(
+        one for mesh in flat for one, other in ((mesh.a, mesh.b), (mesh.b, mesh.a)) if other in stage.central
+    )
+    lone = [link for link in direct if link not in stage.central]
+    return {link: math.pi / 2 + math.tau * k / len(lone) / stage.copies for k, link in enumerate(lone)}
+
+
+def _around(circles: list[tuple[complex, float]], known: complex, lead: float, mesh: Mesh) -> complex:
+    """A planet's place on its circle about the hub, and at its distance from a planet that is there."""
+    hub = next((d for centre, d in circles if centre == 0), None)
+    beside = next(((centre, d) for centre, d in circles if centre != 0), None)
+    if hub is None:
+        outward = known / abs(known) if known else 1 + 0j
+        return known + outward * _distance(mesh)
+    if beside is None:
+        return cmath.rect(hub, lead)
+    centre, d = beside
+    cosine = (abs(centre) ** 2 + hub**2 - d**2) / (2 * abs(centre) * hub)
+    turn = math.acos(cosine) if abs(cosine) < 1 else math.radians(50)
+    return cmath.rect(hub, cmath.phase(centre) - turn)
+
+
+def _clear(stage: Stage, near: Mesh, known: str, link: str) -> complex:
+    """Beside the axis that is known, to the right if nothing is in the way."""
+    reach = _reach(stage)
+    start, d = stage.axes[known], _distance(near)
+    for direction in (1, -1j, 1j, -1):
+        place = start + d * direction
+        others = [one for one in stage.axes if one != known and one in reach]
+        if all(abs(stage.axes[one] - place) > reach[one] + reach[link] - _CLOSE for one in others):
+            return place
+    return start + d
+
+
+# --- wheels ----------------------------------------------------------------------------------------
+
+
+def _wheels(stage: Stage) -> None:
+    """A wheel for every side of a mesh, each once, its teeth where those of its partner leave room."""
+    made: dict[tuple[str, float, complex], Wheel] = {}
+    for mesh in stage.meshes:
+        sides = _sides(mesh)
+        for copy in range(stage.copies if stage.central else 1):
+            turn = cmath.exp(2j * math.pi * copy / stage.copies)
+            places = [
+                stage.axes[link] * (turn if stage.central and link not in stage.central else 1) for link, _ in sides
+            ]
+            apart, wanted = abs(places[-1] - places[0]), _distance(mesh) if len(sides) > 1 else 0.0
+            unit = apart / wanted if wanted > _CLOSE and apart > _CLOSE else 1.0
+            radii = [abs(size) * _PER_SIZE.get(mesh.kind, 0.5) * unit for _, size in sides]
+            keys = [
+                (link, round(radius, 6), complex(round(at.real, 6), round(at.imag, 6)))
+                for (link, _), radius, at in zip(sides, radii, places, strict=True)
+            ]
+            known = [made.get(key) for key in keys]
+            for k, ((link, size), radius, at) in enumerate(zip(sides, radii, places, strict=True)):
+                if known[k] is None and mesh.kind != "screw":
+                    mate = known[1 - k] if len(sides) > 1 else None
+                    phase = _phase(mate, size, at) if mate and mesh.kind == "gear" else 0.0
+                    planet = bool(stage.central) and link not in stage.central
+                    known[k] = made[keys[k]] = Wheel(link, size, radius, at, phase, planet)
+            stage.placed.append(Placed(mesh, places[0], places[-1], (radii[0], radii[-1])))
+    stage.wheels = list(made.values())
+
+
+def _phase(mate: Wheel, size: float, at: complex) -> float:
+    """The angle of a tooth, so that it stands in a space of its mate.
+
+    External: the teeth counted from the line of centres sum to a half; internal: they are the same.
+    """
+    towards = cmath.phase(at - mate.at) if at != mate.at else 0.0
+    a, b = abs(mate.size), abs(size)
+    if mate.size < 0 or size < 0:
+        line = towards if mate.size < 0 else cmath.phase(mate.at - at) if at != mate.at else 0.0
+        return line - a * (line - mate.phase) / b
+    other = towards + math.pi
+    return other - math.tau / b * (0.5 - a * (towards - mate.phase) / math.tau)

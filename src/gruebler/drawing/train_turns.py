@@ -1,0 +1,130 @@
+"""How long a gear train moves until everything repeats, and how far every link goes meanwhile; exact."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from gruebler.gears import GearError, Train, Unit, speeds
+
+__all__ = ["Course", "course_of"]
+
+_MOST = 100  # turns of the fastest link
+_TRAVEL = 2  # radii that a rack or a load goes at most
+_WHY = {
+    False: ("do not determine all speeds", "legen nicht alle Drehzahlen fest"),
+    True: ("contradict each other", "widersprechen einander"),
+}
+_THREADS = 4  # turns of a screw
+
+
+@dataclass(frozen=True)
+class Course:
+    """Rates of all links, and the time for which they are shown."""
+
+    rates: dict[str, Fraction]
+    """Turns in a unit of time; for links that slide length per radian or per turn, as the train counts it."""
+    per_radian: frozenset[str]
+    slides: frozenset[str]
+    drive: str
+    cycle: Fraction
+    """The time after which every link that turns has made whole turns."""
+    time: Fraction
+    """What is shown: the cycle, or less; where links slide so long that the fastest makes a turn, then back."""
+    seconds: float
+    chosen: tuple[str, ...] = ()
+    """What is driven and held, if that was not told."""
+
+    def turns(self, link: str) -> float:
+        """How many turns a link makes in the time that is shown; the frame none."""
+        return float(self.rates.get(link, Fraction(0)) * self.time)
+
+    def way(self, link: str) -> float:
+        """How far a link slides in that time."""
+        return self.turns(link) * (math.tau if link in self.per_radian else 1.0)
+
+    @property
+    def drive_turns(self) -> Fraction:
+        """Of the drive, for telling where it is."""
+        return abs(self.rates[self.drive] * self.time)
+
+
+def course_of(train: Train, drives: Mapping[str, object], seconds: float, most: int = _MOST) -> Course:
+    """The course of a train with given speeds, or with speeds chosen if none are given.
+
+    ``seconds`` are for a turn of the fastest link, or, if links slide, for there and back; the fastest link makes at
+    most so many turns.
+
+    >>> from gruebler.gears import read_train
+    >>> course = course_of(read_train("sun:24 planet:18 ring:-60 on arm").train, {"sun": 7, "ring": 0}, 2.0)
+    >>> course.cycle, course.seconds, {link: course.turns(link) for link in ("sun", "arm")}
+    (Fraction(3, 1), 42.0, {'sun': 21.0, 'arm': 6.0})
+    """
+    given = dict(drives) or _chosen(train)
+    found = speeds(train, given)
+    if not found.complete:
+        wrong = [one.link for one in found.contradictions]
+        links = ", ".join(wrong or found.free)
+        why, warum = _WHY[bool(wrong)]
+        raise GearError(
+            f"the drives {why}, so nothing can be shown: {links}",
+            f"die Antriebe {warum}, nichts ist zu zeigen: {links}",
+        )
+    rates = {link: value or Fraction(0) for link, value in found.values.items()}
+    units = train.units()
+    turning = {link: rate for link, rate in rates.items() if units[link] == Unit.TURNING}
+    slides = frozenset(link for link in rates if link not in turning and rates[link])
+    fastest = max((abs(rate) for rate in turning.values()), default=Fraction(0))
+    if not fastest:
+        raise GearError("nothing turns with these drives", "mit diesen Antrieben dreht sich nichts")
+    drive = next((link for link in given if turning.get(link)), None) or max(turning, key=lambda k: abs(turning[k]))
+    moving = [abs(rate) for rate in turning.values() if rate]
+    cycle = Fraction(math.lcm(*(rate.denominator for rate in moving)), math.gcd(*(rate.numerator for rate in moving)))
+    turn = 1 / abs(turning[drive])
+    if slides:
+        time, takes = _there(train, rates, fastest), seconds
+    else:
+        longest = most / fastest
+        time = cycle if cycle <= longest else max(turn, longest // turn * turn)
+        takes = float(time * fastest) * seconds
+    per_radian = frozenset(link for link in rates if units[link] == Unit.PER_RADIAN)
+    return Course(rates, per_radian, slides, drive, cycle, time, takes, () if drives else tuple(given))
+
+
+def _there(train: Train, rates: Mapping[str, Fraction], fastest: Fraction) -> Fraction:
+    """For how long links slide one way: not far against their wheels, and a turn of the fastest link at most."""
+    times = [1 / fastest]
+    for mesh in train.meshes:
+        rate = abs(rates.get(mesh.b, Fraction(0)))
+        if mesh.kind == "screw" and rate:
+            times = [_THREADS / fastest, *times[1:]]
+        elif mesh.kind in ("rack", "winch") and rate:
+            times.append((_TRAVEL * abs(mesh.size_a) / rate / Fraction(math.tau)).limit_denominator(360))
+        elif mesh.kind == "rack by pitch" and rate:
+            times.append((_TRAVEL * abs(mesh.size_a) / Fraction(math.tau) / rate).limit_denominator(360))
+    return min(time for time in times if time > 0)
+
+
+def _chosen(train: Train) -> dict[str, int]:
+    """The first link that can turn drives; others are held, last ones first, until every speed is determined."""
+    units = train.units()
+    order = [link for link in train.links if units[link] == Unit.TURNING]
+    carriers = {mesh.carrier for mesh in train.meshes}
+    rings = {link for mesh in train.meshes for link, size in ((mesh.a, mesh.size_a), (mesh.b, mesh.size_b)) if size < 0}
+    ends = [link for mesh in train.meshes if mesh.carrier != "frame" for link in (mesh.a, mesh.b)]
+    first = next((link for link in order if not speeds(train, {link: 1}).contradictions), None)
+    if first is None:
+        raise GearError("nothing can turn in this train", "in diesem Getriebe kann sich nichts drehen")
+    given: dict[str, int] = {first: 1}
+    rest = sorted(
+        (link for link in reversed(order) if link != first),
+        key=lambda link: (link not in rings, ends.count(link) > 1, link in carriers),
+    )
+    for link in [*rest, *(one for one in train.links if units[one] != Unit.TURNING)]:
+        if not speeds(train, given).free:
+            break
+        if link in speeds(train, given).free:
+            given[link] = 0
+    return given
