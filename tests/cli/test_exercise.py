@@ -100,3 +100,9 @@ def test_tables(capsys, name):
     assert (status, err) == (0, "")
     assert out.splitlines()
     assert json.loads(run(capsys, "table", name, "--json")[1])[0]["rows"]
+
+
+def test_an_answer_is_given_once(capsys):
+    status, _, err = run(capsys, "exercise", "check", "6", "F=2", "F=1")
+    assert status == 2
+    assert "F is answered twice" in err

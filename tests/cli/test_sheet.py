@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import re
 
 import pytest
 
@@ -53,7 +54,7 @@ def test_show_as_json(capsys):
     assert status == 0
     assert found["features"]["links_by_joints"] == {"2": 4}
     assert found["dimensions"][1]["exact"] == "5/2*sqrt(3)"
-    assert [row["symbol"] for row in found["quantities"] if not row["as_printed"]] == ["cos ψ_II", "l₄*"]
+    assert [row["symbol"] for row in found["quantities"] if not row["as_printed"]] == ["l₄*"]
     assert len(found["diagram"]["phi_G_deg"]) == len(found["diagram"]["ratio"]) == len(found["diagram"]["length"])
 
 
@@ -99,7 +100,10 @@ def test_draw_to_standard_output(capsys):
         (("guidance", "--lambda", "0.7", "--kappa", "20"), 2, "one of --lambda and --kappa"),
         (("guidance", "--phi0", "50"), 2, "--phi0 goes with --lambda"),
         (("guidance", "--kappa", "20", "--phi0", "50"), 2, "leave --phi0 out"),
-        (("guidance", "--kappa", "95"), 2, "from 0 to below 90 degrees"),
+        (("guidance", "--kappa", "95"), 2, "from 0 to 88.78 degrees"),
+        (("guidance", "--kappa", "89.9999999"), 2, "from 0 to 88.78 degrees"),
+        (("guidance", "--lambda", "0.5000000000000001"), 2, "no finite length"),
+        (("guidance", "--diameter", "3"), 2, "goes with --lambda or --kappa"),
         (("guidance", "watt", "--kappa", "20"), 2, "without name and task"),
         (("guidance", "--lambda", "0.7", "--diameter", "-1"), 2, "D must be positive"),
         (("guidance", "--length", "5", "--tolerance", "1"), 2, "give its name"),
@@ -128,13 +132,13 @@ def test_construction(capsys):
     assert status == 0
     row = next(line for line in out.splitlines() if line.startswith("Ersatzgetriebe")).split()
     assert row[1:] == [
-        "1.000000",
-        "4.898979",
-        "4.898979",
-        "5.000000",
-        "9.000000",
-        "4.898979",
-        "23.283732°",
+        "1,000000",
+        "4,898979",
+        "4,898979",
+        "5,000000",
+        "9,000000",
+        "4,898979",
+        "23,283732°",
         "Kurbelschwinge",
     ]
     both = json.loads(run(capsys, "guidance", "--kappa", "20", "--json")[1])
@@ -150,3 +154,21 @@ def test_guidance_sized(capsys):
     found = json.loads(run(capsys, "guidance", "hart", "--length", "1", "--tolerance", "0.1", "--json")[1])
     assert found["contact"] is None
     assert abs(found["sized"]["factor"] - 1 / found["length"]) < 1e-12
+
+
+def test_in_german_numbers_links_and_sources_are_german(capsys):
+    out = run(capsys, "guidance", "lambda", "--length", "15cm", "--tolerance", "0.75mm", "--lang", "de")[1]
+    assert "Längen: Gestell = 7,5; Kurbel = 3,75; Koppel = 9,375; Schwinge = 9,375 cm." in out
+    assert "4,000000" in out
+    hart = run(capsys, "guidance", "hart", "--length", "1", "--tolerance", "0.1", "--lang", "de")[1]
+    assert "Lang1 D(Gestell-Lang1)-D(Lang1-Kurz2)" in hart
+    for text in (out, hart, run(capsys, "guidance", "--kappa", "45", "--lang", "de")[1]):
+        assert not re.search(r"\d\.\d|frame|crank|lambda =", text)
+    for arguments in (("show", "lambda"), ("list",)):
+        assert "000/003, Abschnitt 3.5.4 und Aufgabe 20" in run(capsys, "sheet", *arguments, "--lang", "de")[1]
+
+
+def test_an_angle_of_45_degrees_has_one_linkage(capsys):
+    status, out, err = run(capsys, "guidance", "--kappa", "45")
+    assert (status, err) == (0, "")
+    assert out.count("6 points") == 1

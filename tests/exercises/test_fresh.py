@@ -129,9 +129,13 @@ def test_words_as_answers():
     ("answers", "words"),
     [
         ({"HH": "40"}, "does not ask for 'HH'; did you mean 'H'"),
-        ({"H": "forty"}, "expected a number, not 'forty'"),
+        ({"H": "forty"}, "expected a number in mm, not 'forty'"),
         ({"H": "nan"}, "expected a number"),
         ({"H": "inf"}, "expected a number"),
+        ({"H": "1e9999"}, "expected a number"),
+        ({"H": "0e9999"}, "expected a number"),
+        ({"H": "40 kg"}, "expected a number in mm"),
+        ({"H": "±40"}, "expected a number in mm"),
     ],
 )
 def test_wrong_calls(answers, words):
@@ -156,3 +160,72 @@ def test_keys_on_every_keyboard():
         keys = [plain_key(key) for key in solve(fresh(kind, 3, 3)).results]
         assert len(set(keys)) == len(keys)
         assert all(key.isascii() for key in keys)
+
+
+@pytest.mark.parametrize(
+    ("id", "key", "answer"),
+    [
+        ("dead-centre-1-7", "H", "60 mm"),
+        ("dead-centre-1-7", "l_a", "13cm"),
+        ("dead-centre-1-7", "l_a", "0.13 m"),
+        ("15", "H", "7.2 cm"),
+        ("15", "H", "7,2"),  # as it is printed
+        ("15", "H", "71.7"),
+        ("11", "phi_H2", "78,5°"),
+        ("11", "phi_H2", "78.5 deg"),
+        ("11", "phi_H2", "1.3694 rad"),
+        ("11", "phi_H2", "-78.5"),
+        ("11", "phi_H2", "± 78,5"),
+        ("3.2.2-eccentric", "T_min", "0.0848 s"),
+    ],
+)
+def test_answers_with_units(id, key, answer):
+    assert mark(exercise(id), {key: answer})[0].mark is Mark.RIGHT
+
+
+def test_a_unit_counts():
+    assert mark(exercise("15"), {"H": "7.2 mm"})[0].mark is Mark.WRONG
+    with pytest.raises(GrueblerError, match="without a unit"):
+        mark(exercise("6"), {"F": "1 mm"})
+
+
+def test_the_task_tells_the_unit():
+    assert "(in mm)" in task_text(exercise("15"), "en", solve(exercise("15")))
+    assert "(in °)" in task_text(exercise("11"), "de", solve(exercise("11")))
+
+
+def test_a_table_is_no_answer():
+    with pytest.raises(GrueblerError, match="exercise-16 is answered by a table"):
+        mark(exercise("16"), {"K": "1"})
+
+
+def test_counts_get_no_hints_for_lengths():
+    (one,) = mark(exercise("6"), {"F": "2"})
+    assert (one.mark, one.hint) == (Mark.WRONG, None)
+
+
+@pytest.mark.parametrize("seed", [27, 28, 35])
+def test_strokes_that_are_nearly_twice_the_crank_are_not_asked(seed):
+    task = fresh("dead-centre", seed, 2)
+    assert mark(task, {"H": number(2 * task.given["a"])})[0].mark is not Mark.RIGHT
+
+
+def test_dyads_are_of_many_kinds():
+    made = [fresh("dyad", seed, level) for seed in range(15) for level in LEVELS]
+    assert len({str(sorted(task.given.items())) for task in made}) > 30
+    assert {task.given.get("form") for task in made} == {None, "RRR", "RPR", "RRP"}
+    for task in made[:9]:
+        assert all(check.holds for check in solve(task).checks)
+
+
+def test_some_four_bars_are_change_points():
+    kinds = {
+        solve(fresh("grashof", seed, 1))["sum_ends"] == solve(fresh("grashof", seed, 1))["sum_others"]
+        for seed in range(20)
+    }
+    assert kinds == {True, False}
+
+
+def test_the_inner_dead_centre_is_told_only_where_it_may_be_meant():
+    assert "v_B_i" not in solve(fresh("velocity", 1, 1)).results
+    assert "v_B_i" in solve(exercise("21")).results

@@ -28,10 +28,12 @@ from gruebler.exercises import (
     solve,
     straight_guides,
     task_text,
+    transfer,
     transmission_angle,
     velocities,
 )
 from gruebler.exercises.solution import filled, number
+from gruebler.linkages import FourBar
 
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text(encoding="utf-8"))
 B1, B4, C = REFERENCE["B1"], REFERENCE["B4"], REFERENCE["C"]
@@ -75,7 +77,9 @@ def test_exercises_of_the_documents():
     numbers = {id.removeprefix("exercise-") for id in all_exercises() if id.startswith("exercise-")}
     assert numbers == {*map(str, range(1, 22)), "5b"}
     examples = [id for id in all_exercises() if id.startswith("example-")]
-    assert {id.split("-")[1] for id in examples} == {"2.3", "2.6", "3.2.1", "3.2.2", "3.3", "3.4", "3.5.4", "3.6.2"}
+    assert {id.split("-")[1] for id in examples} == {
+        *("2.3", "2.5", "2.6", "3.2.1", "3.2.2", "3.3", "3.4", "3.5.4", "3.6.1", "3.6.2"),
+    }
     differing = {
         (task.id, one.asked.key)
         for task in all_exercises().values()
@@ -410,6 +414,17 @@ def test_any_slider_velocity_is_solved_by_both_ways(a, b, phi, e):
         (lambda: straight_guides.watt_linkage(60, 30, -90), "cannot reach"),
         (lambda: straight_guides.double_rocker(30, 80, 60, 100, 60, frame=0), "cannot reach"),
         (lambda: velocities.four_bar(100, 10, 20, 30, 55, 10), "cannot be assembled"),
+        (lambda: velocities.four_bar(25, 70, 40, 70, 55, 0), "at ω = 0 nothing moves"),
+        (lambda: dead_centres.stroke_table(20, b=50, step=0), "step of the table"),
+        (lambda: dead_centres.stroke_table(20, b=50, step=-30), "step of the table"),
+        (lambda: dead_centres.stroke_middle(20, 9), "does not turn"),
+        (lambda: dead_centres.stroke_middle(20, ratio=0), "lambda must be positive"),
+        (lambda: straight_guides.lambda_linkage(20, 50, 50, 40, 50, step=0), "step of the table"),
+        (lambda: coupler_points.conchoid(50, 50, 90), "runs through B0"),
+        (lambda: transfer.gear_pair(0), "i must be positive"),
+        (lambda: transfer.gear_pair(-2), "i must be positive"),
+        (lambda: transfer.gear_pair(2, step=0), "step of the table"),
+        (lambda: transmission_angle.slider_crank(20, 0), "b must be positive"),
     ],
 )
 def test_impossible_quantities_are_refused(call, words):
@@ -502,3 +517,117 @@ def test_the_list_of_misprints_is_true():
         if one.agrees is False
     }
     assert told == found
+
+
+# --- what checks what, and what is said --------------------------------------------------------------
+
+CHECKED = [
+    ("2", "Largest difference of s in the table"),
+    ("15", "Largest difference of s in the table"),
+    ("15", "l_a of the solved motion"),
+    ("15", "l_i of the solved motion"),
+    ("15", "φ_a, the crank's inclination there"),
+    ("15", "φ_i, the crank's inclination there"),
+    ("17", "Ratio of the times"),
+    ("17", "Crank angle of the dead centres"),
+    ("17", "Length of this stretch"),
+    ("18", "Stroke, by the general solver"),
+    ("18", "Points in common"),
+    ("19", "L, by the general solver"),
+    ("19", "Δ, by the general solver"),
+    ("19", "is the limit (1) or not (0)"),
+    ("20", "L, by the general solver"),
+    ("20", "Δ, by the general solver"),
+    ("14", "Largest transmission angle"),
+    ("14", "μ_II, by the general solver"),
+    ("example-3.4-four-bar", "μ_I, by the general solver"),
+    ("example-3.4-four-bar", "μ_II, by the general solver"),
+    ("9", "Double crank up to"),
+]
+
+
+@pytest.mark.parametrize(("id", "words"), CHECKED)
+def test_what_is_found_is_checked(id, words):
+    found = [check for check in solve(exercise(id)).checks if words in check.text.en]
+    assert found
+    assert all(check.holds for check in found)
+
+
+def _german(id):
+    return solution_text(exercise(id), solve(exercise(id)), "de")
+
+
+def test_examples_of_formulas():
+    """F = 6 (4 - 1) - (5 + 3 + 3 + 5); the pole is where crank and rocker meet; i by differences of the output."""
+    assert solve(exercise("2.5"))["F"] == 2
+    pole = solve(exercise("3.6.1"))
+    assert pole["P_x"] == pytest.approx(0, abs=1e-9)  # the crank is upright
+    assert pole["v_BA"] == pytest.approx(70 * abs(pole["ω_b"]))
+    size, step = FourBar(20, 50, 40, 50), 1e-5
+    before, after = (float(size.motion(np.radians(60) + side * step).output.value) for side in (-1, 1))
+    assert solve(exercise("3.4-ratio"))["i"] == pytest.approx(2 * step / (after - before), rel=1e-7)
+
+
+def test_watt_with_a_long_coupler():
+    """Where F has not left the strip within 28 degrees at both ends."""
+    long = straight_guides.watt_linkage(60, 600)
+    assert all(check.holds for check in long.checks)
+    assert long.number("stroke") > 60
+
+
+def test_watt_has_five_points():
+    """As `gruebler guidance watt` tells."""
+    assert solve(exercise("18"))["n"] == 5
+    assert "5-punktig" in _german("18")
+    assert "sechspunktig" not in _german("18")
+
+
+def test_the_frame_of_exercise_19_is_nearly_the_straightest():
+    """By the width of the strip: the best three whole degrees."""
+    bands = {}
+    for frame in range(-60, -34):
+        try:
+            bands[frame] = straight_guides.double_rocker(30, 80, 60, 100, 60, frame=frame)
+        except LinkageError:
+            continue
+    ratio = {frame: s.number("band") / s.number("length") for frame, s in bands.items()}
+    assert -47 in sorted(ratio, key=ratio.get)[:3]
+
+
+def test_the_double_crank_is_told_with_its_formula():
+    text = solution_text(exercise("9"), solve(exercise("9")))
+    assert "d' = a + c - b = 40 + 70 - 100 = 10 mm" in text
+    assert "not asked" not in text
+
+
+@pytest.mark.parametrize(
+    ("id", "words"),
+    [
+        ("11", "φ_H2 = ± arccos(a/(2·b)) = ± arccos(20/(2·50)) = ± 78,463°"),
+        ("17", "C 32,559 mm weit, von φ = 53,19° bis 124,42°"),
+        ("19", "L = 36,2295 mm"),
+        ("3.5.4-scott-russell", "C_x = 0, C_y = 2·a·sin φ"),
+        ("14", "Wegen a = e berührt das Gelenk A"),
+        ("3", "D(1-5) D(5-6) D(6-2)"),
+        ("3", "[gedruckt unverändert: stimmt]"),
+        ("4", "[gedruckt um eins erniedrigt: stimmt]"),
+        ("2", "zentrischen Schubkurbel"),
+        ("3.2.2-eccentric", "T = (60000 ms/min)/n = (60000 ms/min)/(300/min) = 200 ms"),
+        ("3.2.2-eccentric", "= 207,287°/360°·200 ms"),
+        ("2", "Äußere Totlage"),
+    ],
+)
+def test_words_of_a_solution(id, words):
+    assert words in _german(id)
+
+
+def test_links_are_listed_with_commas():
+    task = exercise("mobility-1-3")
+    text = solution_text(task, solve(task), "de")
+    assert re.search(r"Glieder: 1, 2, 3, 4", text)
+
+
+def test_lines_begin_with_capitals():
+    for task in all_exercises().values():
+        for line in solution_text(task, solve(task), "de").split("Lösungsweg:")[1].splitlines():
+            assert not re.match(r"\s*(\d+\. |  )[a-zäöü][a-zäöüß]{2,}\b", line), line

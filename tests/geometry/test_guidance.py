@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
-from gruebler.geometry import coupler_path, piece_of_ratio
+from gruebler.geometry import coupler_path, longest_piece, piece, piece_of_ratio
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.guidance import GUIDANCES, guidance
-from gruebler.geometry.sizing import Window, ratio_curve, sized, widest_piece
+from gruebler.geometry.sizing import Window, longest_in_band, ratio_curve, sized, widest_piece
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar
+from gruebler.linkages import FourBar, InvertedSliderCrank
 
 KAPPA = math.radians(15.79316904826399)
 LENKER = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)
@@ -180,3 +180,19 @@ def test_refusals():
         widest_piece(LENKER, WHOLE, 1e-30)
     with pytest.raises(LinkageError, match="no point"):
         ratio_curve(coupler_path(FourBar(40, 70, 25, 70), 45, 40), WHOLE)
+
+
+def test_the_longest_piece_between_samples():
+    """Conchoid of exercise 17: just fills the band, and begins where neither earlier nor later is better."""
+    path = coupler_path(InvertedSliderCrank(30, 50), 90, 0)
+    found, sampled = longest_in_band(path, 0.0, math.pi, 0.5), longest_piece(path, 0.0, math.pi, 0.5, 361)
+    assert math.isclose(found.band, 0.5, rel_tol=1e-6)
+    assert sampled.length < found.length < sampled.length * 1.01
+    assert abs(found.length - 32.559) < 1e-3
+    for off in (-1e-3, 1e-3):  # as long from elsewhere is wider
+        other = next(
+            one
+            for stop in np.arange(found.end - 0.01, found.end + 0.02, 2e-5)
+            if (one := piece(path, found.start + off, stop, samples=201)).length >= found.length
+        )
+        assert other.band > 0.5

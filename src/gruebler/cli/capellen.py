@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from gruebler.cli.measured import in_language
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.geometry.meyer_zur_capellen import CouplerLever, SymmetricRocker, lambdas_for, symmetric_rocker
@@ -16,17 +17,17 @@ __all__ = ["run"]
 
 _WORDS: dict[str, dict[str, Any]] = {
     "en": {
-        "headers": ("", "l1", "l2", "l3", "l4", "k", "l", "kappa", "type"),
+        "headers": ("", "l1", "l2", "l3", "l4", "k", "l", "κ", "type"),
         "rocker": "double rocker",
         "replacement": "replacement",
-        "about": "lambda = {ratio:.9g}, phi0 = {phi0:.6f}°, D = {diameter:g}: tangent touched in {points} points, "
+        "about": "λ = {ratio:.9g}, φ0 = {phi0:.6f}°, D = {diameter:g}: tangent touched in {points} points, "
         "y = {coefficient:.6g} x^{points}.",
     },
     "de": {
-        "headers": ("", "l1", "l2", "l3", "l4", "k", "l", "kappa", "Typ"),
+        "headers": ("", "l1", "l2", "l3", "l4", "k", "l", "κ", "Typ"),
         "rocker": "Doppelschwinge",
         "replacement": "Ersatzgetriebe",
-        "about": "lambda = {ratio:.9g}, phi0 = {phi0:.6f}°, D = {diameter:g}: {points}-punktig berührende Tangente, "
+        "about": "λ = {ratio:.9g}, φ0 = {phi0:.6f}°, D = {diameter:g}: {points}-punktig berührende Tangente, "
         "y = {coefficient:.6g} x^{points}.",
     },
 }
@@ -42,7 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
     for number, one in enumerate(made):
         found = one.contact()
         print("\n" * (number > 0), end="")
-        print(words["about"].format(**_about(one), points=found.points, coefficient=found.coefficient))
+        said = words["about"].format(**_about(one), points=found.points, coefficient=found.coefficient)
+        print(in_language(said, arguments.lang))
         rows = [_row(words[key], lever, arguments.lang) for key, lever in _levers(one)]
         print_table(words["headers"], rows, numbers=range(1, 8))
     return 0
@@ -50,15 +52,16 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _made(arguments: argparse.Namespace) -> Sequence[SymmetricRocker]:
     phi0 = None if arguments.phi0 is None else math.radians(arguments.phi0)
+    diameter = 1.0 if arguments.diameter is None else arguments.diameter
     if arguments.ratio is not None:
         if arguments.kappa is not None:
             raise GrueblerError("kappa follows from lambda: give one of --lambda and --kappa")
-        return [symmetric_rocker(arguments.ratio, phi0, arguments.diameter)]
+        return [symmetric_rocker(arguments.ratio, phi0, diameter)]
     if arguments.kappa is None:
         raise GrueblerError("--phi0 goes with --lambda")
     if phi0 is not None:
         raise GrueblerError("--kappa asks for contact in six points, which fixes phi0: leave --phi0 out")
-    return [symmetric_rocker(ratio, None, arguments.diameter) for ratio in lambdas_for(math.radians(arguments.kappa))]
+    return [symmetric_rocker(ratio, None, diameter) for ratio in lambdas_for(math.radians(arguments.kappa))]
 
 
 def _levers(one: SymmetricRocker) -> tuple[tuple[str, CouplerLever], ...]:
@@ -71,8 +74,8 @@ def _lengths(lever: CouplerLever) -> dict[str, float]:
 
 
 def _row(name: str, lever: CouplerLever, lang: str) -> tuple[str, ...]:
-    lengths = (f"{length:.6f}" for length in _lengths(lever).values())
-    return name, *lengths, f"{math.degrees(lever.kappa):.6f}°", lever.size.type.name(lang)
+    values = [*(f"{length:.6f}" for length in _lengths(lever).values()), f"{math.degrees(lever.kappa):.6f}°"]
+    return name, *(in_language(value, lang) for value in values), lever.size.type.name(lang)
 
 
 def _about(one: SymmetricRocker) -> dict[str, float]:

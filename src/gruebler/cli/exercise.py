@@ -90,6 +90,8 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
         key, equals, answer = word.partition("=")
         if not equals or not key.strip() or not answer.strip():
             raise GrueblerError(f"an answer is written KEY=ANSWER, such as H=40, not {word!r}")
+        if plain_key(key.strip()) in map(plain_key, answers):
+            raise GrueblerError(f"{key.strip()} is answered twice: give one answer for each")
         answers[key.strip()] = answer
     marks = mark(task, answers)
     right = all(one.mark is Mark.RIGHT for one in marks)

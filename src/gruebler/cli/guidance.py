@@ -5,10 +5,11 @@ from __future__ import annotations
 import argparse
 import json
 import math
+import re
 from typing import Any
 
 from gruebler.cli import capellen
-from gruebler.cli.measured import length_of, same_unit
+from gruebler.cli.measured import in_language, length_of, same_unit
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
@@ -16,6 +17,18 @@ from gruebler.geometry.sizing import Sizing
 
 __all__ = ["run"]
 
+_GERMAN = {
+    "frame": "Gestell",
+    "crank": "Kurbel",
+    "coupler": "Koppel",
+    "rocker": "Schwinge",
+    "slider": "Schieber",
+    "block": "Gleitstein",
+    "arm": "Arm",
+    "bar": "Stab",
+    "long": "Lang",
+    "short": "Kurz",
+}
 _WORDS: dict[str, dict[str, Any]] = {
     "en": {
         "headers": ("name", "finder", "n", "kind", "contact", "length", "band", "Q_G", "drive"),
@@ -50,6 +63,8 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.name is not None or task:
             raise GrueblerError("--lambda, --kappa and --phi0 construct a linkage: they go without name and task")
         return capellen.run(arguments)
+    if arguments.diameter is not None:
+        raise GrueblerError("--diameter is that of a construction: it goes with --lambda or --kappa")
     if arguments.name is None:
         if task:
             raise GrueblerError("a size is found for one linkage: give its name")
@@ -71,7 +86,8 @@ def run(arguments: argparse.Namespace) -> int:
     print_table(words["headers"], [_row(one, arguments.lang)], numbers=(2, 5, 6, 7))
     print(f"\n{words['proportions'].format(text=one.proportions.said(arguments.lang))}")
     if one.contact:
-        print(words["contact"].format(at=round(one.degrees[1], 4), n=one.contact.points, c=one.contact.coefficient))
+        said = words["contact"].format(at=round(one.degrees[1], 4), n=one.contact.points, c=one.contact.coefficient)
+        print(in_language(said, arguments.lang))
     if task and found:
         _say_size(one, found, task, arguments.lang)
     return 0
@@ -90,16 +106,19 @@ def _task(arguments: argparse.Namespace) -> tuple[float, float, str] | None:
 def _row(one: Guidance, lang: str) -> tuple[str, ...]:
     words = _WORDS[lang]
     start, _, end = one.degrees
+    numbers = (
+        f"{one.piece.length:.6f}",
+        "0" if one.is_exact else f"{one.piece.band:.6f}",
+        "0" if one.is_exact else f"{one.piece.ratio:.6f}",
+        f"{round(start, 2):g}° ... {round(end, 2):g}°",
+    )
     return (
         one.key,
         one.name.said(lang),
         str(one.linkage.mechanism.chain.n),
         words["exact" if one.is_exact else "approximate"],
         words["points"].format(n=one.contact.points) if one.contact else "",
-        f"{one.piece.length:.6f}",
-        "0" if one.is_exact else f"{one.piece.band:.6f}",
-        "0" if one.is_exact else f"{one.piece.ratio:.6f}",
-        f"{round(start, 2):g}° ... {round(end, 2):g}°",
+        *(in_language(number, lang) for number in numbers),
     )
 
 
@@ -115,9 +134,18 @@ def _say_size(one: Guidance, found: Sizing, task: tuple[float, float, str], lang
         end=math.degrees(found.piece.end),
         used=found.piece.length,
     )
-    print(said)
-    lengths = ", ".join(f"{name} = {value:.6g}" for name, value in _lengths(one, found.factor).items())
-    print(words["lengths"].format(text=lengths + (f" {unit}" if unit else "")))
+    print(in_language(said, lang))
+    lengths = ("; " if lang == "de" else ", ").join(
+        f"{_named(name, lang)} = {value:.6g}" for name, value in _lengths(one, found.factor).items()
+    )
+    print(in_language(words["lengths"].format(text=lengths + (f" {unit}" if unit else "")), lang))
+
+
+def _named(key: str, lang: str) -> str:
+    """A length's key with the links in a language."""
+    if lang != "de":
+        return key
+    return re.sub(r"[a-z]+", lambda match: _GERMAN.get(match[0], match[0]), key).replace("R(", "D(")
 
 
 def _lengths(one: Guidance, factor: float) -> dict[str, float]:

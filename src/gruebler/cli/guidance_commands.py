@@ -34,7 +34,7 @@ def add(commands: Any) -> None:
     )
     guidance.add_argument("--kappa", type=float, metavar="DEG", help="the line's angle against the frame: both lambda")
     guidance.add_argument(
-        "--diameter", type=float, default=1.0, metavar="D", help="of the inflection circle (default: 1)"
+        "--diameter", type=float, metavar="D", help="with --lambda or --kappa: of the inflection circle (default: 1)"
     )
     guidance.add_argument("--json", action="store_true", help="as JSON")
     guidance.add_argument("--lang", choices=("en", "de"), default="en", help="language of the output (default: en)")

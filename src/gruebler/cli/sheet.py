@@ -63,13 +63,16 @@ def _list(arguments: argparse.Namespace) -> None:
             {
                 "id": one.id,
                 "title": {lang: one.record.title.said(lang) for lang in ("en", "de")},
-                "source": one.record.source,
+                "source": one.record.source.said("en"),
             }
             for one in sheets().values()
         ]
         _print_json(items)
         return
-    rows = [(one.id, one.record.title.said(arguments.lang), one.record.source) for one in sheets().values()]
+    rows = [
+        (one.id, one.record.title.said(arguments.lang), one.record.source.said(arguments.lang))
+        for one in sheets().values()
+    ]
     print_table(_WORDS[arguments.lang]["list"], rows)
 
 
@@ -95,7 +98,7 @@ def _show(one: Sheet, arguments: argparse.Namespace) -> int:
         return int(bool(one.wrong))
     lang, words = arguments.lang, _WORDS[arguments.lang]
     title = f"{one.record.title.said(lang)} ({one.id})"
-    print(title, "-" * len(title), f"{words['source']}: {one.record.source}", sep="\n")
+    print(title, "-" * len(title), f"{words['source']}: {one.record.source.said(lang)}", sep="\n")
     for task in one.record.tasks:
         print(f"- {task.said(lang)}")
     print()
@@ -117,6 +120,8 @@ def _row(told: Told, lang: str) -> tuple[str, ...]:
     remark = "" if told.printed is None or told.of else words["right"]
     if told.reason is not None:
         remark = told.reason.said(lang)
+    elif told.remark is not None:
+        remark += f"; {told.remark.said(lang)}"
     whole = told.exact is not None and told.exact.text.isdigit()
     printed = told.printed.typeset if told.printed and not told.of else ""
     return (
@@ -134,7 +139,7 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
     return {
         "id": one.id,
         "title": one.record.title.said(lang),
-        "source": one.record.source,
+        "source": one.record.source.said("en"),
         "tasks": [task.said(lang) for task in one.record.tasks],
         "mechanism": str(one.linkage.mechanism),
         "features": {

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import cmath
-from math import acos, asin, degrees, pi
+from math import acos, asin, degrees, isclose, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.catalog import Text
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, angle, number
-from gruebler.geometry import coupler_path, longest_piece
+from gruebler.exercises.solution import Solution, Way, angle, as_step, number
+from gruebler.geometry import Path, coupler_path, linkage_path, piece
+from gruebler.geometry.sizing import longest_in_band
 from gruebler.kinematics import degrees as turns
 from gruebler.kinematics import measures, move
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage
@@ -20,6 +21,8 @@ __all__ = ["conchoid", "four_bar"]
 
 Reals = NDArray[np.float64]
 
+STRIP = 1e-6
+"""Tolerance of the width of a strip: its direction comes from samples."""
 PATH = Text("Path of the coupler point", "Koppelkurve")
 BY_SOLVER = (
     "Largest distance of the path from that of the general solver",
@@ -62,6 +65,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     if "a" not in size.turning:
         raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
     chosen = _read_points(points)
+    as_step(step)
     way = Way(unit)
     way.say(
         "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that of radius "
@@ -97,6 +101,9 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     [30.0, 102.317779, -32.672422, 28.318259]
     """
     size = InvertedSliderCrank(a, d)
+    if isclose(a, d):
+        raise LinkageError(f"with a = d = {d:g} the joint A runs through B0, where the coupler has no direction")
+    as_step(step)
     way = Way(unit)
     way.say(
         "The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:",
@@ -113,12 +120,21 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     way.table(PATH, [*headers("φ [°]", "C_x", "C_y", "|AB0|"), Text("direction [°]", "Richtung [°]")], rows)
     if a < d:
         _add_swing(way, size)
-    found = longest_piece(coupler_path(size, b, 0), 0.0, pi, band=b / 180, samples=721)
-    en, de = f"a band of {number(b / 180)} {unit}", f"einem Streifen von {number(b / 180)} {unit}"
+    points = np.array([row[1:3] for row in rows])
+    check_path(way, size.linkage({"C": (b, 0)}), drives, points, "+")
+    _add_straight(way, coupler_path(size, b, 0), linkage_path(size.linkage({"C": (b, 0)}), "C"), b / 180)
+    return way.done()
+
+
+def _add_straight(way: Way, path: Path, by_solver: Path, band: float) -> None:
+    """The longest stretch that keeps within a band."""
+    unit = way.unit
+    found = longest_in_band(path, 0.0, pi, band)
+    en, de = f"a band of {number(band)} {unit}", f"einem Streifen von {number(band)} {unit}"
     way.say(
-        f"Nearly straight: within {en} C runs {number(found.length)} {unit} far, from φ = {degrees(found.start):.2f}° "
+        f"Nearly straight: within {en} C runs {found.length:.3f} {unit} far, from φ = {degrees(found.start):.2f}° "
         f"to {degrees(found.end):.2f}°.",
-        f"Angenähert gerade: In {de} Breite läuft C {number(found.length)} {unit} weit, von φ = "
+        f"Angenähert gerade: In {de} Breite läuft C {found.length:.3f} {unit} weit, von φ = "
         f"{degrees(found.start):.2f}° bis {degrees(found.end):.2f}°.",
     )
     way.keep(
@@ -126,10 +142,12 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
         Text("length of the nearly straight stretch", "Länge des angenähert geraden Stücks"),
         found.length,
         unit=unit,
+        symbol="L",
     )
-    points = np.array([row[1:3] for row in rows])
-    check_path(way, size.linkage({"C": (b, 0)}), drives, points, "+")
-    return way.done()
+    again = piece(by_solver, found.start, found.end, found.direction, samples=2001)
+    en, de = "of this stretch, by the general solver", "dieses Stücks, mit dem allgemeinen Löser"
+    way.check(f"Length {en}", f"Länge {de}", found.length, again.length)
+    way.check(f"Width {en}, and the band", f"Breite {de}, und der Streifen", band, again.band, tolerance=STRIP)
 
 
 def _add_swing(way: Way, size: InvertedSliderCrank) -> None:
@@ -143,9 +161,12 @@ def _add_swing(way: Way, size: InvertedSliderCrank) -> None:
         "swing", name, "2·arcsin(a/d)", 2 * degrees(asin(a / d)), unit="°", symbol="ψ_H", text=text, a=a, d=d
     )
     name = Text("crank angle of the dead centres", "Kurbelwinkel der Totlagen")
-    dead = way.find("φ_T", name, "± arccos(a/d)", degrees(acos(a / d)), unit="°", a=a, d=d)
+    dead = way.find("φ_T", name, "± arccos(a/d)", degrees(acos(a / d)), unit="°", either_sign=True, a=a, d=d)
     name = Text("ratio of the times of both swings", "Zeitverhältnis der beiden Schwingungen")
     way.find("time_ratio", name, "(360° - 2·φ_T)/(2·φ_T)", (180 - dead) / dead, unit="", symbol="k", φ_T=angle(dead))
     found = measures(size.linkage())
     en, de = "between the dead centres of the solved motion", "zwischen den Totlagen der durchgerechneten Bewegung"
     way.check(f"Swing, {en}", f"Schwingwinkel, {de}", swing, degrees(found.travel or 0.0), "°")
+    way.check(f"Ratio of the times, {en}", f"Zeitverhältnis, {de}", (180 - dead) / dead, found.time_ratio or 0.0, "")
+    half = 180 - degrees(found.phi_max or 0.0) / 2
+    way.check(f"Crank angle of the dead centres, {en}", f"Kurbelwinkel der Totlagen, {de}", dead, half, "°")

@@ -6,12 +6,15 @@ from math import acos, asin, cos, degrees, hypot, pi, radians, sin, sqrt
 
 from gruebler.catalog import Text
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, angle, number
-from gruebler.kinematics import measures, move
+from gruebler.exercises.solution import Solution, Way, angle, as_step, number
+from gruebler.kinematics import Measures, measures, move
 from gruebler.linkages import FourBar, SliderCrank
+from gruebler.linkages.quantities import as_positive
 
 __all__ = ["central_crank_rocker", "crank_rocker", "slider_crank", "stroke_middle", "stroke_table"]
 
+FLAT = 1e-7
+"""Tolerance of an angle at which an output turns back, which is less sharp than the output."""
 _OUTER = Text("outer dead centre, crank and connecting rod stretched", "äußere Totlage, Kurbel und Koppel gestreckt")
 _INNER = Text(
     "inner dead centre, crank and connecting rod overlapping", "innere Totlage, Kurbel und Koppel in Decklage"
@@ -55,6 +58,9 @@ def _add_dead_centres(way: Way, size: SliderCrank) -> None:
         stroke,
         found.travel or 0.0,
     )
+    for key, centre in (("l_a", found.outer), ("l_i", found.inner)):
+        there = abs(centre.output) if centre else 0.0
+        way.check(f"{key} of the solved motion", f"{key} aus der durchgerechneten Bewegung", way.number(key), there)
     way.mistake(
         "H", a, "The stroke is twice the crank, not once.", "Der Hub ist zweimal die Kurbellänge, nicht einmal."
     )
@@ -71,10 +77,10 @@ def _add_dead_centres(way: Way, size: SliderCrank) -> None:
         "e ist Kathete des rechtwinkligen Dreiecks an der Totlagengeraden: e² wird abgezogen, nicht addiert.",
     )
     if e:
-        _add_division(way, a, b, e, degrees(found.phi_max or 0.0))
+        _add_division(way, a, b, e, found)
 
 
-def _add_division(way: Way, a: float, b: float, e: float, longer_by_motion: float) -> None:
+def _add_division(way: Way, a: float, b: float, e: float, found: Measures) -> None:
     """How the eccentricity divides the turn of the crank."""
     name = Text("inclination of the stretched linkage", "Neigung der gestreckten Lage")
     phi_a = way.find("φ_a", name, "arcsin(e/(a + b))", degrees(asin(e / (a + b))), unit="°", a=a, b=b, e=e)
@@ -87,9 +93,13 @@ def _add_division(way: Way, a: float, b: float, e: float, longer_by_motion: floa
         "Longer crank angle, between the dead centres of the solved motion",
         "Größerer Kurbelwinkel, zwischen den Totlagen der durchgerechneten Bewegung",
         longer,
-        longer_by_motion,
+        degrees(found.phi_max or 0.0),
         "°",
     )
+    for key, centre in (("φ_a", found.outer), ("φ_i", found.inner)):
+        tilt = degrees(abs(asin(sin(centre.drive)))) if centre else 0.0
+        en, de = f"{key}, the crank's inclination there", f"{key}, Neigung der Kurbel dort"
+        way.check(en, de, way.number(key), tilt, "°", tolerance=FLAT)
     way.mistake(
         "difference",
         phi_i - phi_a,
@@ -124,6 +134,7 @@ def stroke_table(
     The crank turns left. The table has the crank angle from the dead centre and from the slider's line, the way s from
     below the crank's pivot, and the way made from the outer dead centre.
     """
+    as_step(step)
     way = Way(unit)
     rod = _rod(way, a, b, ratio)
     size = SliderCrank(a, rod, e)
@@ -152,12 +163,20 @@ def stroke_table(
         "crank angle from the outer to the inner dead centre", "Kurbelwinkel von der äußeren zur inneren Totlage"
     )
     way.keep("inner_at", name, degrees(inner), unit="°", symbol="Δφ(Ti)")
+    moved = move(size.linkage(), [radians(row[1]) for row in rows])
+    way.check(
+        "Largest difference of s in the table from the general solver's",
+        "Größter Unterschied von s in der Tabelle gegenüber dem allgemeinen Löser",
+        0.0,
+        max(abs(row[2] - s) for row, s in zip(rows, moved.slide("P(frame-slider)").tolist(), strict=True)),
+    )
     return way.done()
 
 
 def _rod(way: Way, a: float, b: float | None, ratio: float | None) -> float:
     if (b is None) == (ratio is None):
         raise LinkageError("either the connecting rod b is given or the ratio lambda = a/b")
+    as_positive("lambda" if b is None else "b", ratio if b is None else b)
     if ratio is not None:
         name = Text("connecting rod from the crank-conrod ratio", "Koppellänge aus dem Schubstangenverhältnis")
         return way.find("b", name, "a/λ", a / ratio, a=a, λ=ratio)
@@ -176,6 +195,8 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     way = Way(unit)
     rod = _rod(way, a, b, ratio)
     size = SliderCrank(a, rod)
+    if size.dead_centres is None:
+        raise LinkageError(f"the crank of the slider-crank a = {a:g}, b = {rod:g} does not turn")
     way.find("H", _STROKE, "2·a", 2 * a, a=a)
     way.find(
         "s_H2",
@@ -194,7 +215,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
         "Kurbelwinkel dort: Das Dreieck A0, A, B hat zwei Seiten b, seine Höhe von B aus trifft also die Mitte von a",
     )
     phi = degrees(acos(a / (2 * rod)))
-    way.find("φ_H2", name, "± arccos(a/(2·b))", phi, unit="°", text=text, a=a, b=rod)
+    way.find("φ_H2", name, "± arccos(a/(2·b))", phi, unit="°", text=text, either_sign=True, a=a, b=rod)
     name = Text(
         "crank angle from the inner dead centre to the middle", "Kurbelwinkel von der inneren Totlage bis zur Hubmitte"
     )
@@ -277,6 +298,11 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     en, de = "between the dead centres of the solved motion", "zwischen den Totlagen der durchgerechneten Bewegung"
     way.check(f"Longer crank angle, {en}", f"Größerer Kurbelwinkel, {de}", way_angle, degrees(found.phi_max or 0), "°")
     way.check(f"Swing, {en}", f"Schwingwinkel, {de}", way.number("ψ_H"), degrees(found.travel or 0), "°")
+    for key, centre in (("i", found.inner), ("a", found.outer)):
+        rocker, crank = (degrees(centre.output), degrees(centre.drive)) if centre else (0.0, 0.0)
+        way.check(f"ψ_{key}, {en}", f"ψ_{key}, {de}", way.number(f"ψ_{key}"), rocker, "°")
+        line = crank % 180 if key == "i" else crank
+        way.check(f"φ_{key}, {en}", f"φ_{key}, {de}", way.number(f"φ_{key}"), line, "°", tolerance=FLAT)
     if rpm is not None:
         _add_durations(way, abs(rpm), 180 + abs(phi_i - phi_a), found.times.longest * 1000 if found.times else 0.0)
     return way.done()
@@ -321,17 +347,18 @@ def _add_swing(way: Way, size: FourBar, lengths: dict[str, str]) -> None:
 
 def _add_durations(way: Way, rpm: float, longer: float, by_motion: float) -> None:
     name = Text("time of one turn", "Dauer einer Umdrehung")
-    period = way.find("T", name, "60000 ms/n", 60000 / rpm, unit="ms", n=rpm)
+    period = way.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
     times = []
     for key, name, angle_name, part in (
         ("T_max", Text("time of the slower way", "Dauer des langsamen Weges"), "φ_max", longer),
         ("T_min", Text("time of the quicker way", "Dauer des schnellen Weges"), "φ_min", 360 - longer),
     ):
-        values = {angle_name: angle(part), "T": number(period)}
+        values = {angle_name: angle(part), "T": f"{number(period)} ms"}
         times.append(way.find(key, name, f"{angle_name}/360°·T", part / 360 * period, unit="ms", values=values))
     slow, quick = times
     name = Text("difference of the times", "Zeitdifferenz zwischen Hin- und Rückhub")
-    way.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", T_max=slow, T_min=quick)
+    shown = {"T_max": f"{number(slow)} ms", "T_min": f"{number(quick)} ms"}
+    way.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
     way.check(
         "Time of the slower way, by the solved motion",
         "Dauer des langsamen Weges, aus der Bewegung",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from gruebler.catalog import Text
 from gruebler.chain import Chain
 from gruebler.exercises.solution import Solution, Step, Value, Way
@@ -14,6 +16,8 @@ __all__ = ["coupler", "dyad"]
 
 _BEFORE = Text("degree of freedom before", "Freiheitsgrad vorher")
 _AFTER = Text("degree of freedom after", "Freiheitsgrad nachher")
+
+_CHANGES = {0: Text("unchanged", "unverändert"), -1: Text("lowered by one", "um eins erniedrigt")}
 
 
 def dyad(chain: str, form: str = "RRR") -> Solution:
@@ -31,7 +35,7 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
         "ΔF = 3·2 - 2·3 = 0",
     )
     found = extend(start, dyad=form)
-    _add_after(way, found)
+    _add_after(way, start, found)
     way.say("A dyad leaves F unchanged.", "Ein Zweischlag lässt F unverändert.")
     hint = (
         "Besides the two links three joints are added: 3·2 - 2·3 = 0.",
@@ -65,7 +69,7 @@ def coupler(chain: str) -> Solution:
     )
     found = extend(start, coupler="RR")
     sound = [one for one in found if not mobility_report(one.chain).rigid_clusters]
-    _add_after(way, sound)
+    _add_after(way, start, sound)
     way.say("A coupler lowers F by one.", "Eine Koppel erniedrigt F um eins.")
     for one in found:
         if one not in sound:
@@ -90,6 +94,15 @@ def coupler(chain: str) -> Solution:
     return way.done()
 
 
+def _numbered(start: Chain, extended: Chain) -> Chain:
+    """With new links that go on counting, where the links are numbers."""
+    if not all(link.isdigit() for link in start.links):
+        return extended
+    last = max(map(int, start.links))
+    new = [link for link in extended.links if link not in start.links]
+    return extended.renamed({link: str(last + k) for k, link in enumerate(new, 1)})
+
+
 def _add_before(way: Way, start: Chain) -> int:
     parts = count(start).formula().removeprefix("F = ").split(" = ")
     way.parts.append(
@@ -99,18 +112,21 @@ def _add_before(way: Way, start: Chain) -> int:
     return counted(start)
 
 
-def _add_after(way: Way, found: list[Extension]) -> None:
+def _add_after(way: Way, start: Chain, found: list[Extension]) -> None:
     first = found[0].chain
     parts = count(first).formula().removeprefix("F = ").split(" = ")
     way.parts.append(Step(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
     way.keep("F_after", _AFTER, counted(first), symbol="F'")
+    change = counted(first) - counted(start)
+    way.keep("change", Text("change of F", "Änderung von F"), _CHANGES.get(change, str(change)), symbol="ΔF")
     way.keep("n", Text("links after", "Glieder nachher"), first.n)
     way.keep("g1", Text("joints with f = 1 after", "Gelenke mit f = 1 nachher"), first.joints_by_freedom.get(1, 0))
     way.keep("chains", Text("essentially different chains", "wesentlich verschiedene Ketten"), len(found), symbol="k")
     rows: list[tuple[Value, ...]] = []
     for one in found:
         name = family(Mechanism(one.chain, one.chain.links[0]))
-        rows.append((name.split()[0] if name else "", Text(str(one.chain), one.chain.text("german")), len(one.places)))
+        shown = _numbered(start, one.chain)
+        rows.append((name.split()[0] if name else "", Text(str(shown), shown.text("german")), len(one.places)))
     agreeing = sum(counted(one.chain) == mobility_report(one.chain).generic for one in found)
     way.check(
         "Chains, and those whose F agrees with the rank of the constraints at random sizes",
@@ -139,6 +155,12 @@ def _add_places(way: Way, found: list[Extension]) -> None:
     )
 
 
+def _same_pairs(some: Mapping[object, Mapping[str, str]], others: Mapping[object, Mapping[str, str]]) -> bool:
+    """Whether the same kinds of joints lie between two links."""
+    mine, theirs = (sorted(joint["pair"] for joint in joints.values()) for joints in (some, others))
+    return mine == theirs
+
+
 def _classes(found: list[Extension]) -> int:
     """How many of the chains are different, each compared with each."""
     import networkx as nx
@@ -146,6 +168,6 @@ def _classes(found: list[Extension]) -> int:
     kept: list[nx.MultiGraph] = []
     for one in found:
         graph = one.chain.link_graph()
-        if not any(nx.is_isomorphic(graph, other) for other in kept):
+        if not any(nx.is_isomorphic(graph, other, edge_match=_same_pairs) for other in kept):
             kept.append(graph)
     return len(kept)

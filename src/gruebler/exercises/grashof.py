@@ -156,15 +156,19 @@ def _add_shortest(way: Way, free: str, crank: float, long: float, short: float, 
     """The range with the free length as the shortest link: the crank turns there only if that is the frame."""
     upper = crank + short - long
     name = Text(f"{free} as the shortest link, up to", f"{free} als kürzestes Glied, bis")
-    way.keep("shortest_upper", name, upper, unit=way.unit, symbol=f"{free}'")
-    if free == "d" and upper > 0:
-        one, other = names
-        way.say(
-            f"Beside that, a turns fully with a frame that is the shortest link, d + {one} ≤ a + {other}, so 0 < d ≤ "
-            f"{number(upper)} {way.unit}: a double crank, not asked for here.",
-            f"Außerdem läuft a um, wenn das Gestell selbst das kürzeste Glied ist, d + {one} ≤ a + {other}, also 0 < "
-            f"d ≤ {number(upper)} {way.unit}: eine Doppelkurbel, nach der hier nicht gefragt ist.",
-        )
+    symbol = f"{free}'"
+    if free != "d" or upper <= 0:
+        way.keep("shortest_upper", name, upper, unit=way.unit, symbol=symbol)
+        return
+    one, other = names
+    text = Text(
+        f"Beside that, a turns fully with a frame that is the shortest link (double crank): d + {one} ≤ a + {other}, "
+        "so 0 < d ≤ d'",
+        f"Außerdem läuft a um, wenn das Gestell selbst das kürzeste Glied ist (Doppelkurbel): d + {one} ≤ a + {other}, "
+        "also 0 < d ≤ d'",
+    )
+    values = {"a": crank, one: long, other: short}
+    way.find("shortest_upper", name, f"a + {other} - {one}", upper, symbol=symbol, text=text, values=values)
 
 
 def _check_range(way: Way, free: str, lengths: dict[str, float], low: float, high: float) -> None:
@@ -172,7 +176,15 @@ def _check_range(way: Way, free: str, lengths: dict[str, float], low: float, hig
     way.check("Lower end, by going through all types", "Untere Grenze, aus der Folge aller Typen", low, found.lower)
     way.check("Upper end, by going through all types", "Obere Grenze, aus der Folge aller Typen", high, found.upper)
     near = 1e-3 * (high - low)
-    for value, full in ((low + near, True), (low - near, False), (high - near, True), (high + near, False)):
+    tried = [(low + near, True), (low - near, False), (high - near, True), (high + near, False)]
+    upper = way.number("shortest_upper")
+    cranks = [part.upper for part in turning_ranges("a", **lengths) if part.type.key == "double_crank"]
+    if free == "d" and upper > 0:
+        en, de = "Double crank up to, by going through all types", "Doppelkurbel bis, aus der Folge aller Typen"
+        way.check(en, de, upper, max(cranks, default=0.0))
+        close = 1e-3 * min(upper, low - upper)
+        tried += [(upper - close, True), (upper + close, False)]
+    for value, full in tried:
         moved = drive_range(FourBar(**lengths, **{free: value}).linkage()).full
         way.check(
             f"{free} = {number(value)}: the crank turns fully (1) or not (0), by following the motion",

@@ -15,6 +15,7 @@ from gruebler.chain import Chain
 from gruebler.enumeration import chains
 from gruebler.errors import GrueblerError
 from gruebler.exercises.solution import number
+from gruebler.exercises.solving import solve
 from gruebler.linkages import FourBar, SliderCrank
 from gruebler.mobility import counted, mobility_report
 
@@ -50,11 +51,30 @@ def fresh(kind: str, seed: int, level: int = 1) -> Exercise:
         raise GrueblerError(f"the seed is a whole number from 0 to 999999999, not {seed!r}")
     name, maker = KINDS[kind]
     random = Random(f"gruebler {kind} {level} {seed}")
-    made = maker(random, level)
     title = Text(f"{name.en}, level {level}", f"{name.de}, Stufe {level}")
-    asked = tuple(Asked(key) for key in made.asked)
     id = f"{kind}-{level}-{seed}"
-    return Exercise(id=id, name=title, source="", task=made.task, method=made.method, given=made.given, asked=asked)
+    while True:
+        made = maker(random, level)
+        asked = tuple(Asked(key) for key in made.asked)
+        task = Exercise(id=id, name=title, source="", task=made.task, method=made.method, given=made.given, asked=asked)
+        if kind not in _MEASURED or _tells_mistakes(task):
+            return task
+
+
+_MEASURED = ("dead-centre", "transmission-angle", "velocity")
+_APART = 5e-3  # relative, of a likely mistake from the right answer
+
+
+def _tells_mistakes(task: Exercise) -> bool:
+    """Whether no likely mistake is so near the right answer that it would pass for it."""
+    solution = solve(task)
+    asked = {one.key for one in task.asked}
+    pairs = [(m.value, solution[m.key]) for m in solution.mistakes if m.key in asked]
+    return all(
+        abs(wrong - right) > _APART * abs(right)
+        for wrong, right in pairs
+        if isinstance(wrong, float) and isinstance(right, float)
+    )
 
 
 _FRESH = re.compile(r"([a-z-]+)-(\d)-(\d{1,9})")
@@ -81,8 +101,7 @@ def _mobility(random: Random, level: int) -> _Made:
     found = _typed(random, level)
     while mobility_report(found).generic != max(counted(found), 0):
         found = _typed(random, level)
-    names = random.sample(range(1, found.n + 1), found.n)
-    shuffled = found.renamed({link: str(name) for link, name in zip(found.links, names, strict=True)})
+    shuffled = _shuffled(random, found)
     text, german = str(shuffled), shuffled.text("german")
     letters = sorted({joint.pair.name for joint in shuffled.joints}, key=list(_LETTERS).index)
     en, de = (", ".join(_LETTERS[name][column] for name in letters) for column in (0, 1))
@@ -93,6 +112,12 @@ def _mobility(random: Random, level: int) -> _Made:
         "bestimmen Sie den Getriebefreiheitsgrad F.",
     )
     return _Made("mobility.chain", {"chain": text}, ("n", "g1", "g2", "F"), task)
+
+
+def _shuffled(random: Random, chain: Chain) -> Chain:
+    """The chain with its links numbered anew."""
+    names = random.sample(range(1, chain.n + 1), chain.n)
+    return chain.renamed({link: str(name) for link, name in zip(chain.links, names, strict=True)})
 
 
 def _typed(random: Random, level: int) -> Chain:
@@ -128,7 +153,8 @@ def _dyad(random: Random, level: int) -> _Made:
     is_dyad = random.random() < 0.6
     sizes = {1: ((4, 1), (5, 2)), 2: ((5, 2), (6, 3)), 3: ((6, 1),)}[level]
     size = random.choice(sizes if is_dyad or level == 3 else ((5, 2), (6, 3)))
-    start = random.choice(list(chains(*size)))
+    start = _shuffled(random, random.choice(list(chains(*size))))
+    given: Given = {"chain": str(start)}
     text, german = str(start), start.text("german")
     asked: tuple[str, ...] = ("F_before", "F_after")
     more_en, more_de = "How does F change?", "Wie ändert sich F?"
@@ -137,9 +163,11 @@ def _dyad(random: Random, level: int) -> _Made:
         more_en += " How many essentially different chains can come out (names of the links aside)?"
         more_de += " Wie viele wesentlich verschiedene Ketten können entstehen (die Namen der Glieder zählen nicht)?"
     if is_dyad or level == 3:
-        en = "Extend the chain {} by a dyad of turning pairs between two of its links."
-        de = "Erweitern Sie die Kette {} um einen Zweischlag mit drei Drehgelenken zwischen zwei ihrer Glieder."
+        form, kind, art = random.choice(_DYADS if level > 1 else _DYADS[:1])
+        en = f"Extend the chain {{}} by a dyad of {kind} between two of its links."
+        de = f"Erweitern Sie die Kette {{}} um einen Zweischlag mit {art} zwischen zwei ihrer Glieder."
         method = "dyads.dyad"
+        given["form"] = form
     else:
         en = (
             "Connect two links of the chain {} by a coupler with two turning pairs, so that no rigid triangle comes "
@@ -151,7 +179,15 @@ def _dyad(random: Random, level: int) -> _Made:
         )
         method = "dyads.coupler"
     task = Text(f"{en.format(text)} {more_en}", f"{de.format(german)} {more_de}")
-    return _Made(method, {"chain": text}, asked, task)
+    return _Made(method, given, asked, task)
+
+
+_DYADS = (
+    ("RRR", "three turning pairs", "drei Drehgelenken"),
+    ("RPR", "two turning pairs and a sliding pair between them", "zwei Drehgelenken und einem Schubgelenk dazwischen"),
+    ("RRP", "two turning pairs and a sliding pair at one end", "zwei Drehgelenken und einem Schubgelenk an einem Ende"),
+)
+"""Forms with what they are called."""
 
 
 # --- dimensions -------------------------------------------------------------------------------------
@@ -190,6 +226,12 @@ def _any_four_bar(random: Random) -> Given:
     return dict(_lengths(random, a=(3, 12), b=(6, 25), c=(5, 22), d=(6, 25)))
 
 
+def _change_point(random: Random) -> Given:
+    """With a + d = b + c, d the longest."""
+    given = _any_four_bar(random)
+    return given | {"d": max(5.0, float(given["b"]) + float(given["c"]) - float(given["a"]))}
+
+
 def _good_rocker(given: Given) -> bool:
     """A crank-rocker that is no change point, with a transmission angle worth a task."""
     size = _four_bar(given)
@@ -198,10 +240,9 @@ def _good_rocker(given: Given) -> bool:
 
 def _grashof(random: Random, level: int) -> _Made:
     if level == 1:
-        wanted = random.choice(
-            ("crank_rocker", "double_crank", "grashof_double_rocker", "triple_rocker", "crank_rocker")
-        )
-        given = _until(lambda: _any_four_bar(random), lambda g: _four_bar(g).type.key == wanted)
+        wanted = random.choice(_TYPES)
+        make = _change_point if wanted.startswith("change") else _any_four_bar
+        given = _until(lambda: make(random), lambda g: _four_bar(g).type.key == wanted)
         en, de = _told(given)
         task = Text(
             f"A four-bar has the crank, coupler, rocker and frame {en}. Does the crank a turn fully, and what kind of "
@@ -228,6 +269,17 @@ def _grashof(random: Random, level: int) -> _Made:
             f"{task.de} Bis zu welcher Gestelllänge läuft a auch mit dem Gestell als kürzestem Glied um?",
         )
     return _Made("grashof.length_range", given | {"free": free, "unit": "mm"}, asked, task)
+
+
+_TYPES = (
+    "crank_rocker",
+    "crank_rocker",
+    "double_crank",
+    "grashof_double_rocker",
+    "triple_rocker",
+    "change_point_crank_rocker",
+)
+"""What a four-bar of the first level may be."""
 
 
 def _range_worth_asking(given: Given, free: str, level: int) -> bool:

@@ -10,8 +10,9 @@ from enum import StrEnum
 from gruebler.catalog import Exercise, Text
 from gruebler.catalog.records import Asked
 from gruebler.errors import GrueblerError, nearest
+from gruebler.exercises.answers import Given, read_answer
 from gruebler.exercises.solution import Mistake, Result, Value
-from gruebler.exercises.solving import last_place, scale_of, solve
+from gruebler.exercises.solving import scale_of, solve
 
 __all__ = ["Mark", "Marked", "mark", "plain_key"]
 
@@ -40,7 +41,7 @@ class Marked:
     """What may have gone wrong."""
 
 
-# What goes wrong anywhere: the answer as a function of the right number, where it applies (by unit), and the hint.
+# What goes wrong with any measured number: the answer as a function of the right one, where it applies (by unit), hint.
 _ANYWHERE = (
     (lambda x: -x, "", Text("Look at the sign.", "Auf das Vorzeichen achten.")),
     (
@@ -73,8 +74,9 @@ _ANYWHERE = (
 def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
     """Mark the answers, given as texts by the keys of the results.
 
-    A number is right within half a unit of its last digit or a thousandth; decimal comma or point. Raises
-    `GrueblerError` for a key that is not asked and for an answer that is no number where one is asked.
+    A number is right within half a unit of its last digit or a thousandth; decimal comma or point, with a unit or in
+    that of the result or of the printed answer. Raises `GrueblerError` for a key that is not asked, an answer that is
+    no number where one is asked, and an exercise that is answered by a table.
 
     >>> from gruebler.exercises.making import fresh
     >>> [m.mark.value for m in mark(fresh("dead-centre", 7), {"H": "60", "l_a": "130"})]
@@ -83,6 +85,10 @@ def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
     'The stroke is twice the crank, not once.'
     """
     solution = solve(exercise)
+    if not solution.results:
+        raise GrueblerError(
+            f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
+        )
     found = []
     plain = {plain_key(key): key for key in solution.results}
     for word, answer in answers.items():
@@ -94,7 +100,9 @@ def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
             )
         printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
         known = [*printed, *(m for m in solution.mistakes if m.key == key)]
-        found.append(_marked(known, solution.results[key], answer.strip()))
+        result = solution.results[key]
+        scales = [1.0, *(scale_of(asked, result) for asked in exercise.asked if asked.key == key)]
+        found.append(_marked(known, result, answer.strip(), scales))
     return found
 
 
@@ -130,57 +138,64 @@ def _misprint(asked: Asked, result: Result) -> Iterator[Mistake]:
         yield Mistake(asked.key, float(asked.printed) * scale_of(asked, result), hint)
 
 
-def _marked(known: Sequence[Mistake], result: Result, answer: str) -> Marked:
-    worth = _worth(result.value, answer)
-    if worth is Mark.RIGHT and not any(_rather(m.value, result.value, answer) for m in known):
+def _marked(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Marked:
+    if isinstance(result.value, int | float) and not isinstance(result.value, bool):
+        return _marked_number(known, result, answer, scales)
+    worth = _worth_of_words(result.value, answer)
+    hints = [m.hint for m in known if worth is Mark.WRONG and _worth_of_words(m.value, answer) is Mark.RIGHT]
+    return Marked(result.key, answer, result, worth, hints[0] if hints else None)
+
+
+def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Marked:
+    given, value = read_answer(answer, result), float(result.value)  # type: ignore[arg-type]
+    if result.either_sign:
+        given = given._replace(number=math.copysign(given.number, value))
+    if not given.has_unit:  # in the unit of the print, if it is right in that one
+        read = [Given(given.number * scale, given.place * scale, False) for scale in scales]
+        given = next((one for one in read if _worth(result.value, one) is Mark.RIGHT), given)
+    worth = _worth(result.value, given)
+    if worth is Mark.RIGHT and not any(_rather(m.value, value, given) for m in known):
         return Marked(result.key, answer, result, worth)
-    hints = [m.hint for m in known if _worth(m.value, answer) is Mark.RIGHT]
-    if not hints and isinstance(result.value, int | float) and not isinstance(result.value, bool):
+    hints = [m.hint for m in known if _worth(m.value, given) is Mark.RIGHT]
+    if not hints and isinstance(result.value, float):
         hints = [
             hint
             for change, unit, hint in _ANYWHERE
-            if (not unit or unit == result.unit) and _worth(change(float(result.value)), answer) is Mark.RIGHT
+            if result.unit and (not unit or unit == result.unit) and _worth(change(value), given) is Mark.RIGHT
         ]
     if hints:
-        worth = Mark.WRONG
+        return Marked(result.key, answer, result, Mark.WRONG, hints[0])
     near = Text(
         "Right in principle; carry more digits on the way.", "Im Ansatz richtig; unterwegs mit mehr Stellen rechnen."
     )
-    return Marked(result.key, answer, result, worth, hints[0] if hints else near if worth is Mark.NEAR else None)
+    return Marked(result.key, answer, result, worth, near if worth is Mark.NEAR else None)
 
 
-def _rather(mistake: Value, right: Value, answer: str) -> bool:
+def _rather(mistake: Value, right: float, given: Given) -> bool:
     """Whether an answer that rounding would excuse is just that of a known mistake, such as H = 50 for 50.3."""
-    if not isinstance(mistake, float) or not isinstance(right, float):
+    if not isinstance(mistake, float):
         return False
-    given = float(_number(answer))
-    return abs(given - mistake) <= 1e-5 * abs(mistake) and abs(given - right) > _FINE * abs(right)
+    return abs(given.number - mistake) <= 1e-5 * abs(mistake) and abs(given.number - right) > _FINE * abs(right)
 
 
-def _number(answer: str) -> str:
-    return answer.replace(",", ".").rstrip("°").strip()
+def _worth(value: Value, given: Given) -> Mark:
+    if isinstance(value, str | Text | bool):
+        return Mark.WRONG
+    off, size = abs(given.number - value), abs(value)
+    if isinstance(value, int):
+        return Mark.RIGHT if off == 0 else Mark.WRONG
+    if off <= _FINE * size or (off <= 0.5 * given.place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
+        return Mark.RIGHT
+    return Mark.NEAR if off <= _NEAR * size else Mark.WRONG
 
 
-def _worth(value: Value, answer: str) -> Mark:
+def _worth_of_words(value: Value, answer: str) -> Mark:
     if isinstance(value, bool):
         if answer.casefold() not in _WORDS:
             raise GrueblerError(f"expected yes or no (ja, nein), not {answer!r}")
         return Mark.RIGHT if _WORDS[answer.casefold()] == value else Mark.WRONG
-    if isinstance(value, str | Text):
-        names = [value] if isinstance(value, str) else [value.en, value.de]
-        plain = [_plain(name) for name in names]
-        return Mark.RIGHT if _plain(answer) in plain else Mark.WRONG
-    text = _number(answer)
-    try:
-        given, place = float(text), last_place(text)
-    except ValueError:
-        raise GrueblerError(f"expected a number, not {answer!r}") from None
-    off, size = abs(given - value), abs(value)
-    if isinstance(value, int):
-        return Mark.RIGHT if off == 0 else Mark.WRONG
-    if off <= _FINE * size or (off <= 0.5 * place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
-        return Mark.RIGHT
-    return Mark.NEAR if off <= _NEAR * size else Mark.WRONG
+    names = [value.en, value.de] if isinstance(value, Text) else [str(value)]
+    return Mark.RIGHT if _plain(answer) in map(_plain, names) else Mark.WRONG
 
 
 def _plain(name: str) -> str:

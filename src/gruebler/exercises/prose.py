@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from gruebler.catalog import Exercise, Text
 from gruebler.exercises.marking import plain_key
-from gruebler.exercises.solution import Check, Heading, Solution, Step, Table, Value, number
+from gruebler.exercises.solution import Check, Heading, Result, Solution, Step, Table, Value, number
 from gruebler.exercises.solving import Comparison, compare
 
 __all__ = ["lines_of_table", "said_source", "said_value", "solution_text", "task_text"]
@@ -27,6 +27,8 @@ _WORDS = {
     "unexplained": ("printed {}: differs, unexplained", "gedruckt {}: abweichend, ungeklärt"),
     "yes": ("yes", "ja"),
     "no": ("no", "nein"),
+    "unit": ("in {}", "in {}"),
+    "plain": ("a number", "eine Zahl"),
     "remark": ("Remark", "Bemerkung"),
 }
 _INDENT = "     "
@@ -37,10 +39,10 @@ def _word(key: str, lang: str) -> str:
 
 
 def _local(text: str, lang: str) -> str:
-    """Decimal commas in German; in pairs and lists of numbers the comma between them becomes a semicolon."""
+    """Decimal commas in German; the comma between numbers with decimals becomes a semicolon."""
     if lang != "de":
         return text
-    text = re.sub(r"(?<=\d), (?=[-\d])", "; ", text)
+    text = re.sub(r"(\d\.\d+), (?=[-\d])|(?<=\d), (?=-?\d+\.\d)", r"\1; ", text)
     return re.sub(r"(?<=\d)\.(?=\d)", ",", text)
 
 
@@ -91,10 +93,18 @@ def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = 
     if solution is not None and exercise.asked:
         found = [solution.results[asked.key] for asked in exercise.asked]
         lines.append(f"{_word('asked', lang)}:")
-        lines += [f"  {plain_key(result.key)}: {_local(result.name.said(lang), lang)}" for result in found]
+        lines += [f"  {plain_key(result.key)}: {_asked(result, lang)}" for result in found]
     if exercise.remark is not None:
         lines.append(f"{_word('remark', lang)}: {exercise.remark.said(lang)}")
     return "\n".join(lines)
+
+
+def _asked(result: Result, lang: str) -> str:
+    """The name, and in which unit it is wanted."""
+    name = _local(result.name.said(lang), lang)
+    if not _is_number(result.value):
+        return name
+    return f"{name} ({_word('unit', lang).format(result.unit) if result.unit else _word('plain', lang)})"
 
 
 def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> str:
@@ -120,8 +130,8 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
 
 def _step(step: Step, count: int, lang: str) -> list[str]:
     numbers = "" if step.numbers in step.formula else _local(step.numbers, lang)
-    value = "" if step.value is None else said_value(step.value, step.unit, lang)
-    sides = [side for side in (step.formula, numbers, value) if side]
+    value = "" if step.value is None else "± " * step.either_sign + said_value(step.value, step.unit, lang)
+    sides = [side for side in (_local(step.formula, lang), numbers, value) if side]
     if sides[1:] and sides[-1] == sides[-2]:
         sides.pop()
     is_relation = step.value is None and " = " not in step.formula
@@ -131,7 +141,7 @@ def _step(step: Step, count: int, lang: str) -> list[str]:
 
 def _capital(text: str) -> str:
     """With a capital letter in front, unless a symbol such as d or v_B stands there."""
-    return text[:1].upper() + text[1:] if re.match(r"[a-zäöü]{2,}(?!_)\b", text) else text
+    return text[:1].upper() + text[1:] if re.match(r"[a-zäöüß]{2,}(?!_)\b", text) else text
 
 
 def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
@@ -139,10 +149,13 @@ def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
         result, asked = one.result, one.asked
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
         line = (
-            f"  {_capital(_local(result.name.said(lang), lang))}: {symbol}{said_value(result.value, result.unit, lang)}"
+            f"  {_capital(_local(result.name.said(lang), lang))}: {symbol}{'± ' * result.either_sign}"
+            f"{said_value(result.value, result.unit, lang)}"
         )
         if asked.printed is not None:
             printed = _printed(asked.printed, asked.unit or result.unit, lang)
+            if isinstance(result.value, Text) and one.agrees:
+                printed = result.value.said(lang)
             if one.agrees:
                 note = _word("printed", lang).format(printed)
             elif asked.reason is None:

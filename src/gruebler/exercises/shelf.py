@@ -17,7 +17,7 @@ def all_exercises() -> dict[str, Exercise]:
     """Worked examples and exercises in the order of the text.
 
     >>> list(all_exercises())[:2], len(all_exercises())
-    (['example-2.3', 'example-2.6'], 37)
+    (['example-2.3', 'example-2.5'], 40)
     """
     found = dict(exercises())
     for path in sorted((catalog_folder() / "solved").glob("*.toml")):

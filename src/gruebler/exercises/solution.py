@@ -12,6 +12,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from gruebler.catalog import Text
+from gruebler.errors import LinkageError
+from gruebler.linkages.quantities import as_finite
 
 __all__ = [
     "Check",
@@ -25,6 +27,7 @@ __all__ = [
     "Value",
     "Way",
     "angle",
+    "as_step",
     "filled",
     "number",
 ]
@@ -44,6 +47,7 @@ class Step:
     numbers: str = ""
     value: Value | None = None
     unit: str = ""
+    either_sign: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +80,8 @@ class Result:
     value: Value
     unit: str = ""
     symbol: str = ""
+    either_sign: bool = False
+    """Whether the value stands for two, with + and with -."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,6 +157,20 @@ def angle(value: float) -> str:
     return f"{number(value)}°"
 
 
+def as_step(step: object) -> float:
+    """The step of a table of crank angles, in degrees.
+
+    >>> as_step(0)
+    Traceback (most recent call last):
+        ...
+    gruebler.errors.LinkageError: the step of the table must lie from 0.1 to 360 degrees, not 0
+    """
+    number = as_finite("step", step)
+    if not 0.1 <= number <= 360:
+        raise LinkageError(f"the step of the table must lie from 0.1 to 360 degrees, not {step!r}")
+    return number
+
+
 def filled(formula: str, values: Mapping[str, float | str]) -> str:
     """The formula with numbers in place of its symbols; a negative one in brackets where something stands before it.
 
@@ -190,24 +210,27 @@ class Way:
         symbol: str | None = None,
         text: Text | None = None,
         values: Mapping[str, float | str] | None = None,
+        either_sign: bool = False,
         **more: float | str,
     ) -> float:
         """A step with a result: ``symbol = formula = formula with numbers = value``; returns the value.
 
-        ``text`` is said instead of the name; ``values`` and ``more`` are the numbers for the symbols of the formula.
+        ``text`` is said instead of the name; ``values`` and ``more`` are the numbers for the symbols of the formula;
+        with ``either_sign`` the value stands for both signs.
         """
         shown = self.unit if unit is None else unit
         sign = key if symbol is None else symbol
         value = float(value)
-        self.parts.append(
-            Step(text or name, f"{sign} = {formula}", filled(formula, {**(values or {}), **more}), value, shown)
-        )
-        self.keep(key, name, value, unit=shown, symbol=sign)
+        numbers = filled(formula, {**(values or {}), **more})
+        self.parts.append(Step(text or name, f"{sign} = {formula}", numbers, value, shown, either_sign))
+        self.keep(key, name, value, unit=shown, symbol=sign, either_sign=either_sign)
         return value
 
-    def keep(self, key: str, name: Text, value: Value, *, unit: str = "", symbol: str = "") -> None:
+    def keep(
+        self, key: str, name: Text, value: Value, *, unit: str = "", symbol: str = "", either_sign: bool = False
+    ) -> None:
         """A result without a step of its own."""
-        self.results[key] = Result(key, name, value, unit, symbol or key)
+        self.results[key] = Result(key, name, value, unit, symbol or key, either_sign)
 
     def number(self, key: str) -> float:
         """A result found before, which is a number."""
@@ -223,9 +246,11 @@ class Way:
         """A table."""
         self.parts.append(Table(title, tuple(headers), tuple(tuple(row) for row in rows), decimals))
 
-    def check(self, en: str, de: str, first: float, second: float, unit: str | None = None) -> None:
+    def check(
+        self, en: str, de: str, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8
+    ) -> None:
         """The same quantity by the way above and by a second one."""
-        self.checks.append(Check(Text(en, de), first, second, self.unit if unit is None else unit))
+        self.checks.append(Check(Text(en, de), first, second, self.unit if unit is None else unit, tolerance))
 
     def mistake(self, key: str, value: Value, en: str, de: str) -> None:
         """A wrong answer that is often given; left out where it happens to be right."""

@@ -103,7 +103,7 @@ def _agrees(asked: Asked, result: Result) -> bool:
     if isinstance(value, bool):
         return asked.printed == ("yes" if value else "no")
     if isinstance(value, str | Text):
-        return asked.printed == (value.en if isinstance(value, Text) else value)
+        return asked.printed in ((value.en, value.de) if isinstance(value, Text) else (value,))
     scale = scale_of(asked, result)
     return abs(float(asked.printed) * scale - value) <= last_place(asked.printed) * scale * (0.5 + 1e-9)
 

@@ -9,9 +9,11 @@ import numpy as np
 
 from gruebler.catalog import Text
 from gruebler.errors import LinkageError
-from gruebler.exercises.coupler_points import BY_SOLVER, PATH, check_path, headers
-from gruebler.exercises.solution import Solution, Way, number
-from gruebler.geometry import Path, coupler_path, piece
+from gruebler.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path, headers
+from gruebler.exercises.solution import Solution, Way, as_step, number
+from gruebler.geometry import Path, Piece, coupler_path, linkage_path, piece
+from gruebler.geometry.contact import tangent_contact
+from gruebler.geometry.lever_contact import lever_contact
 from gruebler.kinematics import degrees as turns
 from gruebler.kinematics import move
 from gruebler.linkages import FourBar, SliderCrank
@@ -43,7 +45,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     height = way.find(
         "h", name, "√((b + e)² - (a + d)²)", sqrt((b + e) ** 2 - (a + d) ** 2), text=text, a=a, b=b, d=d, e=e
     )
-    drives = turns(0, 360, step)
+    drives = turns(0, 360, as_step(step))
     motion = size.motion(drives)
     points = motion.point(b + e).value
     rows = [
@@ -52,6 +54,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     ]
     way.table(PATH, headers("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
     _add_straight(way, size, b + e)
+    _check_piece(way, piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0))
     check_path(way, size.linkage({"C": (b + e, 0)}), drives, points, "+")
     way.check(
         "h, from the path at φ = 180°",
@@ -69,6 +72,14 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
         "h", b + e, "C is not vertically above A but above B0.", "C liegt nicht senkrecht über A, sondern über B0."
     )
     return way.done()
+
+
+def _check_piece(way: Way, again: Piece) -> None:
+    """Length and width of the straight stretch against those of the path of the general solver."""
+    way.check("L, by the general solver", "L, mit dem allgemeinen Löser", way.number("length"), again.length)
+    way.check(
+        "Δ, by the general solver", "Δ, mit dem allgemeinen Löser", way.number("band"), again.band, tolerance=STRIP
+    )
 
 
 def _add_straight(way: Way, size: FourBar, reach: float) -> None:
@@ -117,7 +128,7 @@ def watt_linkage(
         "Zu jedem Winkel t der linken Schwinge: A aus t, B auf beiden Kreisen, F in der Mitte.",
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
     )
-    values = turns(start, stop, step)
+    values = turns(start, stop, as_step(step))
     motion = size.motion(values - tilt, branch=-1)
     if not motion.complete:
         raise LinkageError(f"the left rocker cannot reach these angles: {motion.message}")
@@ -131,6 +142,7 @@ def watt_linkage(
     last = Text("right rocker [°]", "rechte Schwinge [°]")
     way.table(PATH, [*headers("t [°]", "F_x", "F_y"), last], rows)
     _add_watt_stroke(way, size, tilt, left, coupler)
+    _check_watt(way, size, tilt, left, coupler)
     moved = move(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
     way.check(*BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
     return way.done()
@@ -146,18 +158,38 @@ def _add_watt_stroke(way: Way, size: FourBar, tilt: float, left: complex, couple
     def at(t: float) -> complex:
         return left + complex(path(np.array([t - tilt]))[0]) * cmath.exp(1j * tilt)
 
-    ends = [float(brentq(lambda t, s=sign: s * at(t).real - side, 0, sign * radians(28))) for sign in (-1, 1)]
+    excess = {sign: lambda t, s=sign: s * at(t).real - side for sign in (-1, 1)}
+    reach = next((t for t in np.radians(np.arange(1.0, 60.0)) if all(excess[s](s * t) > 0 for s in (-1, 1))), None)
+    if reach is None:
+        raise LinkageError(f"F does not leave the strip of {side:g} {way.unit} at both ends within 60 degrees")
+    ends = [float(brentq(excess[sign], 0, sign * reach, xtol=1e-14)) for sign in (-1, 1)]
     low, high = (at(t).imag for t in ends)
     name = Text(f"stroke with |F_x| ≤ {number(side)} {way.unit}", f"Hub mit |F_x| ≤ {number(side)} {way.unit}")
     way.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
     way.keep("t_low", Text("rocker at the lower end", "Schwinge am unteren Ende"), degrees(ends[0]), unit="°")
     way.keep("t_high", Text("rocker at the upper end", "Schwinge am oberen Ende"), degrees(ends[1]), unit="°")
+    contact = lever_contact(size, coupler / 2, 0, -tilt, branch=-1)
+    name = Text("points that path and tangent have in common in the middle", "Punkte, in denen die Tangente berührt")
+    way.keep("n", name, contact.points)
     way.say(
-        "About the middle F_x grows with the fifth power of F_y only: the tangent touches the path in six points run "
-        "together.",
-        "Um die Mittellage wächst F_x nur mit der fünften Potenz von F_y: Die Tangente berührt die Koppelkurve "
-        "sechspunktig.",
+        f"About the middle F_x grows with the power {contact.points} of F_y only: path and tangent have "
+        f"{contact.points} points in common there.",
+        f"Um die Mittellage wächst F_x nur mit der {contact.points}. Potenz von F_y: Die Tangente berührt die "
+        f"Koppelkurve {contact.points}-punktig.",
     )
+
+
+def _check_watt(way: Way, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+    """Both ends of the stroke and the order of contact, by the general solver."""
+    linkage = size.linkage({"F": (coupler / 2, 0)})
+    ends = [radians(way.number(key)) for key in ("t_low", "t_high")]
+    moved = left + move(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(1j * tilt)
+    en, de = "by the general solver", "mit dem allgemeinen Löser"
+    way.check(f"Stroke, {en}", f"Hub, {de}", way.number("stroke"), float(np.ptp(moved.imag)))
+    for name, place in zip(("F_y1", "F_y2"), moved, strict=True):
+        way.check(f"|F_x| at {name}, {en}", f"|F_x| bei {name}, {de}", size.a / 600, float(abs(place.real)))
+    met = tangent_contact(move(linkage, -tilt, speed=1, branch="-"), "F").points
+    way.check(f"Points in common, {en}", f"Gemeinsame Punkte, {de}", way.number("n"), float(met or 0), "")
 
 
 def double_rocker(
@@ -194,7 +226,7 @@ def double_rocker(
         "D folgt aus φ; A liegt auf dem Kreis um D mit Radius a und dem um den anderen Drehpunkt mit Radius b:",
         "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
     )
-    values = turns(start, stop, step)
+    values = turns(start, stop, as_step(step))
     tilt = radians(frame)
     motion = size.motion(values - tilt)
     if not motion.complete:
@@ -207,7 +239,10 @@ def double_rocker(
         for k, phi in enumerate(values)
     ]
     way.table(PATH, headers("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
-    _add_strip(way, size, coupler_path(size, a - ac, 0), (radians(start) - tilt, radians(stop) - tilt), frame)
+    ends = radians(start) - tilt, radians(stop) - tilt
+    _add_strip(way, size, coupler_path(size, a - ac, 0), ends, frame)
+    _check_piece(way, piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
+    _check_limits(way, size)
     check_path(way, size.linkage({"C": (a - ac, 0)}), values - tilt, local, "+")
     return way.done()
 
@@ -219,7 +254,11 @@ def _add_strip(way: Way, size: FourBar, path: Path, ends: tuple[float, float], f
     name = Text("width of the strip in which C keeps", "Breite des Streifens, in dem C bleibt")
     way.keep("band", name, found.band, unit=unit, symbol="Δ")
     way.keep(
-        "length", Text("length of the path along it", "Länge der Bahn längs des Streifens"), found.length, unit=unit
+        "length",
+        Text("length of the path along it", "Länge der Bahn längs des Streifens"),
+        found.length,
+        unit=unit,
+        symbol="L",
     )
     direction = (degrees(found.direction) + frame) % 180
     way.keep("direction", Text("direction of the strip", "Richtung des Streifens"), direction, unit="°")
@@ -250,6 +289,23 @@ def _add_strip(way: Way, size: FourBar, path: Path, ends: tuple[float, float], f
     )
 
 
+def _check_limits(way: Way, size: FourBar) -> None:
+    """The general solver has no position just beyond the limits of the rocker, and one just inside."""
+    linkage = size.linkage()
+    for key, side in (("lowest", -1), ("highest", 1)):
+        limit = way.number(key)
+        inside, beyond = (
+            move(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
+        )
+        way.check(
+            f"{number(limit)}° is the limit (1) or not (0), by the general solver",
+            f"{number(limit)}° ist die Grenze (1) oder nicht (0), mit dem allgemeinen Löser",
+            1.0,
+            float(inside and not beyond),
+            "",
+        )
+
+
 def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "mm") -> Solution:
     """The slider-crank with a = b = e: C, beyond A on the line B-A, runs exactly on the line through A0.
 
@@ -265,9 +321,9 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
         "A0 at right angles to the slider's way.",
         "A ist von A0, B und C gleich weit entfernt: Nach Thales ist der Winkel B-A0-C ein rechter; C liegt also auf "
         "der Geraden durch A0 senkrecht zum Schieberweg.",
-        "C = A - e·(B - A)/b = (0, 2·a·sin φ)",
+        "C = A - e·(B - A)/b, C_x = 0, C_y = 2·a·sin φ",
     )
-    drives = turns(-60, 60, step)
+    drives = turns(-60, 60, as_step(step))
     points = size.motion(drives).point(-e).value
     rows = [(round(degrees(p), 9), round(float(z[0]), 12), float(z[1])) for p, z in zip(drives, points, strict=True)]
     way.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from gruebler.catalog import Text
-from gruebler.exercises.solution import Solution, Way, number
+from gruebler.errors import LinkageError
+from gruebler.exercises.solution import Solution, Way, as_step, number
 from gruebler.gears import read_train, speeds
+from gruebler.linkages.quantities import as_positive
 
 __all__ = ["gear_pair"]
+
+_MOST = 10_000  # rows
 
 
 def gear_pair(i: float, step: float = 90) -> Solution:
@@ -15,6 +19,8 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     >>> gear_pair(2).number("slope")
     0.5
     """
+    if as_positive("i", i) * 360 > _MOST * as_step(step):
+        raise LinkageError(f"the table has at most {_MOST} rows, too few for i = {i:g} in steps of {step:g} degrees")
     way = Way()
     name = Text("slope of the transfer function", "Steigung der Übertragungsfunktion")
     way.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from math import acos, asin, degrees
+from math import acos, asin, degrees, isclose, pi
 
 from gruebler.catalog import Text
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, angle, number
-from gruebler.kinematics import measures
+from gruebler.kinematics import measures, move
 from gruebler.linkages import FourBar, Linkage, SliderCrank
 
 __all__ = ["compare_rods", "four_bar", "slider_crank"]
@@ -66,6 +66,11 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     )
     _add_rule(way, mu)
     _check_smallest(way, size.linkage(), mu)
+    moved = move(size.linkage(), [0.0, pi], branch="+")
+    for key, turned in zip(("I", "II"), abs(moved.angle("rocker") - moved.angle("coupler")).tolist(), strict=True):
+        en, de = f"μ_{key}, by the general solver", f"μ_{key}, mit dem allgemeinen Löser"
+        between = degrees(turned) % 360
+        way.check(en, de, way.number(f"μ_{key}"), min(between, 360 - between), "°")
     way.mistake(
         "μ_min",
         max(folded),
@@ -117,6 +122,7 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     >>> round(slider_crank(3, 5, 1).number("μ_min"), 6)
     36.869898
     """
+    SliderCrank(a, b, e)  # refuses lengths that are none
     way = Way(unit)
     way.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
     _add_slider_crank(way, a, b, e)
@@ -148,6 +154,9 @@ def _add_slider_crank(way: Way, a: float, b: float, e: float, mark: str = "") ->
     way.mistake(f"μ_min{mark}", worst, *_IS_DEVIATION)
     if off:
         _add_other_extreme(way, a, b, off)
+        moved = move(size.linkage(), pi / 2 if e > 0 else -pi / 2)
+        there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
+        way.check("μ_II, by the general solver", "μ_II, mit dem allgemeinen Löser", way.number("μ_II"), there, "°")
         way.mistake(
             "μ_min",
             90 - degrees(asin(a / b)),
@@ -163,6 +172,14 @@ def _add_slider_crank(way: Way, a: float, b: float, e: float, mark: str = "") ->
     else:
         largest = Text("largest transmission angle, in the dead centres", "größter Übertragungswinkel, in den Totlagen")
         way.keep(f"μ_max{mark}", largest, 90.0, unit="°")
+    found = measures(size.linkage()).transmission
+    way.check(
+        "Largest transmission angle, from the solved motion",
+        "Größter Übertragungswinkel, aus der durchgerechneten Bewegung",
+        way.number(f"μ_max{mark}"),
+        degrees(found.largest.mu) if found else 0.0,
+        "°",
+    )
     return mu
 
 
@@ -172,13 +189,20 @@ def _add_other_extreme(way: Way, a: float, b: float, e: float) -> None:
     name = Text("transmission angle there", "Übertragungswinkel dort")
     mu = way.find("μ_II", name, "90° - |α_II|", 90 - abs(other), unit="°", α_II=angle(other))
     if a >= e:
-        way.say(
-            "In between the joint A crosses the slider's line (a is at least e); there the rod lies along it and μ = "
-            "90°.",
-            "Dazwischen kreuzt das Gelenk A die Totlagengerade (a ist mindestens e); dort liegt die Koppel auf ihr, "
-            "und μ = 90°.",
+        touches = isclose(a, e)
+        text = Text(
+            "largest transmission angle: with a = e the joint A just touches the slider's line on that side, and the "
+            "rod lies along it",
+            "größter Übertragungswinkel: Wegen a = e berührt das Gelenk A auf dieser Seite gerade die Totlagengerade, "
+            "und die Koppel liegt auf ihr",
         )
-        way.keep("μ_max", _LARGEST, 90.0, unit="°")
+        crosses = Text(
+            "largest transmission angle: in between the joint A crosses the slider's line, as a is larger than e, and "
+            "the rod lies along it there",
+            "größter Übertragungswinkel: Dazwischen kreuzt das Gelenk A die Totlagengerade, da a größer ist als e; die "
+            "Koppel liegt dort auf ihr",
+        )
+        way.find("μ_max", _LARGEST, "90° - arcsin(0/b)", 90.0, unit="°", text=text if touches else crosses, b=b)
     else:
         way.find("μ_max", _LARGEST, "μ_II", mu, unit="°", μ_II=angle(mu))
 
@@ -188,6 +212,7 @@ def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
     way = Way(unit)
     found = []
     for mark, b in (("1", b1), ("2", b2)):
+        SliderCrank(a, b)
         way.find(f"λ{mark}", _RATIO, f"a/b{mark}", a / b, unit="", a=a, values={f"b{mark}": b})
         found.append(_add_slider_crank(way, a, b, 0.0, mark))
     better = 1 if found[0] > found[1] else 2

@@ -12,6 +12,7 @@ from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, angle, number
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import FourBar, SliderCrank
+from gruebler.linkages.quantities import as_finite
 
 __all__ = ["four_bar", "slider_crank"]
 
@@ -37,6 +38,8 @@ def four_bar(
     (191.408211, 2.089775, 2024.47534)
     """
     size = FourBar(a, b, c, d)
+    if as_finite("omega", omega) == 0:
+        raise LinkageError("at ω = 0 nothing moves: give an angular velocity")
     side = 1 if branch >= 0 else -1
     pose = size.motion(radians(phi), branch=side)
     if not pose.complete:
@@ -99,6 +102,8 @@ def _four_bar_rates(way: Way, size: FourBar, angles: tuple[float, float, float],
     shown = dict(zip("φθψ", map(angle, angles), strict=True))
     speed = way.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{way.unit}/s", a=a, ω=abs(omega))
     name = Text("angular velocity of the rocker", "Winkelgeschwindigkeit der Schwinge")
+    if min(abs(sin(psi - theta)), abs(sin(phi - theta))) < 1e-9:
+        raise LinkageError(f"in the dead centre at φ = {angles[0]:g}° there is no transmission ratio")
     rocker = omega * a * sin(phi - theta) / (c * sin(psi - theta))
     formula = "ω·a·sin(φ - θ)/(c·sin(ψ - θ))"
     way.find("ω_c", name, formula, rocker, unit="1/s", a=a, c=c, ω=omega, values=shown)
@@ -230,8 +235,12 @@ def _check_four_bar(way: Way, size: FourBar, moved: Motion, phi: float) -> None:
         way.check(en, de, value, float(moved.angular(link, 2)[0]), "1/s²")
 
 
-def slider_crank(a: float, b: float, phi: float, omega: float, e: float = 0.0, unit: str = "mm") -> Solution:
+def slider_crank(
+    a: float, b: float, phi: float, omega: float, e: float = 0.0, unit: str = "mm", either: float = 0
+) -> Solution:
     """Velocity and acceleration of the slider at a crank angle from its line, crank at constant speed (rad/s).
+
+    With ``either`` = 1 the values are told for the same angle from the inner dead centre of a central one as well.
 
     >>> found = slider_crank(25, 70, phi=55, omega=10)
     >>> round(found.number("v_B"), 6), round(found.number("a_B"), 6)
@@ -278,7 +287,7 @@ def slider_crank(a: float, b: float, phi: float, omega: float, e: float = 0.0, u
     formula = "-a·ω²·cos φ - b·ω_b²·cos β - b·α_b·sin β"
     way.find("a_B", name, formula, acceleration, unit=f"{unit}/s²", values=values, α_b=alpha)
     way.keep("μ", Text("transmission angle", "Übertragungswinkel"), 90 - abs(degrees(beta)), unit="°")
-    if not e:
+    if either and not e:
         _add_inner(way, size, phi, omega)
     _check_slider(way, size, (phi, omega), (v, acceleration))
     return way.done()

@@ -246,7 +246,7 @@ GUIDANCES: tuple[Guidance, ...] = (
         Names("conchoid linkage", "Konchoidenlenker"),
         Names("crank 3, frame 5, AK = 9; about an inflection", "Kurbel 3, Gestell 5, AK = 9; um einen Wendepunkt"),
         _sized(InvertedSliderCrank(3, 5), 9),
-        (57.25, _INFLECTION, 120.75),
+        (60, _INFLECTION, 120),
         _ITS_TANGENT,
     ),
     Guidance(
@@ -274,7 +274,7 @@ GUIDANCES: tuple[Guidance, ...] = (
     Guidance(
         "meyer-zur-capellen",
         Names("Meyer zur Capellen", "Meyer zur Capellen"),
-        Names("symmetric double rocker, lambda = 5/6, AK = 1", "symmetrische Doppelschwinge, lambda = 5/6, AK = 1"),
+        Names("symmetric double rocker, λ = 5/6, AK = 1", "symmetrische Doppelschwinge, λ = 5/6, AK = 1"),
         _four_bar(*_ROCKER_PINS, drive="R(crank-coupler)"),
         (0, degrees(_ROCKER.phi0), 120),
         0.0,

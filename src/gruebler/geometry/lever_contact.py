@@ -20,7 +20,7 @@ from gruebler.linkages.quantities import as_branch, as_finite
 __all__ = ["LeverContact", "LeverPose", "lever_contact", "lever_pose"]
 
 _ORDER = 9
-_ZERO = 1e-9  # of the linkage's size: smaller coefficients are roundings
+_ZERO = 1e-9  # of the linkage's size, or of what a coefficient may be: smaller ones are roundings
 
 
 class LeverContact(NamedTuple):
@@ -77,7 +77,8 @@ def lever_contact(
 ) -> LeverContact:
     """The contact of a coupler point's path with its tangent at a crank angle.
 
-    Error: the coefficients are sums of products of doubles; what is below 1e-9 of the linkage's size counts as zero.
+    Error: the coefficients are sums of products of doubles; of order n counts as zero what is below 1e-9 s g^(n - 1),
+    with the speed s and the least g for which no coefficient of the path is larger than s g^(n - 1).
 
     Raises `LinkageError` where the path has a cusp or is straight to order 8, in dead centres of the output, and out of
     reach.
@@ -97,7 +98,9 @@ def lever_contact(
         raise LinkageError(f"the path has a cusp {where}, and no tangent")
     heading = path[1] / abs(path[1])
     seen = path[1:] / heading
-    high = np.flatnonzero(np.abs(seen.imag) > _ZERO * largest)
+    orders = np.arange(1, _ORDER - 1)
+    growth = ((np.abs(seen[1:]) / abs(seen[0])) ** (1 / orders)).max()
+    high = 1 + np.flatnonzero(np.abs(seen[1:].imag) > _ZERO * abs(seen[0]) * growth**orders)
     if not len(high):
         raise LinkageError(f"the path is straight to order {_ORDER - 1} {where}")
     points = int(high[0]) + 1

@@ -15,6 +15,9 @@ from gruebler.geometry.lever_contact import LeverContact, lever_contact
 from gruebler.linkages import FourBar
 from gruebler.linkages.quantities import as_finite, as_positive
 
+_LEAST, _MOST = 0.501, 1.4999  # lambda: towards 0.5 links grow beyond all bounds, towards 1.5 they shrink to nothing
+_WIDEST = 2000.0  # longest link by the shortest
+
 __all__ = ["CouplerLever", "SymmetricRocker", "lambdas_for", "symmetric_rocker"]
 
 
@@ -131,7 +134,7 @@ def symmetric_rocker(ratio: float, phi0: float | None = None, diameter: float = 
     With another phi0 the contact has four points (*Zykloidenlenker*).
 
     Raises `LinkageError` for lambda outside 0.5 ... 1.5 (the ends give no linkage), an angle outside 0 ... 90 degrees,
-    or rockers of infinite length (sin^2 phi0 = lambda).
+    or where lengths run away: rockers of infinite length (sin^2 phi0 = lambda), links 2000 times as long as others.
 
     >>> symmetric_rocker(5 / 6).contact().points, symmetric_rocker(0.8, math.radians(50)).contact().points
     (6, 4)
@@ -141,7 +144,7 @@ def symmetric_rocker(ratio: float, phi0: float | None = None, diameter: float = 
     if phi0 is None:
         if not 0.5 < place < 1.5:
             raise LinkageError(f"lambda must lie between 0.5 and 1.5, both excluded, not {ratio!r}")
-        return SymmetricRocker(place, math.asin(math.sqrt((1 + 2 * place) / 4)), length)
+        return _sound(SymmetricRocker(place, math.asin(math.sqrt((1 + 2 * place) / 4)), length))
     angle = as_finite("phi0", phi0)
     if not 0 < angle < math.pi / 2:
         raise LinkageError(
@@ -149,24 +152,38 @@ def symmetric_rocker(ratio: float, phi0: float | None = None, diameter: float = 
         )
     if place <= 0:
         raise LinkageError(f"lambda must be positive, not {ratio!r}")
-    if abs(place - math.sin(angle) ** 2) < 1e-9:
+    return _sound(SymmetricRocker(place, angle, length))
+
+
+def _sound(made: SymmetricRocker) -> SymmetricRocker:
+    """The same, unless its proportions run away."""
+    if abs(made.ratio - math.sin(made.phi0) ** 2) < 1e-9:
         raise LinkageError("the rockers have no finite length: sin^2 phi0 = lambda")
-    return SymmetricRocker(place, angle, length)
+    a0, a, b, b0 = made.pins
+    lengths = abs(a - a0), abs(b - a), abs(b0 - a0)
+    if not max(lengths) < _WIDEST * min(lengths):
+        raise LinkageError(
+            f"lambda = {made.ratio:.9g} and phi0 = {math.degrees(made.phi0):.9g} degrees make no linkage that can be "
+            f"built: its links differ more than {_WIDEST:g}-fold in length"
+        )
+    return made
 
 
 def lambdas_for(kappa: float) -> tuple[float, ...]:
     """The ratios lambda for which the straight line makes the angle kappa (radians) with A0B0, the smaller first.
 
     lambda^2 (3 - 2 lambda) = cos^2 kappa has the roots 1/2 + cos((pi + 2 kappa)/3), and that with -kappa; the first
-    has the coupler point to the left of AB, the second to the right. Beyond 45 degrees only the second is left.
+    has the coupler point to the left of AB, the second to the right. From 45 degrees on only the second is left; a
+    root below 0.501 (from 44.914 degrees on) makes no sensible linkage, nor does one above 1.4999.
 
-    Raises `LinkageError` for an angle outside 0 ... 90 degrees.
+    Raises `LinkageError` for an angle outside 0 ... 88.78 degrees.
 
     >>> [round(value, 9) for value in lambdas_for(math.radians(30))]
     [0.673648178, 1.266044443]
     """
     angle = as_finite("kappa", kappa)
-    if not 0 <= angle < math.pi / 2:
-        raise LinkageError(f"kappa must lie from 0 to below 90 degrees, not {math.degrees(angle):g} degrees")
     both = [0.5 + math.cos((math.pi + side * angle) / 3) for side in (2, -2)]
-    return tuple(dict.fromkeys(value for value in both if 0.5 < value < 1.5))
+    found = tuple(dict.fromkeys(value for value in both if _LEAST <= value <= _MOST))
+    if not 0 <= angle < math.pi / 2 or not found:
+        raise LinkageError(f"kappa must lie from 0 to 88.78 degrees, not {math.degrees(angle):.9g} degrees")
+    return found

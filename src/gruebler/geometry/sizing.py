@@ -8,10 +8,10 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.geometry.straight import Path, Piece, piece
+from gruebler.geometry.straight import Path, Piece, longest_piece, piece
 from gruebler.linkages.quantities import as_finite, as_positive
 
-__all__ = ["RatioCurve", "Sizing", "Window", "ratio_curve", "sized", "widest_piece"]
+__all__ = ["RatioCurve", "Sizing", "Window", "longest_in_band", "ratio_curve", "sized", "widest_piece"]
 
 
 class Window(NamedTuple):
@@ -117,6 +117,45 @@ def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -
         if excess(width) < 0 < excess(beyond):
             width = float(brentq(excess, width, beyond, xtol=1e-14, rtol=1e-14))
     return piece(path, *window.ends(width), window.direction)
+
+
+def longest_in_band(path: Path, start: float, end: float, band: float, samples: int = 181) -> Piece:
+    """The longest piece in a band of any direction, its ends between the samples: `longest_piece`, refined.
+
+    Every piece that begins near the best one of the samples is led on until it just fills the band, and the longest of
+    them is sought. Error: of the second order in the spacing of the samples of `piece`, about 1e-6 of the band; the
+    place of the piece is less sharp than its length, being that of a maximum. A piece at the end of the range stays.
+
+    Raises `LinkageError` like `longest_piece`.
+
+    >>> from gruebler.geometry import coupler_path
+    >>> from gruebler.linkages import InvertedSliderCrank
+    >>> found = longest_in_band(coupler_path(InvertedSliderCrank(30, 50), 90, 0), 0.0, np.pi, 0.5)
+    >>> round(found.length, 3), round(found.band, 6)
+    (32.559, 0.5)
+    """
+    from scipy.optimize import brentq, minimize_scalar
+
+    rough = longest_piece(path, start, end, band, samples)
+    step = (end - start) / (samples - 1)
+
+    def filled(begin: float, fine: int = 401) -> Piece | None:
+        def excess(stop: float) -> float:
+            return piece(path, begin, stop, samples=fine).band - band
+
+        low, high = rough.end - 2 * step, min(rough.end + 3 * step, end)
+        if not begin < low or excess(low) > 0 or excess(high) < 0:
+            return None
+        return piece(path, begin, float(brentq(excess, low, high, xtol=1e-10)), samples=fine)
+
+    def shortness(begin: float) -> float:
+        made = filled(begin)
+        return 0.0 if made is None else -made.length
+
+    ends = max(rough.start - step, start), rough.start + step
+    best = minimize_scalar(shortness, bounds=ends, method="bounded", options={"xatol": 1e-7})
+    made = filled(float(best.x), fine=2001)
+    return rough if made is None or made.length < rough.length else made
 
 
 def sized(path: Path, window: Window, length: float, tolerance: float) -> Sizing:

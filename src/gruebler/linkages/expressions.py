@@ -63,7 +63,7 @@ class Expression:
             found = f"one of {len(self.text)}" if isinstance(self.text, str) else repr(self.text)[:40]
             raise LinkageError(f"an expression is a text of at most {_LONGEST} characters, not {found}")
         object.__setattr__(self, "steps", tuple(_Reader(self.text).whole()))
-        object.__setattr__(self, "value", self._nearest())
+        object.__setattr__(self, "value", _nearest(self.text, self.steps))
         object.__setattr__(self, "exact", _exactly(self.steps))
 
     def __str__(self) -> str:
@@ -92,21 +92,8 @@ class Expression:
         """Whether the values are equal: exactly if both are known as sums of roots, else to 1000 binary places."""
         if self.exact is not None and other.exact is not None:
             return dict(self.exact) == dict(other.exact)
-        mine, others = (_bracketed(one, 4096) for one in (self, other))
+        mine, others = (_bracketed(one.text, one.steps, 4096) for one in (self, other))
         return mine[0] - others[1] <= 1 << 3096 and others[0] - mine[1] <= 1 << 3096
-
-    def _nearest(self) -> float:
-        """From ever narrower brackets; what none tells from half-way between two doubles is there."""
-        for p in _PRECISIONS:
-            try:
-                low, high = (Fraction(end, 1 << p) for end in _bracketed(self, p))
-            except Unsettled as stop:
-                if p == _PRECISIONS[-1]:
-                    raise _wrong(self.text, stop.at, "a division by zero") from None
-                continue
-            if float(low) == float(high):
-                return float(low) + 0.0  # no minus zero
-        return float((low + high) / 2)
 
 
 def _wrong(text: str, at: int, what: str) -> LinkageError:
@@ -117,18 +104,32 @@ def _wrong(text: str, at: int, what: str) -> LinkageError:
 # --- values -----------------------------------------------------------------------------------------
 
 
-def _bracketed(expression: Expression, p: int) -> Bracket:
+def _nearest(text: str, steps: tuple[_Step, ...]) -> float:
+    """From ever narrower brackets; what none tells from half-way between two doubles is there."""
+    for p in _PRECISIONS:
+        try:
+            low, high = (Fraction(end, 1 << p) for end in _bracketed(text, steps, p))
+        except Unsettled as stop:
+            if p == _PRECISIONS[-1]:
+                raise _wrong(text, stop.at, "a division by zero") from None
+            continue
+        if float(low) == float(high):
+            return float(low) + 0.0  # no minus zero
+    return float((low + high) / 2)
+
+
+def _bracketed(text: str, steps: tuple[_Step, ...], p: int) -> Bracket:
     """The value between two bounds, p bits behind the point."""
     stack: list[Bracket] = []
-    for step in expression.steps:
+    for step in steps:
         try:
             made = _bracket(step, stack, p)
         except Unsettled:
             raise Unsettled(step.at) from None
         if made is None:
-            raise _wrong(expression.text, step.at, "the root of a negative number")
+            raise _wrong(text, step.at, "the root of a negative number")
         if max(abs(made[0]), abs(made[1])) >> p + _RANGE:
-            raise _wrong(expression.text, step.at, f"a number beyond 2^{_RANGE}")
+            raise _wrong(text, step.at, f"a number beyond 2^{_RANGE}")
         stack.append(made)
     return stack[0]
 
@@ -153,7 +154,7 @@ def _bracket(step: _Step, stack: list[Bracket], p: int) -> Bracket | None:
 
 
 def _exactly(steps: tuple[_Step, ...]) -> Surd | None:
-    """The value as a sum of roots; None as soon as it leaves their realm. No step of it is wrong: see `_bracketed`."""
+    """The value as a sum of roots; None as soon as it leaves their realm. No step is wrong: see `_nearest`."""
     stack: list[Surd] = []
     for step in steps:
         made = _surd(step, stack)
@@ -222,16 +223,22 @@ class _Reader:
         yield from self.atom()
         if self.tokens[0][0] == "**":
             at = self.deeper()
-            exponent = _exactly(tuple(self.signed())) or {}
+            exponent = tuple(self.signed())
             self.depth -= 1
-            number = exponent.get(1, Fraction(0))
-            if not set(exponent) <= {1} or number.denominator != 1 or abs(number) > _MOST_TIMES:
-                raise _wrong(self.text, at, f"an exponent is a whole number from -{_MOST_TIMES} to {_MOST_TIMES}")
-            yield _Step("**", at, number)
+            yield _Step("**", at, self.whole_number(exponent, at))
+
+    def whole_number(self, steps: tuple[_Step, ...], at: int) -> Fraction:
+        """An exponent, to be known exactly."""
+        _nearest(self.text, steps)
+        exact = _exactly(steps)
+        number = None if exact is None or not set(exact) <= {1} else exact.get(1, Fraction(0))
+        if number is None or number.denominator != 1 or abs(number) > _MOST_TIMES:
+            raise _wrong(self.text, at, f"an exponent is a whole number from -{_MOST_TIMES} to {_MOST_TIMES}")
+        return number
 
     def atom(self) -> Iterator[_Step]:
         token, at = self.tokens[0]
-        if token[:1] in tuple("0123456789."):
+        if token[:1] in tuple("0123456789.") and token != ".":
             self.taken()
             yield _Step("number", at, Fraction(token))
         elif token in ("pi", "π"):

@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 
 from gruebler.errors import CatalogError
 from gruebler.geometry.lever_contact import lever_contact, lever_pose
+from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
 from gruebler.geometry.roberts import cognates
 from gruebler.linkages import FourBar
-from gruebler.sheets.records import CognateLength, Quantity
+from gruebler.linkages.expressions import Expression
+from gruebler.sheets.records import CognateLength, Quantity, RockerValue
 
 if TYPE_CHECKING:
     from gruebler.sheets.model import Sheet
@@ -55,10 +57,27 @@ def _cognate(sheet: Sheet, wanted: CognateLength, at: float) -> float:
     return float(length) / sheet.unit_length
 
 
+def _rocker(sheet: Sheet, wanted: RockerValue, _: float) -> float:
+    made = symmetric_rocker(Expression(wanted.ratio).value)
+    lever = made.lever
+    if wanted.value == "k_by_cognate":  # in the size in which it draws the sheet's own curve
+        return lever.k * _cognate(sheet, CognateLength(number=2, length="a"), 0.0) / lever.size.a
+    return {
+        "phi0": math.degrees(made.phi0),
+        "sin_phi0": math.sin(made.phi0),
+        "l1": lever.size.a,
+        "l2": lever.size.b,
+        "l4": lever.size.d,
+        "k": lever.k,
+        "tan_kappa": math.tan(lever.kappa),
+    }[wanted.value]
+
+
 _WAYS: dict[str, Callable[..., float]] = {
     "angle": _angle,
     "cosine": _cosine,
     "distance": _distance,
     "contact_at": _contact,
     "cognate": _cognate,
+    "rocker": _rocker,
 }

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from gruebler.drawing import Figure, draw
 from gruebler.drawing.figure import text_width
 from gruebler.drawing.plots import ratio_diagram
+from gruebler.errors import CatalogError
 from gruebler.sheets.model import Sheet, Told
 from gruebler.sheets.page import HEIGHT, WIDTH, Page, Placed, Rule, Words
 from gruebler.sheets.picture import scale_picture
@@ -24,12 +25,14 @@ Item = Words | Rule | Placed
 
 
 def page(sheet: Sheet, lang: str = "en") -> Page:
-    """The page of a sheet, ready to be printed.
+    """The page of a sheet, ready to be printed; `CatalogError` if one of its values does not hold.
 
     >>> from gruebler.sheets import sheet
     >>> page(sheet("mzc")).title
     'Crank-rocker as a replacement for a Meyer zur Capellen linkage'
     """
+    for told in sheet.wrong:
+        raise CatalogError(f"sheet {sheet.id}: {told.symbol} is {told.derived:.9g}, not what the record tells of it")
     words, items = words_of(lang), list[Item]()
     items.append(Words(_LEFT, 50, words["collection"], 10, role="faint"))
     items.append(Words(_RIGHT, 50, words["sheet"].format(id=sheet.id), 10, role="faint", anchor="end"))
@@ -122,7 +125,7 @@ def _diagram(sheet: Sheet, lang: str) -> Figure:
 def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
     words = words_of(lang)
     lines = [f"[{k}] {text}" for k, text in enumerate(sheet.record.literature, 1)]
-    lines.append(words["source"].format(source=sheet.record.source))
+    lines.append(words["source"].format(source=sheet.record.source.said(lang)))
     y = HEIGHT - 42 - 12 * (len(lines) - 1)
     items.append(Rule(_LEFT, y - 13, _RIGHT - _LEFT))
     for line in lines:

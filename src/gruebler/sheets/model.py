@@ -47,6 +47,8 @@ class Told:
     name: Text | None = None
     reason: Text | None = None
     """Why what is printed is not so."""
+    remark: Text | None = None
+    """What is to be said about a right one."""
     unit: str = ""
     of: tuple[str, ...] = ()
     """The points of a distance."""
@@ -167,6 +169,7 @@ class Sheet:
                 _expression(row.printed),
                 row.name,
                 row.reason,
+                row.remark,
                 row.unit,
             )
             for row in self.record.quantities

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from gruebler.sheets.model import Sheet
+from gruebler.sheets.model import Sheet, Told
 
 __all__ = ["Number", "example_lines", "explained", "lowered", "value_lines", "words_of"]
 
@@ -89,16 +89,28 @@ class Number(float):
         return said.replace(".", ",") if self.lang == "de" else said
 
 
+class _Place:
+    """A value in a text: exact without a form, else with so many digits."""
+
+    def __init__(self, told: Told, lang: str) -> None:
+        self.exact, self.number = told.exact, Number(told.derived, lang)
+
+    def __format__(self, form: str) -> str:
+        return self.exact.typeset if not form and self.exact is not None else format(self.number, form)
+
+
 def explained(sheet: Sheet, lang: str) -> list[str]:
     """The paragraphs of the explanation, with derived values in their places."""
-    values = {told.id: Number(told.derived, lang) for told in sheet.quantities}
+    values = {told.id: _Place(told, lang) for told in sheet.quantities}
     return [text.said(lang).format_map(values).replace(" = ", _EQUALS) for text in sheet.record.explanation]
 
 
 def value_lines(sheet: Sheet, lang: str) -> list[str]:
-    """Each value that the sheet tells: symbol, exact, decimal, and what the source has instead."""
+    """Each value of the mechanism that the sheet tells: symbol, exact, decimal, and what the source has instead."""
     out = []
-    for told in sheet.quantities:
+    for told, row in zip(sheet.quantities, sheet.record.quantities, strict=True):
+        if row.rocker is not None:
+            continue
         said = f"{Number(told.derived, lang):.6f}" + told.unit
         if told.exact is not None and told.exact.text.isdigit():
             said = f"{told.exact.text}: {told.name.said(lang)}" if told.name else told.exact.text
@@ -124,5 +136,6 @@ def example_lines(sheet: Sheet, lang: str) -> list[str]:
         f"φ_G = {n(end - start):.4f}°, φ_A = {start:.4f}°, φ_E = {end:.4f}°",
         f"L/{scale} = {n(found.ratio):.6f}",
         f"{scale} = {n(found.length):g}/{n(found.ratio):.6f} = {n(found.scale):.4f} {unit}",
-        ", ".join(f"{symbol}{_EQUALS}{n(value):.3f}" for symbol, value in found.lengths[1:]) + f"\u00a0{unit}",
+        ("; " if lang == "de" else ", ").join(f"{symbol}{_EQUALS}{n(value):.3f}" for symbol, value in found.lengths[1:])
+        + f"\u00a0{unit}",
     ]

@@ -9,12 +9,12 @@ from typing import Literal
 
 import msgspec
 
-from gruebler.catalog import Text
+from gruebler.catalog import Text, entry
 from gruebler.errors import CatalogError, GrueblerError
 from gruebler.linkages.documents import fitted, load
 from gruebler.linkages.expressions import Expression
 
-__all__ = ["CognateLength", "Dimension", "Guide", "Picture", "Quantity", "SheetRecord", "read_sheet"]
+__all__ = ["CognateLength", "Dimension", "Guide", "Picture", "Quantity", "RockerValue", "SheetRecord", "read_sheet"]
 
 
 class Dimension(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -34,8 +34,16 @@ class CognateLength(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_
     length: Literal["a", "b", "c", "d"]
 
 
+class RockerValue(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A value of the double rocker with contact in six points that has this lambda, the diameter D being 1."""
+
+    ratio: str
+    """Lambda, an exact expression."""
+    value: Literal["phi0", "sin_phi0", "l1", "l2", "l4", "k", "tan_kappa", "k_by_cognate"]
+
+
 class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A value that the sheet tells, derived in one of five ways."""
+    """A value that the sheet tells, derived in one of six ways."""
 
     id: str
     symbol: str
@@ -48,6 +56,7 @@ class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     contact_at: float | None = None
     """Points in common with the tangent, at this drive value."""
     cognate: CognateLength | None = None
+    rocker: RockerValue | None = None
     at: float = 0.0
     """The drive value, in degrees."""
     less_at: float | None = None
@@ -58,6 +67,8 @@ class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     """What the source prints: an expression, or a number with as many digits."""
     reason: Text | None = None
     """Why what is printed is not so."""
+    remark: Text | None = None
+    """What is to be said about a right one."""
     unit: str = ""
 
 
@@ -91,7 +102,7 @@ class SheetRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     id: str
     machine: str
     """The catalog entry that has structure and dimensions."""
-    source: str
+    source: Text
     title: Text
     tasks: tuple[Text, ...]
     point: str
@@ -104,12 +115,14 @@ class SheetRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     dimensions: tuple[Dimension, ...]
     quantities: tuple[Quantity, ...] = ()
     explanation: tuple[Text, ...] = ()
-    """Words with ``{id:.3f}`` for derived values."""
+    """Words with ``{id:.3f}`` for derived values, and ``{id}`` for exact ones."""
     literature: tuple[str, ...] = ()
 
 
+_LONGEST = 1e9
+_TURNS = 3600.0
 _PRINTED = ("phi_G", "phi_A", "ratio", "scale")
-_WAYS = ("angle", "cosine", "distance", "contact_at", "cognate")
+_WAYS = ("angle", "cosine", "distance", "contact_at", "cognate", "rocker")
 
 
 def read_sheet(path: Path) -> SheetRecord:
@@ -138,10 +151,17 @@ def _faults(record: SheetRecord) -> Iterator[str]:
             yield f"quantities {quantity.id}: expected one of {', '.join(_WAYS)}, but found {len(ways)}"
         if ways[0] in ("angle", "cosine", "distance"):
             named.append((f"quantities {quantity.id}", getattr(quantity, ways[0])))
+    named.append(("point", (record.point,)))
     for where, names in named:
         for name in names:
             if name not in record.names:
                 yield f"{where}: {name!r} is none of the names {', '.join(record.names)}"
+        if len(set(names)) < len(names):
+            yield f"{where}: expected different names, but found {', '.join(names)}"
+    ids = [quantity.id for quantity in record.quantities]
+    yield from (f"quantities {id}: this id is given twice" for id in ids if ids.count(id) > 1)
+    yield from _wrong_numbers(record)
+    yield from _wrong_places(record)
     for where, text in _expressions(record):
         try:
             Expression(text)
@@ -150,9 +170,54 @@ def _faults(record: SheetRecord) -> Iterator[str]:
     for key in record.guide.printed:
         if key not in _PRINTED:
             yield f"guide.printed: {key!r} is none of {', '.join(_PRINTED)}"
-    if not record.guide.start < record.guide.centre < record.guide.end <= record.guide.start + 360:
-        yield "guide: expected start < centre < end, at most a turn apart"
     yield from _wrong_words(record)
+
+
+def _wrong_numbers(record: SheetRecord) -> Iterator[str]:
+    """Lengths are positive, drive values some turns at most, and those of the guide in order."""
+    guide, picture = record.guide, record.picture
+    if not guide.start < guide.centre < guide.end <= guide.start + 360:
+        yield "guide: expected start < centre < end, at most a turn apart"
+    for key in ("length", "tolerance"):
+        if not 0 < getattr(guide, key) < _LONGEST:
+            yield f"guide.{key}: expected a positive length, but found {getattr(guide, key)!r}"
+    angles = [(f"guide.{key}", getattr(guide, key)) for key in ("centre", "start", "end")]
+    angles += [("picture.pose", picture.pose), *((f"picture.marks.{k}", at) for k, at in picture.marks.items())]
+    for quantity in record.quantities:
+        keys = ("at", "less_at", "contact_at")
+        angles += [(f"quantities {quantity.id}: {key}", getattr(quantity, key) or 0.0) for key in keys]
+    for where, angle in angles:
+        if not abs(angle) <= _TURNS:
+            yield f"{where}: expected a drive value from -{_TURNS:g} to {_TURNS:g} degrees, but found {angle!r}"
+
+
+def _wrong_places(record: SheetRecord) -> Iterator[str]:
+    """Names stand for points of the machine, dimensions for lengths on one link, the axis goes through the frame."""
+    try:
+        machine = entry(record.machine).linkage()
+    except GrueblerError as error:
+        yield f"machine: {error}"
+        return
+    chain = machine.mechanism.chain
+    joints = dict(zip(chain.joint_names(), chain.joints, strict=True))
+    links: dict[str, set[str]] = {}
+    for name, stands in record.names.items():
+        if stands in machine.points:
+            links[name] = {machine.points[stands].link}
+        elif stands in joints:
+            links[name] = set(joints[stands].links)
+        else:
+            yield f"names.{name}: {stands!r} is none of {', '.join([*joints, *machine.points])} of {record.machine}"
+            return
+    for where, (first, second) in [
+        ("scale", record.scale),
+        *((f"dimensions {d.symbol}", d.of) for d in record.dimensions),
+    ]:
+        if not links[first] & links[second]:
+            yield f"{where}: {first} and {second} are on no common link"
+    axis = record.picture.axis_through
+    if axis is not None and machine.mechanism.frame not in links[axis]:
+        yield f"picture.axis_through: {axis} is no joint of the frame"
 
 
 def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
@@ -162,6 +227,8 @@ def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
         for text in (quantity.value, quantity.printed):
             if text is not None:
                 yield f"quantities {quantity.id}", text
+        if quantity.rocker is not None:
+            yield f"quantities {quantity.id}: rocker", quantity.rocker.ratio
     for text in record.guide.printed.values():
         yield "guide.printed", text
 
@@ -171,6 +238,6 @@ def _wrong_words(record: SheetRecord) -> Iterator[str]:
     known = [quantity.id for quantity in record.quantities]
     for text in (said for both in record.explanation for said in (both.en, both.de)):
         for place in re.findall(r"\{[^}]*\}?|\}", text):
-            form = re.fullmatch(r"\{(\w+):\.\df\}", place)
+            form = re.fullmatch(r"\{(\w+)(?::\.\df)?\}", place)
             if form is None or form[1] not in known:
                 yield f"explanation: {place!r} is no place such as {{id:.3f}} with one of {', '.join(known)}"

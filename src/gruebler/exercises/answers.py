@@ -1,0 +1,71 @@
+"""Answers as people write them: 60, 7,2 cm, 78.5°, ± 78,5; read, and brought to the unit that is asked for."""
+
+from __future__ import annotations
+
+import re
+from math import isfinite, pi
+from typing import NamedTuple
+
+from gruebler.errors import GrueblerError
+from gruebler.exercises.solution import Result
+from gruebler.exercises.solving import last_place
+
+__all__ = ["Given", "read_answer", "unit_scale"]
+
+_NUMBER = re.compile(r"\s*(±?)\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d{1,2})?)\s*(.*?)\s*", re.ASCII)
+_SPELT = {"deg": "°", "degree": "°", "degrees": "°", "grad": "°", "rad/s": "1/s", "s^-1": "1/s", "rad/s²": "1/s²"}
+_WORTH = {
+    **{f"{name}{per}": (worth, f"length{per}") for name, worth in (("mm", 1.0), ("cm", 10.0), ("m", 1000.0))
+       for per in ("", "/s", "/s²")},
+    "°": (1.0, "angle"),
+    "rad": (180 / pi, "angle"),
+    "ms": (1.0, "time"),
+    "s": (1000.0, "time"),
+    "1/s": (1.0, "rate"),
+    "1/s²": (1.0, "rate of a rate"),
+}  # fmt: skip
+"""What a unit is worth in the first of its kind, and the kind."""
+
+
+class Given(NamedTuple):
+    """A number that was answered, in the unit of the result."""
+
+    number: float
+    place: float
+    """What one unit of the last written digit is worth."""
+    has_unit: bool
+
+
+def read_answer(answer: str, result: Result) -> Given:
+    """The number of an answer; without a unit it is taken in that of the result.
+
+    Raises `GrueblerError` for what is no number and for a unit that does not measure the result.
+
+    >>> from gruebler.catalog import Text
+    >>> read_answer("7,2 cm", Result("H", Text("stroke", "Hub"), 72.0, "mm")).number
+    72.0
+    """
+    form = _NUMBER.fullmatch(answer)
+    if form is None or (form[1] and not result.either_sign) or not isfinite(float(form[2].replace(",", "."))):
+        wanted = f"a number in {result.unit}" if result.unit else "a number"
+        raise GrueblerError(f"expected {wanted}, not {answer!r}")
+    text = form[2].replace(",", ".")
+    scale = unit_scale(form[3], result.unit) if form[3] else 1.0
+    if scale is None:
+        wanted = f"in {result.unit}" if result.unit else "without a unit"
+        raise GrueblerError(f"expected a number {wanted}, not {answer!r}")
+    return Given(float(text) * scale, last_place(text) * scale, bool(form[3]))
+
+
+def unit_scale(unit: str, wanted: str) -> float | None:
+    """What a unit is worth in another one of the same kind; None if it is of another kind, or unknown.
+
+    >>> unit_scale("cm/s^2", "mm/s²"), unit_scale("s", "mm")
+    (10.0, None)
+    """
+    plain = re.sub(r"\^?2$", "²", unit.replace(" ", ""))
+    plain = _SPELT.get(plain.casefold(), plain)
+    mine, other = _WORTH.get(plain), _WORTH.get(wanted)
+    if mine is None or other is None or mine[1] != other[1]:
+        return None
+    return mine[0] / other[0]
