@@ -1,8 +1,11 @@
 """`gruebler analyse --poles --curvature`."""
 
+import numpy as np
 import pytest
 
-from gruebler.linkages import Linkage
+from gruebler.cli.geometry_columns import curvature_columns
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar, Linkage, Named
 from gruebler.linkages.files import write_linkage
 from gruebler.mechanism import Mechanism
 from tests.cli.test_analyse import CRANK_ROCKER, run, table
@@ -45,6 +48,16 @@ def test_curvature_of_points_and_inflection_circles(capsys):
     # E at the dead centre: pole in B, A runs on the circle r = 1, so PA^2 = AW AA0 gives D = b (1 + b/a)
     assert found["inflection circle coupler mm"] == [pytest.approx(1.5 * 2.5)]
     assert "inflection circle slider mm" not in found
+
+
+def test_inflection_circles_of_all_floating_links(capsys):
+    """Without a point those of the links that have no joint with the frame; a rocker's, a point, is left out."""
+    _, found = table(capsys, CRANK_ROCKER, "--at", "55", "--curvature")
+    assert [name for name in found if "inflection" in name] == ["inflection circle coupler mm"]
+    motion = move(FourBar(25, 70, 40, 70).linkage(), np.radians([55.0]), order=2)
+    made = curvature_columns(motion, [Named("coupler", 45.0, 40.0)])
+    assert made[0].name == "coupler:45,40 radius of curvature"
+    assert made[-1].values == pytest.approx(found["inflection circle coupler mm"])
 
 
 def test_a_straight_path_has_no_centre(capsys):

@@ -87,3 +87,14 @@ def test_refusals(capsys, point, message):
     assert status == 2
     assert message in error
     assert run(capsys, "four-bar:25,70,40,70", "coupler:1,2", "--tolerance", "0")[0] == 2
+
+
+def test_a_far_point_and_a_far_drive_value(capsys):
+    assert run(capsys, "four-bar:25,70,40,70", "coupler:1e10,40")[0] == 0
+    status, out = run(capsys, "four-bar:25,70,40,70", "coupler:45,40", "--contact", "401")
+    assert status == 0
+    assert out.splitlines()[1].split(":")[1] == " y = 0.0997219788 x^2."
+    status, said = run(capsys, "four-bar:40,70,25,70", "coupler:45,40", "--contact", "179")
+    assert (status, "not to 179°" in said) == (2, True)
+    status, said = run(capsys, "four-bar:25,70,40,70", "coupler:45,40", "--tolerance", "1e9")
+    assert (status, "tolerance must lie between" in said) == (2, True)

@@ -67,7 +67,7 @@ def test_json_and_status(capsys, tmp_path):
         (["winch_screw", "--tolerance", "1"], "between 0 and 0.01"),
         (["winch_screw", "--at", "nan"], "finite number"),
         (["winch_screw", "--branch", "+"], "no assembly mode"),
-        (["diff", "--at", "3"], "one drive"),
+        (["diff", "--at", "3"], "expected 2 drive values"),
         (["four-bar:1,1,1,10"], "stay open by"),
     ],
 )
@@ -112,3 +112,10 @@ def entry_text(id):
     from gruebler.catalog import catalog_folder
 
     return (catalog_folder() / "machines" / f"{id}.toml").read_text(encoding="utf-8")
+
+
+def test_a_value_for_each_drive(capsys):
+    for linkage in ("drafting", "diff2p"):
+        status, out, _ = run(capsys, linkage, "--at", "10", "--at", "20")
+        assert status == 0
+        assert "finite 2" in out

@@ -76,6 +76,12 @@ def test_the_speed_is_in_turns_a_minute(capsys):
         ([FOUR_BAR, "-o", "nowhere/x.svg"], "cannot be written"),
         (["R(0-1) R(1-2) R(2-0)"], "no dimensions"),
         (["wipper"], "wiper"),
+        (["wiper"], "blade moves without turning"),
+        (["mzc", "--output", "frame"], "the frame does not move"),
+        (["mzc", "--kind", "family", "--link", "frame"], "'frame' is the frame"),
+        (["mzc", "--kind", "hodograph", "--speed", "0"], "a speed that is not 0"),
+        (["mzc", "--kind", "ratio", "--point", "K", "--point", "B"], "of one point"),
+        ([FOUR_BAR, "--dark"], "SVG is on the ground of its reader"),
     ],
 )
 def test_one_sentence_for_what_cannot_be_plotted(capsys, arguments, words):
@@ -89,7 +95,8 @@ def test_files(capsys, tmp_path):
     pytest.importorskip("matplotlib")
     for suffix, start in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
         path = tmp_path / f"x.{suffix}"
-        assert run(capsys, "plot", FOUR_BAR, "-o", str(path), "--dark")[0] == 0
+        dark = [] if suffix == "svg" else ["--dark"]
+        assert run(capsys, "plot", FOUR_BAR, "-o", str(path), *dark)[0] == 0
         assert path.read_bytes().startswith(start)
 
 
@@ -98,6 +105,18 @@ def test_draw_has_ghosts_and_dimensions(capsys):
     assert "5 positions thinly. Shown: dimensions." in out
     assert "--ghosts" in run(capsys, "draw", "vcomp", "--graph", "--ghosts", "3")[2]
     assert "1 to 60" in run(capsys, "draw", FOUR_BAR, "--ghosts", "100")[2]
+    assert "1 to 60" in run(capsys, "draw", "mzc", "--ghosts", "0")[2]
+
+
+@pytest.mark.parametrize("suffix", ["svg", "html"])
+def test_what_is_on_the_ground_of_its_reader_is_not_dark(capsys, tmp_path, suffix):
+    assert "--dark is for" in run(capsys, "animate", FOUR_BAR, "-o", str(tmp_path / f"x.{suffix}"), "--dark")[2]
+
+
+def test_german_plots_have_german_links_and_numbers(capsys):
+    _, out, _ = run(capsys, "plot", "slidercrank", "--lang", "de")
+    assert "Abtrieb slider" not in out
+    assert ">0,5<" in run(capsys, "plot", "crankrocker", "--lang", "de")[1]
 
 
 @pytest.mark.parametrize(

@@ -105,3 +105,28 @@ def test_refusals(capsys, arguments, message):
         assert status == 2
         assert message in error
     assert run(capsys, "slider-crank:2,5", "--moment", "crank=1", "--friction", "-1")[0] == 2
+
+
+def test_a_change_point_of_a_branch(capsys):
+    arguments = ("four-bar:2,5,2,5", "--branch=-", "--moment", "rocker=1", "--at", "0")
+    status, out, _ = run(capsys, *arguments)
+    assert status == 1
+    assert "2.33333" in out
+    assert "agree" not in out
+    _, found, columns = document(capsys, *arguments)
+    assert found["disagreement"] is None
+    assert columns["torque R(frame-crank)"] == [pytest.approx(7 / 3)]
+
+
+@pytest.mark.parametrize(
+    ("twice", "once"),
+    [
+        (["--load", "R(coupler-rocker)=3,4", "--load", "R(coupler-rocker)=-1,2"], ["--load", "R(coupler-rocker)=2,6"]),
+        (["--moment", "rocker=3", "--moment", "rocker=-8"], ["--moment", "rocker=-5"]),
+        (["--mass", "R(crank-coupler)=3", "--mass", "R(crank-coupler)=2"], ["--mass", "R(crank-coupler)=5"]),
+    ],
+)
+def test_loads_at_one_place_add_up(capsys, twice, once):
+    given, expected = (document(capsys, "four-bar:25,70,40,70", *loads, "--at", "55")[2] for loads in (twice, once))
+    assert given.keys() == expected.keys()
+    assert all(given[name] == pytest.approx(expected[name]) for name in given)

@@ -1,12 +1,15 @@
 """What moves only for an instant is told from what moves; ways that meet are counted."""
 
 from math import cos, inf, pi, sin
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from gruebler import LinkageError
 from gruebler.freedoms import Evidence, freedoms
+from gruebler.freedoms.excess import Point
+from gruebler.freedoms.finite import _zeros
 from gruebler.freedoms.forms import definite, directions
 from gruebler.linkages import FourBar, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
@@ -156,7 +159,7 @@ def test_a_linkage_with_redundant_cranks_and_sizes_alone():
         ({"tolerance": True}, "between 0 and 0.01"),
         ({"at": "x"}, "finite number"),
         ({"at": float("inf")}, "finite number"),
-        ({"at": [1.0, 2.0]}, "one drive"),
+        ({"at": [1.0, 2.0]}, "expected 1 drive value"),
     ],
 )
 def test_refusals(arguments, words):
@@ -178,6 +181,25 @@ def test_only_linkages_have_freedoms():
         freedoms("R(0-1)")
     with pytest.raises(LinkageError, match="no drive"):
         freedoms(driveless, at=1.0)
+
+
+class FlatExcess:
+    """F = 1e4 (x - y)^7 (x + y): all but flat about its zero along x = y, so that Newton stops anywhere beside it."""
+
+    instant = SimpleNamespace(tolerance=1e-8)
+
+    def __call__(self, k):
+        flat, steep = k[0] - k[1], k[0] + k[1]
+        slope = 1e4 * flat**6 * np.array([7 * steep + flat, -7 * steep + flat])
+        return Point(k, np.array([1e4 * flat**7 * steep]), slope[None])
+
+
+def test_zeros_that_are_not_told_apart_are_one_way():
+    found = _zeros(FlatExcess(), np.zeros((1, 2, 2)), np.eye(2), 0.02, np.random.default_rng(0))
+    ways = sorted(float(np.degrees(np.arctan2(k[1], k[0])) % 180) for k in found)
+    assert len(ways) == 2
+    assert abs(ways[0] - 45) < 25
+    assert ways[1] == pytest.approx(135, abs=0.01)
 
 
 def test_forms():

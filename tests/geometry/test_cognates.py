@@ -216,3 +216,28 @@ def test_wrong_calls():
         cognate_sizes([1, 2], 1, [1, 2, 3], 1, 1, 1)
     with pytest.raises(LinkageError, match="a must be finite numbers"):
         cognate_sizes("x", 1, 1, 1, 1, 1)
+
+
+@pytest.mark.parametrize(
+    ("bar", "branch", "still"),
+    [
+        (FourBar(2, 5, 2, 5), 1, "coupler only translates"),
+        (FourBar(2, 2, 5, 5), -1, "rocker stands still"),
+    ],
+)
+def test_linkages_of_which_a_link_does_not_turn(bar, branch, still):
+    """The parallelogram, and kites with coincident joints: a cognate could not be driven. The other modes have them."""
+    with pytest.raises(LinkageError, match=f"the {still}"):
+        cognates(bar, 2, 1, branch=branch)
+    first, second, _ = cognates(bar, 2, 1, branch=-branch)
+    around = bar.motion(first.phi + np.linspace(-0.2, 0.2, 5), branch=-branch)
+    turn = around.coupler.value - around.coupler.value[2]
+    other = second.size.motion(second.phi + turn, branch=second.branch)
+    assert abs(second.trace(other) - first.trace(around)).max() < 1e-9
+    assert np.ptp(turn) > 0.05
+
+
+def test_the_slider_that_stands_still():
+    with pytest.raises(LinkageError, match="the slider stands still"):
+        slider_cognates(SliderCrank(2, 2), 2, 1)  # beyond the change point at 90 degrees
+    assert slider_cognates(SliderCrank(2, 2), 2, 1, branch=-1)[1].size == SliderCrank(5**0.5, 5**0.5)

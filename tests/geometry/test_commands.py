@@ -94,3 +94,14 @@ def test_wrong_calls():
         straight.run(arguments(LENKER, K))
     with pytest.raises(GrueblerError, match="does not go with --band"):
         straight.run(arguments(LENKER, K, band=0.1, direction=3.0))
+
+
+def test_windows_that_are_none():
+    for window in ([0.0, 1e9], [90.0, 90.0], [0.0, float("nan")]):
+        with pytest.raises(GrueblerError, match="two crank angles at most a full turn apart"):
+            straight.run(arguments("20,50,50,40", "100,0", window=window))
+
+
+def test_cognates_of_a_parallelogram():
+    with pytest.raises(GrueblerError, match="the coupler only translates"):
+        cognates.run(arguments("2,5,2,5", "2,1"))

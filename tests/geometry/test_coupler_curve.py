@@ -283,7 +283,28 @@ def test_wrong_calls():
     for tolerance in (0, -1, math.nan, "x"):
         with pytest.raises(LinkageError, match="tolerance"):
             _ = coupler_curve(CRANK_ROCKER, "K", tolerance=tolerance).points
-    with pytest.raises(LinkageError, match="tolerance must be at least"):
+    with pytest.raises(LinkageError, match="tolerance must lie between"):
         _ = coupler_curve(CRANK_ROCKER, "K", tolerance=1e-12).points
     with pytest.raises(LinkageError, match="direction"):
         coupler_curve(CRANK_ROCKER, "K").turning_points(math.inf)
+
+
+def test_a_far_point_is_sampled_by_its_own_path():
+    """The polygon's tolerance goes with the path where that is larger than the linkage."""
+    near, far = (coupler_curve(CRANK_ROCKER, Named("coupler", x, 40.0)) for x in (45.0, 1e10))
+    assert near.tolerance == pytest.approx(1e-4 * near.trail.size)
+    assert len(far.points) < 10 * len(near.points)
+    assert far.length == pytest.approx(np.hypot(*np.diff([far.points.real, far.points.imag], axis=1)).sum(), rel=1e-3)
+    with pytest.raises(LinkageError, match="tolerance must lie between"):
+        _ = coupler_curve(CRANK_ROCKER, "K", tolerance=1e9).points
+
+
+def test_contact_at_any_turn_of_the_drive():
+    curve = coupler_curve(CRANK_ROCKER, "K")
+    turns = [curve.contact(0.7 + 2 * np.pi * k).coefficient for k in (-1, 0, 3)]
+    assert turns == pytest.approx([turns[1]] * 3, rel=1e-9)
+    assert curve.contact(1e9).points == 2
+    rocking = coupler_curve(FourBar(40, 70, 25, 70).linkage({"K": (45, 40)}), "K")
+    assert rocking.contact(1.0 + 2 * np.pi).coefficient == pytest.approx(rocking.contact(1.0).coefficient)
+    with pytest.raises(LinkageError, match=r"the drive goes from 36\.9551° to 116\.801°, not to 179°"):
+        rocking.contact(np.radians(179))

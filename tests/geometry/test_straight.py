@@ -4,10 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from gruebler.errors import LinkageError
 from gruebler.geometry import coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
-from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.mechanism import Mechanism
 
 LENKER = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)
 CONCHOID = coupler_path(InvertedSliderCrank(30, 50), 90, 0)
@@ -146,3 +148,68 @@ def test_what_cannot_be():
         piece(LENKER, 0, 1, samples=2)
     with pytest.raises(LinkageError, match="start must be a finite number"):
         piece(LENKER, math.nan, 1)
+
+
+def test_watt_guide_of_the_documents():
+    """000/003, exercise 18: rockers 60, coupler 30; within 0.25 to either side F goes from -22.2532 to 22.2545."""
+    right, left = (60.0, -15.0), (-60.0, 15.0)
+    watt = Linkage.drawn(
+        Mechanism.parse("R(frame-one) R(one-rod) R(rod-other) R(frame-other); drive=R(frame-one)"),
+        {0: left, 1: (0, 15), 2: (0, -15), 3: right},
+        {"F": ("rod", 0.0, 0.0)},
+    )
+    path = linkage_path(watt, "F")
+    points = path(np.radians([-22.414108945517206, -16.042818263663154, 15.699043586584697, 21.130683484424303]))
+    ends = [-22.253292093906737, -16.405994505526888, 16.410609544792827, 22.25451920969765]
+    assert points.imag == pytest.approx(ends)
+    assert abs(points.real) == pytest.approx([0.25, 0.05, 0.05, 0.25], rel=0.005)  # by samples, just inside
+
+
+def test_crane_guide_of_the_documents():
+    """000/003, exercise 19 as it can be read (its figure is lost): C rises by 36.23 mm for phi from 10 to 30.
+
+    The figures of C are those of its table; of the band it is said that it is 0.3308 mm, which is that of few samples.
+    """
+    frame = math.radians(-47)
+    path = coupler_path(FourBar(100, 30, 80, 60), -30, 0)
+    seen = path(np.radians([10, 20, 30]) - frame) * np.exp(1j * frame)
+    assert seen.real == pytest.approx([84.071616, 84.313472, 84.250006], abs=1e-6)
+    assert seen.imag == pytest.approx([43.677859, 62.605636, 79.907617], abs=1e-6)
+    found = piece(path, math.radians(10) - frame, math.radians(30) - frame, direction=math.pi / 2 - frame)
+    fine = path(np.radians(np.linspace(10, 30, 20001)) - frame) * np.exp(1j * frame)
+    assert round(found.length, 2) == 36.23
+    assert found.length == pytest.approx(np.ptp(fine.imag))
+    assert found.band == pytest.approx(np.ptp(fine.real))
+
+
+@pytest.mark.parametrize(
+    ("bar", "point", "branch", "middle", "ends", "height"),
+    [  # 000/003, section 3.5.4: Chebyshev's 4 : 5 : 5 : 2 and Roberts's frame 2, coupler 1, legs 1; the widest height
+        (FourBar(5, 2, 5, 4), (1, 0), -1, 2, (1.37516174991033, 2.6241191173403196), 4.004996748207649),
+        (
+            FourBar(1, 1, 1, 2),
+            (0.5, -(0.75**0.5)),
+            1,
+            1,
+            (1.3338547011032014, 0.6665918352267932),
+            -0.009998991355327336,
+        ),
+    ],
+)
+def test_chebyshev_and_roberts(bar, point, branch, middle, ends, height):
+    """The path leaves its line by the band where the tables end; it is symmetric to the middle of the frame."""
+    path = coupler_path(bar, *point, branch=branch)
+
+    def at(x):
+        return brentq(lambda phi: float((path(np.array([phi])) - x).real[0]), 0.7, 1.25)
+
+    heights = path(np.array([at(ends[0]), at(2 * middle - ends[0])])).imag
+    assert heights == pytest.approx([height, height], abs=1e-9)
+    found = piece(path, at(ends[0]), at(ends[1]), direction=0.0)
+    assert found.length == pytest.approx(abs(ends[0] - ends[1]))
+    assert found.band == pytest.approx(abs(height - round(height)), rel=1e-6)
+
+
+def test_a_piece_has_two_ends():
+    with pytest.raises(LinkageError, match="two different ends"):
+        piece(LAMBDA, 1.5, 1.5)

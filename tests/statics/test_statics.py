@@ -207,3 +207,27 @@ def test_wrong_questions():
         held.force("R(frame-rokker)")
     with pytest.raises(LinkageError, match="has no rows"):
         statics(move(FourBar(60, 30, 30, 70).linkage(), [3.0]), Loads(moments={"rocker": 1}))
+
+
+@pytest.mark.parametrize(("branch", "ratio"), [("+", -1.0), ("-", 7 / 3)])
+def test_the_effort_in_a_change_point_is_that_of_its_branch(branch, ratio):
+    """A parallelogram 2, 5: the rocker turns like the crank, or crossed -(d + a)/(d - a) times as fast."""
+    linkage = FourBar(2, 5, 2, 5).linkage()
+    loads = Loads(moments={"rocker": 1.0})
+    alone = statics(move(linkage, [0.0], branch=branch, order=1), loads)
+    assert alone.singular.all()
+    assert alone.work.ravel() == pytest.approx([ratio])
+    faster = statics(move(linkage, [0.0], branch=branch, speed=3.0, order=1), loads)
+    assert faster.work.ravel() == pytest.approx([ratio])
+    on_the_way = statics(move(linkage, [0.3, 0.0, -0.3], branch=branch), loads)
+    assert on_the_way.work[1] == pytest.approx([ratio])
+    unknown = statics(move(linkage, [0.0], branch=branch), loads)  # no velocities: both branches have this pose
+    assert np.isnan(unknown.work).all()
+    assert "depends on the branch" in unknown.message()
+    assert "Einbaulage" in unknown.message("de")
+
+
+def test_nothing_agrees_with_nothing():
+    """Where equilibrium has no answer the two ways are not said to agree."""
+    held = statics(move(FourBar(2, 5, 2, 5).linkage(), [0.0], order=1), Loads(moments={"rocker": 1.0}))
+    assert np.isnan(held.disagreement)

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from gruebler.cli.analysis_table import Column, as_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
-from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
+from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, motion_roles, move, rotatability
@@ -22,7 +23,7 @@ from gruebler.kinematics.branches import all_branches, read_branch
 from gruebler.kinematics.moving import planned
 from gruebler.kinematics.outputs import Output, find_output
 from gruebler.kinematics.transmission import transmission_angle
-from gruebler.linkages import Linkage
+from gruebler.linkages import Linkage, Named
 from gruebler.linkages.files import to_json
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ Reals = NDArray[np.float64]
 _MOST_BRANCHES = 16
 _WORDS = {
     "en": {
+        "written": "Written: {path}",
         "roles": "Roles: {roles}.",
         "pairs": "Neighbours against each other: {pairs}.",
         "full": "full turns",
@@ -46,6 +48,7 @@ _WORDS = {
         "mu": "transmission angle",
     },
     "de": {
+        "written": "Geschrieben: {path}",
         "roles": "Rollen: {roles}.",
         "pairs": "Nachbarn gegeneinander: {pairs}.",
         "full": "volle Umläufe",
@@ -60,7 +63,10 @@ _WORDS = {
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
     linkage, shown_range = linkage_of(arguments.linkage)
+    added = {text: tuple(point) for text in arguments.point if isinstance(point := point_of(text), Named)}
+    linkage = linkage.with_points(added) if added else linkage
     turning = turning_drives(linkage)
+    tell_compiling(arguments.lang)
     plan = planned(linkage)
     speeds = _speeds(arguments.speed, turning)
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
@@ -161,6 +167,8 @@ def _tell(
         from gruebler.cli.draw import written
 
         written(arguments.csv, as_csv(made).encode("utf-8"))
+        if not arguments.json:
+            print(_WORDS[arguments.lang]["written"].format(path=arguments.csv))
     if arguments.json:
         print(
             json.dumps(

@@ -11,10 +11,9 @@ import numpy as np
 
 from gruebler.cli.analysis_table import Column, as_csv
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
-from gruebler.errors import GrueblerError
 from gruebler.geometry import Contact, CouplerCurve, coupler_curve
-from gruebler.linkages import Named
 
 __all__ = ["run"]
 
@@ -67,7 +66,7 @@ _WORDS = {
 def run(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
     linkage, _ = linkage_of(arguments.linkage)
-    found = coupler_curve(linkage, _point(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance)
+    found = coupler_curve(linkage, point_of(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance)
     turning = found.trail.course.turning_drive
     drives = [math.radians(value) if turning else value for value in arguments.contact]
     contacts = [found.contact(drive) for drive in drives]
@@ -81,19 +80,6 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _say(found, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
     return 0
-
-
-def _point(text: str) -> str | Named:
-    link, colon, place = text.rpartition(":")
-    if not colon or "(" in place:
-        return text
-    try:
-        x, y = (float(part) for part in place.split(","))
-    except ValueError:
-        raise GrueblerError(f"expected a point LINK:X,Y such as coupler:45,40, but found {text!r}") from None
-    if not (math.isfinite(x) and math.isfinite(y)):
-        raise GrueblerError(f"a point has finite coordinates, but found {text!r}")
-    return Named(link, x, y)
 
 
 def _polygon(found: CouplerCurve, turning: bool) -> list[Column]:

@@ -28,7 +28,7 @@ def add(commands: Any) -> None:
     curve.add_argument(
         "--contact", type=float, action="append", default=[], metavar="VALUE", help="how the tangent touches there"
     )
-    curve.add_argument("--tolerance", type=float, metavar="LENGTH", help="of the polygon (default: 1e-4 of the size)")
+    curve.add_argument("--tolerance", type=float, metavar="LENGTH", help="of the polygon (default: 1e-4 of the reach)")
     curve.add_argument("--json", action="store_true", help="as JSON")
     curve.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the polygon as CSV: drive, x, y, way")
     curve.add_argument("--lang", choices=("en", "de"), default="en", help="language of the answer (default: en)")

@@ -9,9 +9,11 @@ from math import pi
 import numpy as np
 
 from gruebler.cli.analysis_table import Column
+from gruebler.cli.point_inputs import point_name
 from gruebler.geometry import inflection_circle, path_curvature, poles
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.kinematics import Motion
+from gruebler.linkages import Linkage, Named
 
 __all__ = ["curvature_columns", "pole_columns", "pole_list"]
 
@@ -70,33 +72,50 @@ def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], li
     return [words["pair"], f"{words['pole']} [{unit}]"], rows
 
 
-def curvature_columns(motion: Motion, points: Sequence[str], links: Iterable[str], lang: str = "en") -> list[Column]:
-    """Signed radius and centre of curvature of the points' paths; diameter of the inflection circle of their links.
+def curvature_columns(
+    motion: Motion, points: Sequence[str | Named], links: Iterable[str] = (), lang: str = "en"
+) -> list[Column]:
+    """Signed radius and centre of curvature of the points' paths; diameters of inflection circles.
 
-    A link that only translates has no inflection circle and no column.
+    These are of the points' links, the further links and all floating links: those without a joint with the frame. A
+    link that only translates has no inflection circle and no column, nor has a further link that turns about a pivot.
 
     Args:
         motion: solved to the second order.
-        points: names of points or joints that move.
+        points: names of points or joints that move, or points of links.
         links: further links whose inflection circle is asked for.
         lang: of the names of columns.
     """
     linkage, words = motion.linkage, _WORDS[lang]
     out = []
     frame, moving = linkage.mechanism.frame, list[str]()
-    for name in points:
-        path = path_curvature(motion, name)
+    for point in points:
+        path, name = path_curvature(motion, point), point_name(point)
         out.append(Column(f"{name} {words['radius']}", linkage.unit, path.radius))
         for axis, values in zip("xy", _parts(path.centre), strict=True):
             known = np.isfinite(path.radius)
             out.append(Column(f"{name} {words['centre']} {axis}", linkage.unit, np.where(known, values, np.nan)))
-        moving.append(next(place.link for place in reversed(linkage.named(name)) if place.link != frame))
-    for link in dict.fromkeys([*moving, *links]):
-        if link != frame:
-            diameter = inflection_circle(motion, link).diameter
-            if np.isfinite(diameter).any():
-                out.append(Column(f"{words['diameter']} {link}", linkage.unit, diameter))
+        places = [point] if isinstance(point, Named) else reversed(linkage.named(point))
+        moving.append(next(place.link for place in places if place.link != frame))
+    moving += [link for link in links if not _pivoted(linkage, link)]
+    for link in dict.fromkeys([*moving, *_floating(linkage)]):
+        diameter = inflection_circle(motion, link).diameter
+        if np.isfinite(diameter).any():
+            out.append(Column(f"{words['diameter']} {link}", linkage.unit, diameter))
     return out
+
+
+def _floating(linkage: Linkage) -> list[str]:
+    """The links that have no joint with the frame."""
+    frame, chain = linkage.mechanism.frame, linkage.mechanism.chain
+    held = {link for joint in chain.joints if frame in joint.links for link in joint.links}
+    return [link for link in chain.links if link not in held]
+
+
+def _pivoted(linkage: Linkage, link: str) -> bool:
+    """Whether a link is the frame, or turns about a point of it."""
+    frame, joints = linkage.mechanism.frame, linkage.mechanism.chain.joints
+    return link == frame or any(j.pair.name == "revolute" and {link, frame} <= set(j.links) for j in joints)
 
 
 def _parts(values: Complexes) -> tuple[Reals, Reals]:

@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,7 +18,7 @@ from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.course import follow
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage
 from gruebler.statics import Loads, Statics, slide_friction, statics
 
 __all__ = ["run"]
@@ -88,13 +89,27 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _loads(arguments: argparse.Namespace) -> Loads:
-    forces: dict[str | Named, ArrayLike] = dict(_named("--load", text, 2) for text in arguments.load)
-    moments: dict[str, ArrayLike] = dict(_named("--moment", text, 1) for text in arguments.moment)
-    masses: dict[str | Named, ArrayLike] = dict(_named("--mass", text, 1) for text in arguments.mass)
+    forces, moments, masses = (
+        _added(option, given, count)
+        for option, given, count in (
+            ("--load", arguments.load, 2),
+            ("--moment", arguments.moment, 1),
+            ("--mass", arguments.mass, 1),
+        )
+    )
     if arguments.gravity is None:
         return Loads(forces, moments, masses)
     x, y = _numbers("--gravity", arguments.gravity, 2)
     return Loads(forces, moments, masses, (x, y))
+
+
+def _added(option: str, given: Sequence[str], count: int) -> dict[Any, ArrayLike]:
+    """What is given for each name; several times the same name add up."""
+    out: dict[Any, ArrayLike] = {}
+    for text in given:
+        name, numbers = _named(option, text, count)
+        out[name] = np.add(out.get(name, 0.0), numbers)
+    return out
 
 
 def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float]:
@@ -123,13 +138,13 @@ def _motion(
     if rows is None and len(turning) > 1:
         raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
     if rows is not None:
-        return move(linkage, rows, branch=arguments.branch)
+        return move(linkage, rows, branch=arguments.branch, order=1)
     course = follow(linkage, arguments.branch)
     values = default_rows(course.span, shown_range, turning[0])[:, 0]
     if not course.span.full:
         margin = _FROM_LIMITS * course.span.width
         values = np.clip(values, course.span.low + margin, course.span.high - margin)
-    return course.at(values, 0)
+    return course.at(values, 1)
 
 
 # --- what is said ----------------------------------------------------------------------------------
@@ -191,8 +206,10 @@ def _say(held: Statics, made: list[Column], words: dict[str, str], lang: str) ->
                 key = "most" if column.values[row] else "idle"
                 at = f"{made[0].values[row]:.6g}{'' if made[0].unit == '°' else ' '}{made[0].unit}"
                 print(words[key].format(name=column.name, value=column.values[row], unit=column.unit, drive=at))
-    print(words["agree"].format(part=held.disagreement))
-    print()
+    if math.isfinite(held.disagreement):
+        print(words["agree"].format(part=held.disagreement))
+    if len(motion) > 1 or math.isfinite(held.disagreement):
+        print()
     if len(motion) > 1:
         print_table([column.header for column in made], shown(made), numbers=range(len(made)))
     else:
@@ -210,7 +227,7 @@ def _document(held: Statics, made: list[Column], lang: str) -> dict[str, object]
     return {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],
         "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
-        "disagreement": held.disagreement,
+        "disagreement": held.disagreement if math.isfinite(held.disagreement) else None,
         "singular": [int(row) for row in np.flatnonzero(held.singular)],
         "complete": held.motion.complete,
         "message": " ".join(filter(None, (held.motion.message(lang), held.message(lang)))),

@@ -74,6 +74,11 @@ def _found(arguments: argparse.Namespace) -> Piece | None:
     if arguments.ratio is not None:
         return piece_of_ratio(path, math.radians(arguments.centre), arguments.ratio, direction)
     if arguments.window is not None:
+        if not 0 < abs(arguments.window[1] - arguments.window[0]) <= 360:
+            raise GrueblerError(
+                "--window: expected two crank angles at most a full turn apart, but found "
+                f"{arguments.window[0]:g} and {arguments.window[1]:g}"
+            )
         start, end = (math.radians(angle) for angle in arguments.window)
         return piece(path, start, end, direction)
     if direction is not None:

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.freedoms.double_roots import blurred
+from gruebler.freedoms.excess import Excess
 from gruebler.freedoms.forms import definite, directions
 from gruebler.freedoms.instant import Instant, at_pose
 
@@ -27,6 +28,7 @@ _TRIES = 4  # directions at each radius
 _STARTS = 24  # directions from which zeros of F are sought if its second order says nothing
 _NEAR = 0.01  # about a zero of F at the first radius: the pose itself is farther away
 _APART = 0.999  # the cosine of directions that count as different
+_BESIDE = 0.7  # the cosine of directions between which F is looked at as well
 _ALIKE = 2  # zeros with the same mobility and redundancy whose dimension is looked at
 _SHARPER = 1e-2  # joints that open by the tolerance of the rank times that, and times the way, are open
 _OPEN = 3e-12  # a joint that is open by less may be so by rounding
@@ -39,6 +41,9 @@ class Evidence(StrEnum):
     """No velocity at all: a proof, up to the tolerance of the rank."""
     REGULAR = "regular"
     """No constraint is redundant: the positions are a manifold of the instant mobility. A proof, up to the rank."""
+    BLURRED = "blurred"
+    """The smallest singular value that counts is no larger than the pose's own error makes it: either of these two, or
+    a pose in which one constraint more is redundant."""
     FOLLOWED = "followed"
     """Redundant constraints stay closed along every velocity, as far as it was followed."""
     STRESSED = "stressed"
@@ -73,11 +78,13 @@ def finite(instant: Instant) -> Finite:
 
     Cost: some 12 solutions by Newton's method; where motions branch, some 1000 more.
     """
+    if blurred(instant) and not (instant.mobility and instant.redundancy):
+        return Finite(instant.mobility, Evidence.BLURRED)
     if instant.mobility == 0:
         return Finite(0, Evidence.RIGID)
     if instant.redundancy == 0:
         return Finite(instant.mobility, Evidence.REGULAR)
-    excess = _Excess(instant)
+    excess = Excess(instant)
     random = np.random.default_rng(20_261_121)
     closed, reach, gap = _all_closed(excess, random, _RADII)
     if closed:
@@ -85,7 +92,7 @@ def finite(instant: Instant) -> Finite:
     return _some_or_none(excess, random, reach, gap)
 
 
-def _all_closed(excess: _Excess, random: np.random.Generator, radii: tuple[float, ...]) -> tuple[bool, float, float]:
+def _all_closed(excess: Excess, random: np.random.Generator, radii: tuple[float, ...]) -> tuple[bool, float, float]:
     """Whether F is zero in directions taken at random; how far that was seen, and by how much it is open there."""
     reach, gap, closed = 0.0, 0.0, True
     for radius in radii:
@@ -105,57 +112,7 @@ def _unit(random: np.random.Generator, size: int) -> Reals:
     return np.vstack([half, -half])
 
 
-class _Point(NamedTuple):
-    """A motion from the pose in which all but the redundant constraints are closed."""
-
-    motion: Reals
-    value: Reals
-    """F: what is open of the redundant ones, (redundancy,)."""
-    slope: Reals
-    """dF/dk, (redundancy, mobility)."""
-
-
-class _Excess:
-    """The map F: what stays open of the redundant constraints when all others are closed and k is held."""
-
-    def __init__(self, instant: Instant) -> None:
-        self.instant = instant
-        self._independent = instant.left[:, : instant.rank].T
-
-    def __call__(self, k: Reals) -> _Point | None:
-        """The point over k, or None if Newton's method does not close the other constraints so far away."""
-        found = self.instant
-        motion = k @ found.motions
-        for _ in range(15):
-            value, by_motion = found.closing.along(found.pose, motion)
-            matrix = np.vstack([self._independent @ by_motion, found.motions])
-            rest = np.append(self._independent @ value, np.zeros(found.mobility))
-            held = np.vstack([np.zeros((found.rank, found.mobility)), np.eye(found.mobility)])
-            try:
-                solved = np.linalg.solve(matrix, np.column_stack([rest, held]))
-            except np.linalg.LinAlgError:
-                return None
-            step = solved[:, 0]
-            if abs(step).max() < 1e-13 or abs(rest).max() < 1e-15:
-                return _Point(motion, found.stresses @ value, found.stresses @ by_motion @ solved[:, 1:])
-            motion = motion - step
-            if not abs(motion).max() < 3:
-                return None
-        return None
-
-    def second(self, step: float = 1e-3) -> Reals | None:
-        """The quadratic forms of the second order, (redundancy, mobility, mobility): F(k) = k·Q·k / 2 + ..."""
-        ahead = [(self(step * k), self(-step * k)) for k in np.eye(self.instant.mobility)]
-        if any(one is None or other is None for one, other in ahead):
-            return None
-        slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
-        out = np.stack(slopes, axis=2)
-        out = (out + np.swapaxes(out, 1, 2)) / 2
-        out[abs(out) < 1e-6] = 0.0
-        return out
-
-
-def _some_or_none(excess: _Excess, random: np.random.Generator, radius: float, gap: float) -> Finite:
+def _some_or_none(excess: Excess, random: np.random.Generator, radius: float, gap: float) -> Finite:
     """F is not zero everywhere: look for the velocities along which it is."""
     instant = excess.instant
     forms = excess.second()
@@ -173,11 +130,11 @@ def _some_or_none(excess: _Excess, random: np.random.Generator, radius: float, g
 
 
 def _zeros(
-    excess: _Excess, forms: Reals, basis: Reals, radius: float, random: np.random.Generator, most: int = 1000
+    excess: Excess, forms: Reals, basis: Reals, radius: float, random: np.random.Generator, most: int = 1000
 ) -> list[Reals]:
     """Zeros of F at this distance from the pose, (mobility,) each, in the space of a basis (part, mobility).
 
-    One of each pair of opposite directions, and of each group of near ones.
+    One of each pair of opposite directions, and of each group of near ones or of such as F does not tell apart.
     """
     starts = directions(np.einsum("pi,sij,qj->spq", basis, forms, basis), random, _STARTS)
     out: list[Reals] = []
@@ -185,14 +142,35 @@ def _zeros(
     beside = [sign * k + 0.1 * random.normal(size=len(k)) for k in starts for sign in (1, -1)]
     for start in [*starts, *(-k for k in starts), *beside]:
         k = _on_sphere(excess, basis, radius * start / np.linalg.norm(start))
-        if k is not None and all(abs(k @ other) < _APART * radius**2 for other in out):
+        if k is not None and not any(_same(excess, k, other) for other in out):
             out.append(k)
             if len(out) >= most:
                 break
     return out
 
 
-def _dimensions(excess: _Excess, ends: list[Reals], random: np.random.Generator) -> list[int]:
+def _same(excess: Excess, one: Reals, other: Reals) -> bool:
+    """Whether two zeros lie in about the same direction, or F is below its threshold all the way between them."""
+    radius = float(np.linalg.norm(one))
+    cosine = float(one @ other) / radius**2
+    if abs(cosine) >= _APART:
+        return True
+    if abs(cosine) < _BESIDE:
+        return False
+    for part in (0.25, 0.5, 0.75):
+        between = (1 - part) * one + part * np.sign(cosine) * other
+        point = excess(radius * between / np.linalg.norm(between))
+        if point is None or abs(point.value).max() >= _closed(excess, radius):
+            return False
+    return True
+
+
+def _closed(excess: Excess, radius: float) -> float:
+    """What F may be at a zero so far from the pose."""
+    return max(_OPEN, excess.instant.tolerance * radius**2)
+
+
+def _dimensions(excess: Excess, ends: list[Reals], random: np.random.Generator) -> list[int]:
     """The dimension of the set of positions at each of these zeros; alike ones are looked at only a few times."""
     closing = excess.instant.closing
     known: dict[tuple[int, int], list[int]] = {}
@@ -214,7 +192,7 @@ def _dimension(instant: Instant, random: np.random.Generator) -> int:
 
     A set of dimension d meets a space of m - d + 1 dimensions taken at random in a curve at least.
     """
-    excess = _Excess(instant)
+    excess = Excess(instant)
     if _all_closed(excess, random, (_NEAR,))[0]:
         return instant.mobility
     forms = excess.second(1e-4)
@@ -225,14 +203,14 @@ def _dimension(instant: Instant, random: np.random.Generator) -> int:
     return 1
 
 
-def _order(excess: _Excess, random: np.random.Generator, radius: float) -> int:
+def _order(excess: Excess, random: np.random.Generator, radius: float) -> int:
     """The power by which F grows in a direction taken at random."""
     k = _unit(random, excess.instant.mobility)[0]
     sizes = [0.0 if (point := excess(r * k)) is None else abs(point.value).max() for r in (radius, radius / 2)]
     return max(2, round(float(np.log2(sizes[0] / sizes[1])))) if min(sizes) > 0 else 2
 
 
-def _on_sphere(excess: _Excess, basis: Reals, start: Reals) -> Reals | None:
+def _on_sphere(excess: Excess, basis: Reals, start: Reals) -> Reals | None:
     """A zero of F as far from the pose as a start in a space, by Gauss and Newton's method; None if it finds none."""
     radius = float(np.linalg.norm(start))
     u = start
@@ -241,7 +219,7 @@ def _on_sphere(excess: _Excess, basis: Reals, start: Reals) -> Reals | None:
         if point is None:
             return None
         open_by = abs(point.value).max()
-        if open_by < max(_OPEN, excess.instant.tolerance * radius**2) and abs(u @ u - radius**2) < 1e-6 * radius**2:
+        if open_by < _closed(excess, radius) and abs(u @ u - radius**2) < 1e-6 * radius**2:
             return np.asarray(u @ basis)
         system = np.vstack([point.slope @ basis.T, 2 * u])
         step = np.linalg.lstsq(system, -np.append(point.value, u @ u - radius**2), rcond=1e-9)[0]

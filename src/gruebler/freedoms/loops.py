@@ -55,8 +55,10 @@ def bricard(s: Sketch) -> Iterator[Reason]:
         return
     if _maps(feet, np.roll(feet, 3, axis=0), 1):
         yield Reason("line_symmetric", (), tuple(ring))
-    # a mirror takes bar k to bar c - k - 1 and swaps its ends
-    if any(_maps(feet, feet[(c - 1 - np.arange(6)) % 6, ::-1], -1) for c in (0, 2, 4)):
+    # a mirror takes bar k to bar c - k - 1 and swaps its ends; axis k lies in it if 2k = c, and has no offset then
+    offsets = np.linalg.norm(feet[:, 0] - np.roll(feet[:, 1], 1, axis=0), axis=1)
+    mirrored = (c for c in (0, 2, 4) if max(offsets[c // 2], offsets[c // 2 + 3]) < 10 * SAME)
+    if any(_maps(feet, feet[(c - 1 - np.arange(6)) % 6, ::-1], -1) for c in mirrored):
         yield Reason("plane_symmetric", (), tuple(ring))
 
 

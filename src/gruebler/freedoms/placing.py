@@ -9,10 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
+from gruebler.freedoms.double_roots import sharpened
+from gruebler.freedoms.instant import at_pose
 from gruebler.linkages import Line, Linkage, Pin
 from gruebler.screws import Closing, JointPlace, SpatialLinkage
 from gruebler.screws.closing import Tie
-from gruebler.screws.following import followed, joint_value
+from gruebler.screws.following import followed_together, joint_value
 from gruebler.screws.motions import inverse
 
 __all__ = ["known", "placed"]
@@ -20,8 +22,10 @@ __all__ = ["known", "placed"]
 Reals = NDArray[np.float64]
 
 _CLOSED = 1e-9  # joints that are open by more could not be closed
+_EXACT = 1e-15  # a home that is closed so well is meant as it is
 _NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
 _STARTS = 60  # random poses from which a linkage without a home is assembled
+_PATIENT = 60  # steps of Newton's method: beside a double root each halves the error only
 _ENOUGH = 6  # closed poses among which the best is taken
 _GOOD = 0.01  # a smallest singular value, for each unknown, with which the search for a pose stops
 
@@ -88,7 +92,8 @@ def _settled(closing: Closing, home: Reals) -> Reals:
     if abs(closing.residual(pose)).max() > _CLOSED or abs(pose - home).max() > _NEAR:
         gap = abs(closing.residual(home)).max()
         raise LinkageError(f"the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size")
-    return pose
+    inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
+    return sharpened(closing, pose) if inexact else pose
 
 
 def _centred(closing: Closing, pose: Reals) -> Reals:
@@ -104,13 +109,11 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
     drives = linkage.mechanism.drives
     if at is None:
         raise LinkageError("an assembly mode is one of several at a drive value, which is missing")
-    if not drives:
-        raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
-    if len(at) != len(drives):
-        raise LinkageError(f"expected {len(drives)} drive values, but found {len(at)}")
-    if linkage.home is not None and branch is None and len(drives) == 1:
+    _check_count(at, len(drives))
+    if linkage.home is not None and branch is None:
         home = _settled(closing, _home(linkage))
-        return _centred(closing, _driven(closing, home, [_sided(linkage, at[0])], linkage.size))
+        sided = [_sided(linkage, k, value) for k, value in enumerate(at)]
+        return _centred(closing, _driven(closing, home, sided, linkage.size))
     from gruebler.kinematics import move
 
     motion = move(linkage, [tuple(at)], branch=branch)
@@ -125,46 +128,56 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
     return _centred(closing, _settled(closing, np.array(rows)))
 
 
-def _sided(linkage: Linkage, value: float) -> float:
+def _check_count(at: Sequence[float], drives: int) -> None:
+    if not drives:
+        raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
+    if len(at) != drives:
+        raise LinkageError(f"expected {drives} drive value{'s' * (drives > 1)}, one for each, but found {len(at)}")
+
+
+def _sided(linkage: Linkage, drive: int, value: float) -> float:
     """The drive value with the first link of the joint as the one that is measured against."""
-    first, _ = linkage.reference(0)
-    return value if first == linkage.mechanism.chain.joints[linkage.mechanism.drives[0].joint].links[0] else -value
+    first, _ = linkage.reference(drive)
+    mechanism = linkage.mechanism
+    return value if first == mechanism.chain.joints[mechanism.drives[drive].joint].links[0] else -value
 
 
 def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> Reals:
-    drives = closing.mechanism.drives
-    if len(drives) != 1 or len(at) != 1:
-        raise LinkageError(f"a pose is followed from home with one drive; here are {len(drives)} and {len(at)} values")
-    value, joint = float(at[0]), drives[0].joint
-    if closing.mechanism.chain.joints[joint].pair.name == "revolute":
-        now = joint_value(closing, home, joint)
-        value = now + (value - now + np.pi) % (2 * np.pi) - np.pi
-    else:
-        value /= size
-    out: Reals = followed(closing, home, joint, np.array([value]))[0]
-    return out
+    """The pose at the values of all drives, which are followed from home together."""
+    mechanism = closing.mechanism
+    _check_count(at, len(mechanism.drives))
+    joints, values = [drive.joint for drive in mechanism.drives], []
+    for joint, value in zip(joints, at, strict=True):
+        if mechanism.chain.joints[joint].pair.name == "revolute":
+            now = joint_value(closing, home, joint)
+            values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
+        else:
+            values.append(value / size)
+    return followed_together(closing, home, joints, np.array([values]))[0]
 
 
 def _assembled(closing: Closing) -> Reals:
-    """A pose with closed joints: of some the most movable, and of those the one farthest from singular."""
+    """A pose with closed joints: of some the most movable, with the drives and most joints moving, the most regular."""
     random = np.random.default_rng(20_261_121)
-    found: list[tuple[int, float, Reals]] = []
+    found: list[tuple[int, tuple[bool, int], float, Reals]] = []
+    driven = {drive.joint for drive in closing.mechanism.drives}
     least = np.inf
     frame = closing.mechanism.chain.index(closing.mechanism.frame)
     for _ in range(_STARTS):
         start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.home), 3))])
-        pose = closing.settled(inverse(start[frame]) @ start)
+        pose = closing.settled(inverse(start[frame]) @ start, most=_PATIENT)
         least = min(least, float(abs(closing.residual(pose)).max()))
         if abs(closing.residual(pose)).max() > 1e-12:
             continue
-        values = np.linalg.svd(closing.linearised(pose)[1], compute_uv=False) / closing.unknowns
-        rank = int(np.sum(values > 1e-9))
-        found.append((closing.unknowns - rank, float(values[rank - 1]), pose))
-        if len(found) >= _ENOUGH or (rank == closing.equations and values[-1] > _GOOD):
+        here = at_pose(closing, pose, 1e-9)
+        margin = float(here.values[here.rank - 1]) / closing.unknowns
+        moving = driven.isdisjoint(here.immobile), -len(here.immobile)
+        found.append((here.mobility, moving, margin, pose))
+        if len(found) >= _ENOUGH or (not here.redundancy and not here.immobile and margin > _GOOD):
             break
     if not found:
         raise LinkageError(
             f"no position was found in which the joints can be closed: they stay open by {least:.1e} of the linkage's "
             "size at least"
         )
-    return _centred(closing, max(found, key=lambda one: one[:2])[2])
+    return _centred(closing, sharpened(closing, max(found, key=lambda one: one[:3])[3]))

@@ -45,6 +45,13 @@ SENTENCES: dict[str, tuple[str, str]] = {
         "Finite: {finite}, proved, for no constraint is redundant (theorem of implicit functions).",
         "Endlich: {finite}, bewiesen, denn keine Bindung ist überzählig (Satz über implizite Funktionen).",
     ),
+    "finite_blurred": (
+        "Finite: not decided, perhaps {finite}. The smallest singular value that counts is no larger than the error of "
+        "the pose makes it: there may be one velocity more, and none of them a motion.",
+        "Endlich: nicht entschieden, vielleicht {finite}. Der kleinste Singulärwert, der zählt, ist nicht größer, als "
+        "ihn der Fehler der Lage macht: Vielleicht gibt es eine Geschwindigkeit mehr, und keine gehört zu einer "
+        "Bewegung.",
+    ),
     "finite_followed": (
         "Finite: {finite}. Every velocity goes on as a motion; the joints stay closed as far as it was followed, up to "
         "{reach:g} (radians; lengths in sizes of the linkage).",
@@ -107,6 +114,12 @@ _REASONS: dict[str, tuple[str, str]] = {
         "count gives {count}.",
         "alle Drehachsen sind parallel und alle Schiebungen rechtwinklig dazu: ebene Bewegung; mit b = {number} ergibt "
         "die Zählung {count}.",
+    ),
+    "group_screws": (
+        "all axes are parallel and all screws have the same pitch: plane motion with a shift along the axes that goes "
+        "with the turn; with b = {number} the count gives {count}.",
+        "alle Achsen sind parallel und alle Schraubungen haben dieselbe Steigung: ebene Bewegung mit einer Schiebung "
+        "längs der Achsen, die an die Drehung gebunden ist; mit b = {number} ergibt die Zählung {count}.",
     ),
     "group_sphere": (
         "all axes pass through one point: spherical motion; with b = {number} the count gives {count}.",

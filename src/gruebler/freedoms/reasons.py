@@ -23,6 +23,8 @@ __all__ = ["Reason", "reasons"]
 
 Reals = NDArray[np.float64]
 
+_ROUNDING = 1e-14  # of a point, in sizes
+
 _ROUND = ("roll_slide", "rolling")
 
 Recogniser = Callable[[Sketch], Iterator[Reason]]
@@ -137,27 +139,42 @@ def _classes(s: Sketch, parts: list[tuple[str, ...]], ends: tuple[str, ...]) -> 
 
 
 def _congruent(s: Sketch, one: tuple[str, ...], other: tuple[str, ...], ends: tuple[str, ...]) -> bool:
-    mine, yours = _traits(s, one, ends), _traits(s, other, ends)
+    """Whether two parts are alike but for a shift, measured against the first one's own extent."""
+    extent = _extent(s, one)
+    mine, yours = _traits(s, one, ends, extent), _traits(s, other, ends, extent)
     if len(mine) != len(yours):
         return False
+    same = max(SAME, _ROUNDING / extent)
     for key, screws in mine:
-        fitting = next((t for t in yours if t[0] == key and abs(t[1] - screws).max() < SAME), None)
+        fitting = next((t for t in yours if t[0] == key and abs(t[1] - screws).max() < same), None)
         if fitting is None:
             return False
         yours = [t for t in yours if t is not fitting]
     return True
 
 
-def _traits(s: Sketch, part: tuple[str, ...], ends: tuple[str, ...]) -> list[tuple[object, Reals]]:
-    """For each joint of a part what it is, whom it meets, and the space of its screws from the middle of the part."""
+def _pins(s: Sketch, part: tuple[str, ...]) -> Reals:
+    """The points of a part's pins and balls, else of all its joints; (points, 3)."""
     joints = _joints(s, part)
     pins = [k for k in joints if s.chain.joints[k].pair.name in ("revolute", "spherical")] or joints
+    return np.array([s.at(k) for k in pins])
+
+
+def _extent(s: Sketch, part: tuple[str, ...]) -> float:
+    """How far a part reaches from its middle; 1 if it has one point only."""
+    pins = _pins(s, part)
+    return float(np.linalg.norm(pins - pins.mean(axis=0), axis=1).max()) or 1.0
+
+
+def _traits(s: Sketch, part: tuple[str, ...], ends: tuple[str, ...], unit: float) -> list[tuple[object, Reals]]:
+    """For each joint of a part what it is, whom it meets, and the space of its screws from the middle of the part."""
     shift = np.eye(4)
-    shift[:3, 3] = -np.mean([s.at(k) for k in pins], axis=0)
+    shift[:3, 3] = -_pins(s, part).mean(axis=0)
+    scale = np.repeat([1.0, 1 / unit], 3)[:, None]
     out: list[tuple[object, Reals]] = []
-    for k in joints:
+    for k in _joints(s, part):
         joint = s.chain.joints[k]
-        basis = np.linalg.qr(adjoint(shift) @ screws_of(s.closing, s.instant.pose, k).T)[0]
+        basis = np.linalg.qr(scale * (adjoint(shift) @ screws_of(s.closing, s.instant.pose, k).T))[0]
         met = tuple(end in joint.links for end in ends)
         out.append(((joint.pair.name, met, s.places[k].radii), basis @ basis.T))
     return out

@@ -63,8 +63,8 @@ class Freedoms:
 
     @property
     def useful(self) -> int:
-        """The finite mobility without idle freedoms."""
-        return self.mobility - self.idle
+        """The finite mobility without idle freedoms; 0 where not even these were found to be motions."""
+        return max(self.mobility - self.idle, 0)
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text of a few lines, in English (``en``) or German (``de``)."""

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import degrees, pi
 
 import numpy as np
 
+from gruebler.errors import LinkageError
 from gruebler.geometry.contact import Contact, tangent_contact
 from gruebler.geometry.double_points import DoublePoint, double_points
 from gruebler.geometry.path_events import (
@@ -28,7 +30,7 @@ from gruebler.linkages.quantities import as_finite
 
 __all__ = ["CouplerCurve", "coupler_curve"]
 
-_TOLERANCE = 1e-4  # sizes
+_TOLERANCE = 1e-4  # of the reach of linkage and path
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,8 +109,20 @@ class CouplerCurve:
         return self._doubles or ()
 
     def contact(self, drive: float, highest: int = 10) -> Contact:
-        """The order of contact with the tangent at a drive value."""
-        motion = self.trail.course.at(np.array([as_finite("drive", drive)]), 1)
+        """The order of contact with the tangent at a drive value; angles up to whole turns.
+
+        Raises `LinkageError` for a value outside the range of the drive.
+        """
+        value, course = as_finite("drive", drive), self.trail.course
+        span, scale, unit = course.span, 1.0, f" {course.linkage.unit}"
+        if course.turning_drive:
+            scale, unit = degrees(1), "°"
+            if not span.low <= value <= span.high:
+                value = span.low + (value - span.low) % (span.period if span.full else 2 * pi)
+        if not span.low <= value <= span.high:
+            low, high, drive = span.low * scale, span.high * scale, drive * scale
+            raise LinkageError(f"the drive goes from {low:.6g}{unit} to {high:.6g}{unit}, not to {drive:.6g}{unit}")
+        motion = course.at(np.array([value]), 1)
         return tangent_contact(motion, self.trail.place, 0, highest)
 
     @cached_property
@@ -137,7 +151,8 @@ def coupler_curve(
         linkage: a linkage with one drive.
         point: a point that moves.
         branch: the assembly mode, as for `move`.
-        tolerance: how far the polygon may be off; 1/10,000 of the linkage's size if it is left out.
+        tolerance: how far the polygon may be off; 1/10,000 of the linkage's size, or of the path's extent
+            if that is larger, if it is left out.
 
     Error: events are exact to some 1e-13 of the parameter. Within 1/720 of the parameter's range from a limit of the
     drive none are looked for. Cost: some milliseconds; with double points some tens.
@@ -148,4 +163,4 @@ def coupler_curve(
     [80.56, 147.1, 212.9, 279.44]
     """
     trail = trail_of(linkage, point, branch)
-    return CouplerCurve(trail, _TOLERANCE * trail.size if tolerance is None else tolerance)
+    return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

@@ -165,9 +165,10 @@ def cognates(
     """The three Roberts-Chebyshev cognates of a four-bar with a coupler point (u from A along AB, v to the left).
 
     The first is the given four-bar, the second stands on A0 and C0, the third on B0 and C0. The home pose is that at
-    the crank angle phi (without one: in the middle of the crank's range).
+    the crank angle phi (without one: in the middle of the crank's range; of a linkage that folds at a third).
 
-    Raises `LinkageError` for a coupler point on a joint (its curve is a circle) and a pose that cannot be assembled.
+    Raises `LinkageError` for a coupler point on a joint (its curve is a circle), for the parallelogram and kites with
+    coincident joints, of which a link does not turn, and for a pose that cannot be assembled.
 
     >>> for one in cognates(FourBar(25, 70, 40, 70), 45, 40):
     ...     print(one.size.type.key, one.turns_with)
@@ -253,10 +254,39 @@ def _pose(
         if not size.limits:
             raise LinkageError(f"it cannot be assembled in any position: {size!r}")
         start, end = size.limits[0]
-        phi = (start + end) / 2
+        phi = start + (end - start) * (1 / 3 if _folds(size) else 1 / 2)
     motion = size.motion(as_finite("phi", phi), branch=branch)
     if not motion.assembled:
         raise LinkageError(f"it cannot be assembled at the crank angle {math.degrees(phi):g} degrees: {motion.message}")
     a, b = (complex(*(float(x) for x in track.value)) for track in (motion.A, motion.B))
+    _check_moving(size, a, b)
     s = arm / size.b
     return a, b, a + s * (b - a), s
+
+
+def _folds(size: FourBar | SliderCrank) -> bool:
+    """Whether its links can lie on one line: at the crank angle pi, in the middle of its range, modes may meet."""
+    if isinstance(size, SliderCrank):
+        return abs(size.a - size.b) <= _AT_A_JOINT * size.b
+    lengths = sorted((size.a, size.b, size.c, size.d))
+    return abs(lengths[0] + lengths[3] - lengths[1] - lengths[2]) <= _AT_A_JOINT * lengths[3]
+
+
+def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
+    """Refuse assembly modes in which a moving link stands still: a parallelogram, or a kite whose joints coincide."""
+
+    def same(one: complex, other: complex) -> bool:
+        return abs(one - other) <= _AT_A_JOINT * size.b
+
+    still = ""
+    if isinstance(size, SliderCrank):
+        still = "slider stands still" if same(size.a, size.b) and same(b, 0) else ""
+    elif same(size.a, size.c) and same(size.b, size.d) and same(b - a, size.d):
+        still = "coupler only translates"
+    elif same(size.a, size.b) and same(size.c, size.d) and same(b, 0):
+        still = "rocker stands still"
+    if still:
+        raise LinkageError(
+            f"the {still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank would "
+            "turn with that link does not move"
+        )

@@ -15,7 +15,7 @@ __all__ = ["Samples", "area", "length", "sampled"]
 
 _FIRST = 64  # cells for each turn before any is halved
 _LEVELS = 24
-_FINEST = 1e-10  # sizes: no tolerance below
+_FINEST = 1e-10  # of the reach: no tolerance below
 _NODES = 8
 
 
@@ -32,11 +32,14 @@ def sampled(trail: Trail, tolerance: float) -> Samples:
     A cell is halved where the cubic through its ends, with their tangents, leaves the chord by more; by how much the
     cubic misses the path in the middle counts as well.
 
-    Raises `LinkageError` for a tolerance below 1e-10 sizes of the linkage.
+    Raises `LinkageError` for a tolerance below 1e-10 of the reach of linkage and path, or above it.
     """
     bow = as_positive("tolerance", tolerance)
-    if bow < _FINEST * trail.size:
-        raise LinkageError(f"the tolerance must be at least {_FINEST * trail.size:.3g}, but is {tolerance!r}")
+    if not _FINEST * trail.reach <= bow <= trail.reach:
+        raise LinkageError(
+            f"the tolerance must lie between {_FINEST * trail.reach:.3g} and {trail.reach:.3g} for this path, but is "
+            f"{tolerance!r}"
+        )
     turns = max(trail.course.span.turns, 1)
     s = np.linspace(trail.start, trail.end, _FIRST * turns + 1)
     z = trail.at(s, 1)

@@ -72,14 +72,18 @@ def piece(path: Path, start: float, end: float, direction: float | None = None, 
 
     Error: with a direction, of the fourth order in the spacing of the samples; without, of the second.
 
-    Raises `LinkageError` where the path has no points.
+    Between the ends the path should bend slowly against the spacing of the samples: at most a turn or two of a crank.
+
+    Raises `LinkageError` where the path has no points, and for equal ends.
 
     >>> lever = coupler_path(FourBar(20, 50, 50, 40), 100, 0)  # 1 : 2 : 2.5, half a turn on a line
     >>> half = piece(lever, math.pi / 2, 3 * math.pi / 2, direction=0)
     >>> round(half.length, 6), round(half.band, 6), round(half.ratio, 6)
     (80.0, 0.195075, 0.002438)
     """
-    parameters = np.linspace(as_finite("start", start), as_finite("end", end), _samples(samples))
+    if as_finite("start", start) == as_finite("end", end):
+        raise LinkageError(f"a piece has two different ends, but both are at {start:.6g}")
+    parameters = np.linspace(start, end, _samples(samples))
     points = _points(path, parameters)
     angle = _narrowest(points)[1] if direction is None else as_finite("direction", direction)
     seen = (points - points[0]) * np.exp(-1j * angle)

@@ -52,6 +52,12 @@ class Trail:
         return self.course.plan.lower.size
 
     @cached_property
+    def reach(self) -> float:
+        """A length of the order of linkage and path: the larger of `size` and the path's extent."""
+        z = self.at(self.grid, 0)[0]
+        return max(self.size, float(np.ptp(z.real)), float(np.ptp(z.imag)))
+
+    @cached_property
     def grid(self) -> Reals:
         """Parameters between which events are looked for."""
         if self.closed:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from gruebler.errors import LinkageError
 from gruebler.screws.closing import Closing
 from gruebler.screws.model import SpatialLinkage
 
-__all__ = ["follow", "followed", "joint_value"]
+__all__ = ["follow", "followed", "followed_together", "joint_value"]
 
 Reals = NDArray[np.float64]
 
@@ -54,32 +54,42 @@ def follow(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Real
 
 def followed(closing: Closing, pose: Reals, joint: int, values: Reals) -> Reals:
     """The poses (values, n, 4, 4) in which a joint has these values, followed from a pose; `LinkageError` as above."""
+    return np.array(followed_together(closing, pose, [joint], np.reshape(values, (-1, 1))))
+
+
+def followed_together(closing: Closing, pose: Reals, joints: Sequence[int], values: Reals) -> list[Reals]:
+    """`followed` for several joints at once: values (rows, joints); between rows all go evenly."""
     chain = closing.mechanism.chain
-    name = chain.joint_names()[joint]
-    if chain.joints[joint].pair.name not in ("revolute", "prismatic") or chain.joints[joint].count > 1:
-        raise LinkageError(f"{name}: only a revolute or prismatic joint of two links is driven")
-    now, out = joint_value(closing, pose, joint), []
-    for value in values.tolist():
-        steps = max(1, int(np.ceil(abs(value - now) / _STEP)))
-        for target in np.linspace(now, value, steps + 1)[1:].tolist():
-            pose = _reached(closing, pose, joint, target, name)
-        now = value
+    for joint in joints:
+        if chain.joints[joint].pair.name not in ("revolute", "prismatic") or chain.joints[joint].count > 1:
+            raise LinkageError(
+                f"{chain.joint_names()[joint]}: only a revolute or prismatic joint of two links is driven"
+            )
+    now, out = np.array([joint_value(closing, pose, joint) for joint in joints]), []
+    for row in values:
+        steps = max(1, int(np.ceil(abs(row - now).max() / _STEP)))
+        for target in np.linspace(now, row, steps + 1)[1:]:
+            pose = _reached(closing, pose, joints, target)
+        now = row
         out.append(pose)
-    return np.array(out)
+    return out
 
 
-def _reached(closing: Closing, pose: Reals, joint: int, target: float, name: str) -> Reals:
-    turns = closing.mechanism.chain.joints[joint].pair.name == "revolute"
-    row = _driving_row(closing, joint)
+def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals) -> Reals:
+    chain = closing.mechanism.chain
+    turns = np.array([chain.joints[joint].pair.name == "revolute" for joint in joints])
+    drivers = [_driving_row(closing, joint) for joint in joints]
     for _ in range(30):
         value, by_twist = closing.linearised(pose)
-        missing = target - joint_value(closing, pose, joint)
-        missing = (missing + np.pi) % (2 * np.pi) - np.pi if turns else missing
-        if max(abs(value).max(initial=0.0), abs(missing)) < _CLOSED:
+        missing = target - np.array([joint_value(closing, pose, joint) for joint in joints])
+        missing = np.where(turns, (missing + np.pi) % (2 * np.pi) - np.pi, missing)
+        if max(abs(value).max(initial=0.0), abs(missing).max()) < _CLOSED:
             return pose
-        system = np.vstack([by_twist, row(pose)])
+        system = np.vstack([by_twist, *(row(pose) for row in drivers)])
         pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=1e-9)[0])
-    raise LinkageError(f"{name} does not reach {target:.6g}")
+    names = ", ".join(chain.joint_names()[joint] for joint in joints)
+    values = ", ".join(f"{value:.6g}" for value in target)
+    raise LinkageError(f"{names} {'does' if len(joints) == 1 else 'do'} not reach {values}")
 
 
 def _driving_row(closing: Closing, joint: int) -> Callable[[Reals], Reals]:

@@ -34,6 +34,8 @@ class Kind(StrEnum):
     """Turns about one line and shifts along it."""
     PLANE = "plane"
     """Motions parallel to a plane."""
+    SCREWS = "screws"
+    """Screws of one pitch about parallel axes: plane motion with a way along the normal that goes with the turn."""
     SPHERE = "sphere"
     """Turns about one point."""
     PARALLEL = "parallel"
@@ -116,7 +118,7 @@ def _named(basis: Reals) -> Group:
     }
     kind = kinds.get((turning, dimension), Kind.OTHER)
     if kind is Kind.PLANE and not _plane(basis):
-        kind = Kind.OTHER
+        kind = Kind.SCREWS
     return Group(kind, dimension)
 
 

@@ -10,17 +10,33 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import branch_of
 from gruebler.statics.loads import Reals, Rows
 
-__all__ = ["again"]
+__all__ = ["again", "drive_speed"]
+
+_TELLS = 1e-9  # a smaller root does not tell the assembly mode: its sign is rounding
 
 
 def again(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion]]:
     """The poses of a motion once more, with velocities: from the row that is best assembled to its end, and back.
 
-    Yields rows and their motion. A row at a limit of the drive tells no assembly mode, so it is not begun there.
+    Yields rows and their motion. A row at a limit of the drive tells no assembly mode, so it is not begun there;
+    nothing is yielded if all rows are such, or change points.
     """
     branching = [dyad.number for dyad in motion.plan.dyads if dyad.branching]
-    best = int(np.argmax(np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0)))
+    margins = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0)
+    best = int(np.argmax(margins))
+    if not margins[best] > _TELLS:
+        return
     branch = branch_of(motion.plan, motion.roots[best], motion.unknowns[best], motion.drives[best])
     for rows in (np.arange(best, len(motion)), np.arange(best, -1, -1)):
         moved = move(motion.plan, motion.drives[rows], speed=speed, order=1, branch=branch)
         yield rows[: len(moved)], moved
+
+
+def drive_speed(motion: Motion) -> Reals:
+    """The speed of the only drive in a motion with velocities; (rows,)."""
+    drive = motion.plan.lower.mechanism.drives[0]
+    if not drive.direction.startswith("R"):
+        return motion.slide(drive.joint, 1)
+    one, other = motion.plan.lower.reference(0)
+    out: Reals = motion.angular(other) - motion.angular(one)
+    return out

@@ -12,7 +12,7 @@ from gruebler.kinematics import Motion
 from gruebler.linkages.model import joint_number
 from gruebler.statics.equilibrium import Contact, Reactions, contacts, reactions
 from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, placed
-from gruebler.statics.rates import again
+from gruebler.statics.rates import again, drive_speed
 
 __all__ = ["Statics", "statics"]
 
@@ -22,6 +22,12 @@ _SAID = {
     "the drive, or a change point).",
     "de": "Bei den Antriebswerten {rows} sind die Gelenkkräfte nicht bestimmt: die Glieder sind dort nicht gehalten "
     "(Grenze des Antriebs oder Verzweigungslage).",
+}
+_UNKNOWN = {
+    "en": "At {rows} virtual work has no answer either: the drive stands at its limit, or the effort depends on the "
+    "branch, which a change point alone does not tell.",
+    "de": "Bei {rows} antwortet auch die virtuelle Arbeit nicht: der Antrieb steht an seiner Grenze, oder sein Moment "
+    "hängt von der Einbaulage ab, die eine Verzweigungslage allein nicht verrät.",
 }
 _MOST_SAID = 6
 
@@ -37,7 +43,11 @@ class Statics:
     wrenches: tuple[Wrench, ...]
     reactions: Reactions
     work: Reals
-    """(rows, drives): the drives' efforts by virtual work; NaN at a limit of the drive."""
+    """(rows, drives): the drives' efforts by virtual work.
+
+    NaN at a limit of the drive, and in change points if all rows are such and the motion has no velocities: the
+    effort there depends on the branch.
+    """
 
     @property
     def drive(self) -> Reals:
@@ -54,10 +64,15 @@ class Statics:
 
     @cached_property
     def disagreement(self) -> float:
-        """The largest difference of the two ways to the drives' efforts, by the largest effort or load."""
-        both = np.where(np.isfinite(self.drive), self.work, np.nan) / self.load
-        gap = np.nan_to_num(np.abs(self.drive / self.load - both))
-        return float(gap.max(initial=0.0) / np.nan_to_num(np.abs(both)).max(initial=1.0))
+        """The largest difference of the two ways to the drives' efforts, by the largest effort or load.
+
+        NaN if no row has both.
+        """
+        both = np.isfinite(self.drive) & np.isfinite(self.work)
+        if not both.any():
+            return float("nan")
+        work, drive = (np.where(both, effort, 0.0) / self.load for effort in (self.work, self.drive))
+        return float(np.abs(drive - work).max() / np.abs(work).max(initial=1.0))
 
     @cached_property
     def load(self) -> Reals:
@@ -93,14 +108,17 @@ class Statics:
         return out
 
     def message(self, lang: str = "en") -> str:
-        """Where joint forces are not determined; else empty."""
-        rows = np.flatnonzero(self.singular)
-        if not len(rows):
-            return ""
+        """Where joint forces, or not even the drives' efforts, are determined; else empty."""
+        unknown = np.asarray(np.isnan(self.work).any(axis=1))
+        parts = ((_SAID, self.singular), (_UNKNOWN, unknown))
+        return " ".join(said[lang].format(rows=self._values(rows)) for said, rows in parts if rows.any())
+
+    def _values(self, flags: Flags) -> str:
+        rows = np.flatnonzero(flags)
         turning = self.motion.linkage.mechanism.drives[0].direction.startswith("R")
         values = self.motion.drives[rows[:_MOST_SAID], 0]
         said = [f"{np.degrees(value):.6g}°" if turning else f"{value:.6g}" for value in values]
-        return _SAID[lang].format(rows=", ".join(said) + (", ..." if len(rows) > _MOST_SAID else ""))
+        return ", ".join(said) + (", ..." if len(rows) > _MOST_SAID else "")
 
     def _of(self, joint: str | int, link: str | None) -> tuple[int, str]:
         mechanism = self.motion.linkage.mechanism
@@ -161,6 +179,10 @@ def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:
     for k in range(drives):
         for rows, moved in again(motion, np.eye(drives)[k]):
             out[rows, k] = -sum(_power(wrench, rows, moved) for wrench in wrenches)
+    if drives == 1 and motion.order and np.isnan(out).all():
+        with np.errstate(divide="ignore", invalid="ignore"):
+            power = -sum(_power(wrench, np.arange(len(motion)), motion) for wrench in wrenches) / drive_speed(motion)
+        out[:, 0] = np.where(np.isfinite(power), power, np.nan)
     return out
 
 
