@@ -411,7 +411,7 @@ _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 _DRAWN: dict[str, tuple[str, str, dict[str, Any]]] = {
     "Chain": ("structure", "draw", {"labels": True}),
     "Mechanism": ("structure", "draw", {"labels": True}),
-    "Linkage": ("linkage_picture", "draw_linkage", {"labels": True}),
+    "Linkage": ("linkage_picture", "shown_linkage", {}),
     "Motion": ("motion_picture", "draw_motion", {}),
     "Cam": ("cam_picture", "draw_cam", {}),
     "Geneva": ("geneva_picture", "draw_geneva", {}),
@@ -420,16 +420,9 @@ _DRAWN: dict[str, tuple[str, str, dict[str, Any]]] = {
 
 
 def _picture(thing: Any) -> str:
-    """The SVG of a value for a notebook; of a linkage that cannot be placed, its structure."""
-    from gruebler.errors import LinkageError
-
+    """The SVG of a value for a notebook; of a linkage that cannot be placed, its structure and the reason."""
     room, name, options = _DRAWN[type(thing).__name__]
-    try:
-        return str(getattr(import_module(f"gruebler.drawing.{room}"), name)(thing, **options).svg())
-    except LinkageError:
-        if type(thing).__name__ != "Linkage":
-            raise
-        return _picture(thing.mechanism)
+    return str(getattr(import_module(f"gruebler.drawing.{room}"), name)(thing, **options).svg())
 
 
 views.picture = _picture

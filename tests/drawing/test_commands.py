@@ -22,10 +22,10 @@ DRAW = {
 GALLERY = {
     "ids": [],
     "links": None,
-    "mobility": 1,
-    "fractionated": "none",
+    "mobility": None,
+    "fractionated": None,
     "assortment": None,
-    "multiple_joints": "0",
+    "multiple_joints": None,
     "inversions": False,
     "labels": False,
     "lang": "en",
@@ -81,6 +81,7 @@ def test_the_sixteen_chains_on_one_page(tmp_path):
 def test_inversions_are_named(tmp_path):
     page = paged(tmp_path / "six.html", links=6, inversions=True, lang="de").decode()
     assert page.count("<svg") == 5
+    assert "(5 aus 2 Ketten)" in page
     assert all(
         f"  {name}<" in page for name in ("Watt I", "Watt II", "Stephenson I", "Stephenson II", "Stephenson III")
     )
@@ -99,8 +100,30 @@ def test_machines_on_a_page(tmp_path):
         ({"links": 14}, "do not fit"),
         ({"links": 2}, "at least three links"),
         ({"ids": ["vcmp"]}, "did you mean vcomp"),
+        ({"ids": ["vcomp"], "inversions": True}, "--inversions is for chains"),
+        ({"ids": ["vcomp"], "mobility": 2}, "--mobility is for chains"),
+        ({"links": 5}, "no such chains with 5 links and F = 1"),
     ],
 )
 def test_refusals(options, words):
     with pytest.raises(GrueblerError, match=words):
         gallery.run(Namespace(output=Path("x.html"), **(GALLERY | options)))
+
+
+def test_pictures_of_a_printed_gallery_stay_legible():
+    pytest.importorskip("matplotlib")
+    from gruebler.drawing.gallery import Section
+    from gruebler.drawing.plotting import _columns
+
+    small, large = (gallery._machine(id, Namespace(**(GALLERY | {"labels": True}))) for id in ("mzc", "excavator"))
+    assert _columns(Section("", (small,))) == 5
+    assert _columns(Section("", (small, large))) < 4
+
+
+def test_refusals_in_german():
+    with pytest.raises(GrueblerError) as refused:
+        gallery.run(Namespace(output=Path("x.html"), **(GALLERY | {"links": 5})))
+    assert refused.value.said("de").startswith("solche Ketten mit 5 Gliedern")
+    with pytest.raises(GrueblerError) as refused:
+        draw.run(Namespace(chain="four-bar:60,30,40,50", pose="171", **DRAW))
+    assert "der Antrieb geht in dieser Einbaulage" in refused.value.said("de")

@@ -231,7 +231,7 @@ def test_velocities_are_across_the_crank():
 
 
 def test_the_pole_of_the_coupler_lies_on_crank_and_rocker():
-    linkage = FourBar(30, 30, 50, 60).linkage()
+    linkage = FourBar(30, 31, 50, 60).linkage()
     figure = draw_linkage(linkage, 1.2, show=["poles"])
     assert words(figure) == ["P(frame, coupler)"]
     (cross,) = styles(figure, "edge")
@@ -309,8 +309,41 @@ def test_no_linkage():
 def test_no_drive():
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
     places = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)}
+    drawn = Linkage.drawn(mechanism, places)
+    figure = draw_linkage(drawn, show=["dimensions"])
+    assert "at home; nothing is driven" in figure.description
+    assert sorted(word for word in words(figure)) == ["2 mm", "4 mm", "6 mm", "6.325 mm"]
+    assert not styles(figure, "drive")
     with pytest.raises(LinkageError, match="no joint is driven"):
-        draw_linkage(Linkage.drawn(mechanism, places))
+        draw_linkage(drawn.with_home(None))
+    with pytest.raises(LinkageError, match="one drive only"):
+        draw_linkage(drawn, show=["velocities"])
+
+
+@pytest.mark.parametrize("lengths", [(1, 1, 1, 3), (1, 1, 1, 100), (1, 100, 1, 100)])
+def test_what_cannot_move_shows_itself(lengths):
+    linkage = FourBar(*lengths).linkage()
+    assert linkage._repr_svg_().startswith("<svg")
+    if lengths == (1, 1, 1, 100):
+        assert "assembl" in linkage._repr_svg_()
+
+
+def test_the_pose_of_a_range_is_not_its_singular_middle():
+    stage = staged(SliderCrank(30, 20).linkage())
+    pins = [complex(stage.pose.complex_point(name)[0]) for name in ("R(frame-crank)", "R(crank-coupler)")]
+    assert abs((pins[1] - pins[0]).imag) > 3.0
+
+
+def test_an_unknown_link_is_not_taken_for_another():
+    for key in ("centrodes", "inflection"):
+        with pytest.raises(LinkageError, match="'copler' is none of"):
+            draw_linkage(WITH_POINT, show=[key], output="copler")
+
+
+def test_what_is_said_of_poles_is_seen():
+    figure = draw_linkage(entry("mzc").linkage(), show=["inflection"])
+    for letter, name in (("P", "pole P"), ("W", "inflection pole W")):
+        assert (letter in words(figure)) == (name in figure.description)
 
 
 def test_poses_are_taken_modulo_a_turn():
@@ -328,13 +361,15 @@ def test_lengths_are_drawn_to_scale(capsys):
     assert "Drive at 55°" in text
     assert "μ = " in text
     assert drawn(capsys, "four-bar:25,70,40,70") != text
-    assert "Drive at 0°" in drawn(capsys, "four-bar:60,30,40,50", branch="-")
+    assert "Drive at -" in drawn(capsys, "four-bar:60,30,40,50", branch="-")
     assert "To scale" not in drawn(capsys, "four-bar:25,70,40,70", graph=True)
 
 
 def test_what_is_not_there_is_said(capsys):
-    text = drawn(capsys, "wiper", show=["dead-centres", "scale"])  # the blade moves without turning
+    assert draw.run(Namespace(chain="wiper", **(DRAW | {"show": ["dead-centres", "scale"]}))) == 0
+    text, said = capsys.readouterr()  # the blade moves without turning
     assert "Shown: scale. Not there: dead centres." in text
+    assert said == "Not there: dead centres.\n"
     assert "Shown: dead centres." in drawn(capsys, "wiper", show=["dead-centres"], of="rocker1")
 
 
@@ -365,6 +400,11 @@ def test_a_file_is_drawn_to_scale(capsys, tmp_path):
         ("vcomp", {"pose": "3", "graph": True}, "do not go together with --pose"),
         ("R(0-1) R(1-2) R(2-0)", {"pose": "3"}, "no dimensions"),
         ("nowhere/x.toml", {}, "cannot be read"),
+        ("mzc", {"pose": "", "of": "nix"}, "it goes with --show dead-centres"),
+        ("mzc", {"pose": "", "of": "nix", "show": ["centrodes"]}, "'nix' is none of"),
+        ("mzc", {"ghosts": 0}, "1 to 60"),
+        ("vcomp", {"labels": True, "graph": True}, "--labels names the links of a picture of bodies"),
+        ("vcomp", {"dark": True}, "SVG is on the ground of its reader"),
     ],
 )
 def test_wrong_commands(chain, options, words):

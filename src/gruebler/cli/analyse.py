@@ -63,7 +63,9 @@ _WORDS = {
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
     linkage, shown_range = linkage_of(arguments.linkage)
-    added = {text: tuple(point) for text in arguments.point if isinstance(point := point_of(text), Named)}
+    added = {
+        text: (point.link, point.x, point.y) for text in arguments.point if isinstance(point := point_of(text), Named)
+    }
     linkage = linkage.with_points(added) if added else linkage
     turning = turning_drives(linkage)
     tell_compiling(arguments.lang)

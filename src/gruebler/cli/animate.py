@@ -5,10 +5,9 @@ from __future__ import annotations
 import argparse
 import sys
 
-from gruebler.cli.draw import entry_of, sized, written
+from gruebler.cli.draw import entry_of, picture_suffix, sized, written
 from gruebler.drawing.animation import Options, animated_svg
 from gruebler.drawing.animation_page import animated_page
-from gruebler.drawing.files import suffix_of
 from gruebler.linkages import Linkage
 
 __all__ = ["run"]
@@ -18,7 +17,8 @@ _SUFFIXES = ("svg", "html", "gif", "webp", "png")
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the animation into a file, or as SVG on standard output."""
-    suffix = "svg" if arguments.output is None else suffix_of(arguments.output, _SUFFIXES)
+    dark = getattr(arguments, "dark", False)
+    suffix = picture_suffix(arguments.output, dark, _SUFFIXES)
     linkage, between = sized(arguments.linkage)
     record = entry_of(arguments.linkage)
     options = Options(
@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
         lang=arguments.lang,
         name="" if record is None else record.name.said(arguments.lang),
     )
-    content = _content(linkage, suffix, options, getattr(arguments, "dark", False))
+    content = _content(linkage, suffix, options, dark)
     if arguments.output is None:
         sys.stdout.write(content.decode("utf-8"))
     else:

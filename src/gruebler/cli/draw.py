@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -18,13 +19,13 @@ from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.drawing import Figure, draw, draw_contracted, draw_graph, draw_loops
-from gruebler.drawing.files import picture_bytes, suffix_of
+from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.enumeration.checkpoint import whole_file
 from gruebler.errors import GrueblerError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["entry_of", "german", "run", "sized", "subject", "written"]
+__all__ = ["entry_of", "german", "picture_suffix", "run", "sized", "subject", "told_picture", "written"]
 
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
@@ -33,19 +34,51 @@ _VIEWS: dict[str, Callable[..., Figure]] = {
 }
 
 
-_OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "ghosts": 0, "branch": None, "of": None}
+_OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "ghosts": None, "branch": None, "of": None}
 """Options that only linkages have."""
+_OF_A_LINK = ("dead-centres", "transmission", "centrodes", "inflection")
+"""What is shown of the link named by --of."""
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Draw one chain, mechanism or linkage into a file, or as SVG on standard output."""
-    suffix = "svg" if arguments.output is None else suffix_of(arguments.output)
+    suffix = picture_suffix(arguments.output, getattr(arguments, "dark", False))
     figure = _figure(arguments)
-    if arguments.output is None:
+    told_picture(figure, arguments.output, suffix, getattr(arguments, "dark", False), arguments.lang)
+    return 0
+
+
+def picture_suffix(path: Path | None, dark: bool, known: tuple[str, ...] = SUFFIXES) -> str:
+    """The kind of file that is asked for; `GrueblerError` for a dark ground that it has not."""
+    suffix = "svg" if path is None else suffix_of(path, known)
+    if dark and suffix in ("svg", "html"):
+        raise GrueblerError(
+            f"--dark is for pictures of pixels and PDF: {suffix.upper()} is on the ground of its reader, light or dark",
+            f"--dark gilt für Pixelbilder und PDF: {suffix.upper()} steht auf dem Grund des Lesers, hell oder dunkel",
+        )
+    return suffix
+
+
+_LETTERS = {
+    "en": "some letters are missing in the font of PNG and PDF; an SVG has them",
+    "de": "einige Buchstaben fehlen in der Schrift von PNG und PDF; ein SVG hat sie",
+}
+
+
+def told_picture(figure: Figure, path: Path | None, suffix: str, dark: bool, lang: str) -> None:
+    """Write a picture into a file, or as SVG on standard output; say what could not be shown on standard error."""
+    notes = list(figure.notes)
+    if path is None:
         sys.stdout.write(figure.svg())
     else:
-        written(arguments.output, picture_bytes(figure, suffix, dark=getattr(arguments, "dark", False)))
-    return 0
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            content = picture_bytes(figure, suffix, dark=dark)
+        if any("missing from" in str(one.message) for one in caught):
+            notes.append(_LETTERS[lang])
+        written(path, content)
+    for note in notes:
+        print(note, file=sys.stderr)
 
 
 def _figure(arguments: argparse.Namespace) -> Figure:
@@ -53,7 +86,21 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
     if view is not None and asked:
-        raise GrueblerError(f"graphs and loops show no sizes: they do not go together with {asked[0]}")
+        raise GrueblerError(
+            f"graphs and loops show no sizes: they do not go together with {asked[0]}",
+            f"Graphen und Maschen zeigen keine Maße: sie gehen nicht zusammen mit {asked[0]}",
+        )
+    if view is not None and arguments.labels:
+        raise GrueblerError(
+            "--labels names the links of a picture of bodies; graphs and loops name them by themselves",
+            "--labels benennt die Glieder eines Bildes aus Körpern; Graphen und Maschen benennen sie von selbst",
+        )
+    if moving["of"] is not None and not set(moving["show"]) & set(_OF_A_LINK):
+        shown = ", ".join(_OF_A_LINK)
+        raise GrueblerError(
+            f"--of says of which link something is shown: it goes with --show {shown}",
+            f"--of sagt, von welchem Glied etwas gezeigt wird: es gehört zu --show {shown}",
+        )
     has_sizes = _has_sizes(arguments.chain)
     if view is None and (has_sizes or asked):
         return _to_scale(arguments, moving)
@@ -73,7 +120,10 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
 
     for option in ("space", "frame", "drive"):
         if getattr(arguments, option):
-            raise GrueblerError(f"a linkage with sizes has its own frame and drives: it is drawn without --{option}")
+            raise GrueblerError(
+                f"a linkage with sizes has its own frame and drives: it is drawn without --{option}",
+                f"ein Getriebe mit Maßen hat sein Gestell und seine Antriebe: es wird ohne --{option} gezeichnet",
+            )
     linkage, between = sized(arguments.chain)
     record = entry_of(arguments.chain)
     return draw_linkage(
@@ -119,7 +169,11 @@ def _pose(linkage: Linkage, text: str | None) -> list[float] | None:
         values = []
     if len(values) != len(drives) or not all(math.isfinite(value) and abs(value) < 1e9 for value in values):
         many = "one number" if len(drives) == 1 else f"{len(drives)} numbers with commas"
-        raise GrueblerError(f"--pose: expected {many}, degrees where a drive turns, but found {text!r}")
+        viele = "eine Zahl" if len(drives) == 1 else f"{len(drives)} Zahlen mit Kommas"
+        raise GrueblerError(
+            f"--pose: expected {many}, degrees where a drive turns, but found {text!r}",
+            f"--pose: erwartet wird {viele}, Grad bei einem Drehantrieb, nicht {text!r}",
+        )
     turning = [drive.direction.startswith("R") for drive in drives]
     return [math.radians(value) if turns else value for value, turns in zip(values, turning, strict=True)]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterator
 from itertools import groupby
+from typing import Any
 
 from gruebler.catalog import entry
 from gruebler.chain import Chain
@@ -31,6 +32,7 @@ _WORDS = {
         "note": "{chains} chains, {pictures} pictures.",
         "machines": "{pictures} pictures.",
         "section": "Links binary, ternary, ...: {assortment} ({number})",
+        "of": "{pictures} of {chains} chains",
         "joints": "; multiple joints: {k}",
     },
     "de": {
@@ -40,6 +42,7 @@ _WORDS = {
         "note": "{chains} Ketten, {pictures} Bilder.",
         "machines": "{pictures} Bilder.",
         "section": "Glieder binär, ternär, ...: {assortment} ({number})",
+        "of": "{pictures} aus {chains} Ketten",
         "joints": "; Mehrfachgelenke: {k}",
     },
 }
@@ -49,16 +52,18 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
     suffix = suffix_of(arguments.output, ("html", "pdf"))
     words = _WORDS[arguments.lang]
-    if arguments.ids and arguments.links is not None:
-        raise GrueblerError("a gallery shows machines of the catalog or the chains of --links, not both")
     if arguments.ids:
+        _check(arguments)
         title = words["catalog"]
         sections = [Section("", tuple(_machine(id, arguments) for id in arguments.ids))]
         note = words["machines"].format(pictures=len(arguments.ids))
     elif arguments.links is not None:
         title, note, sections = _request(arguments)
     else:
-        raise GrueblerError("say what to show: --links N, or ids of the catalog")
+        raise GrueblerError(
+            "say what to show: --links N, or ids of the catalog",
+            "sage, was zu zeigen ist: --links N oder Namen des Katalogs",
+        )
     if suffix == "html":
         content = gallery_html(title, sections, lang=arguments.lang, note=note).encode("utf-8")
     else:
@@ -67,6 +72,22 @@ def run(arguments: argparse.Namespace) -> int:
         content = gallery_pdf(title, sections, note=note)
     written(arguments.output, content)
     return 0
+
+
+_OF_REQUESTS = ("links", "mobility", "fractionated", "assortment", "multiple_joints", "inversions")
+_USUAL = {"mobility": 1, "fractionated": "none", "multiple_joints": "0"}
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    """Machines are shown as they are: an option of requests beside them is an error, not ignored."""
+    for key in _OF_REQUESTS:
+        if getattr(arguments, key) not in (None, False):
+            option = f"--{key.replace('_', '-')}"
+            raise GrueblerError(
+                f"a gallery shows machines of the catalog or the chains of --links, not both: {option} is for chains",
+                f"eine Galerie zeigt Maschinen des Katalogs oder die Ketten von --links, nicht beides: {option} gilt "
+                "für Ketten",
+            )
 
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
@@ -79,26 +100,34 @@ def _machine(id: str, arguments: argparse.Namespace) -> Item:
 
 def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
     words = _WORDS[arguments.lang]
-    options = {
-        "fractionated": arguments.fractionated,
-        "assortment": assortment_of(arguments.assortment),
-        "multiple_joints": arguments.multiple_joints,
-    }
-    size = estimate(Request(arguments.links, arguments.mobility, **options), "text").chains
+    given = {key: getattr(arguments, key) for key in _USUAL}
+    usual: dict[str, Any] = _USUAL | {key: value for key, value in given.items() if value is not None}
+    mobility = usual.pop("mobility")
+    options = usual | {"assortment": assortment_of(arguments.assortment)}
+    size = estimate(Request(arguments.links, mobility, **options), "text").chains
     if size > _MOST:
-        raise GrueblerError(f"{size:,} chains do not fit on a page of {_MOST:,}; choose some with --assortment")
-    found = list(chains(arguments.links, arguments.mobility, **options))
+        raise GrueblerError(
+            f"{size:,} chains do not fit on a page of {_MOST:,}; choose some with --assortment",
+            f"{size:,} Ketten passen nicht auf eine Seite für {_MOST:,}; wähle mit --assortment aus",
+        )
+    found = list(chains(arguments.links, mobility, **options))
+    if not found:
+        raise GrueblerError(
+            f"there are no such chains with {arguments.links} links and F = {mobility}: nothing to be drawn",
+            f"solche Ketten mit {arguments.links} Gliedern und F = {mobility} gibt es nicht: nichts zu zeichnen",
+        )
     sections = []
     pictures = 0
     numbered = sorted(enumerate(found, 1), key=lambda one: (len(one[1].multiple_joints), _large_first(one[1])))
     for (joints, _), group in groupby(numbered, key=lambda one: (len(one[1].multiple_joints), _large_first(one[1]))):
         some = list(group)
         assortment = ", ".join(map(str, some[0][1].assortment))
-        heading = words["section"].format(assortment=assortment, number=len(some))
         items = tuple(item for number, chain in some for item in _items(number, chain, arguments))
+        number = words["of"].format(pictures=len(items), chains=len(some)) if arguments.inversions else len(some)
+        heading = words["section"].format(assortment=assortment, number=number)
         sections.append(Section(heading + (words["joints"].format(k=joints) if joints else ""), items))
         pictures += len(items)
-    title = words["inversions" if arguments.inversions else "title"].format(n=arguments.links, f=arguments.mobility)
+    title = words["inversions" if arguments.inversions else "title"].format(n=arguments.links, f=mobility)
     return title, words["note"].format(chains=len(found), pictures=pictures), sections
 
 

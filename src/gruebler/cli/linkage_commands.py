@@ -61,7 +61,7 @@ def _add_analyse(commands: _Commands) -> None:
     )
     analyse.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
     analyse.add_argument(
-        "--point", action="append", default=[], metavar="K", help="a named point or a joint; repeatable"
+        "--point", action="append", default=[], metavar="K", help="a named point, a joint, or LINK:X,Y; repeatable"
     )
     analyse.add_argument("--output", action="append", default=[], metavar="LINK", help="the link looked at; repeatable")
     analyse.add_argument(
@@ -288,7 +288,7 @@ def _add_draw(commands: _Commands) -> None:
     draw.add_argument("--frame", metavar="LINK", help="the link that stands still")
     draw.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
     draw.add_argument("--labels", action="store_true", help="name the links")
-    draw.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; not SVG, which is on the reader's")
+    draw.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; an SVG is on the reader's")
     view = draw.add_mutually_exclusive_group()
     view.add_argument("--graph", action="store_true", help="the link graph instead")
     view.add_argument("--contracted", action="store_true", help="the contracted graph instead")

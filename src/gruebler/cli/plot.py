@@ -5,17 +5,15 @@ from __future__ import annotations
 import argparse
 import cmath
 import math
-import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from gruebler.cli.draw import entry_of, sized, written
+from gruebler.cli.draw import entry_of, german, picture_suffix, sized, told_picture
 from gruebler.drawing import Figure
 from gruebler.drawing.curve_plots import coupler_plot, family_plot, hodograph
-from gruebler.drawing.files import picture_bytes, suffix_of
 from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
 from gruebler.drawing.plots import ratio_diagram
 from gruebler.errors import GrueblerError
@@ -30,16 +28,13 @@ _RATIO_TITLES = {"en": "{name}: relative deviation of {point}", "de": "{name}: b
 
 def run(arguments: argparse.Namespace) -> int:
     """Plot into a file, or as SVG on standard output."""
-    suffix = "svg" if arguments.file is None else suffix_of(arguments.file)
+    suffix = picture_suffix(arguments.file, arguments.dark)
     _check(arguments)
     linkage, between = sized(arguments.linkage)
     record = entry_of(arguments.linkage)
     name = "" if record is None else record.name.said(arguments.lang)
-    figure = _KINDS[arguments.kind](_Asked(linkage, between, name, arguments))
-    if arguments.file is None:
-        sys.stdout.write(figure.svg())
-    else:
-        written(arguments.file, picture_bytes(figure, suffix, dark=arguments.dark))
+    figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))
+    told_picture(figure, arguments.file, suffix, arguments.dark, arguments.lang)
     return 0
 
 
@@ -63,9 +58,20 @@ def _check(arguments: argparse.Namespace) -> None:
     for key, (none, kinds) in _ONLY.items():
         value, option = getattr(arguments, key), f"--{_WRITTEN.get(key, key)}"
         if value != none and arguments.kind not in kinds:
-            raise GrueblerError(f"{option} goes with --kind {' or '.join(kinds)}, not with {arguments.kind}")
+            raise GrueblerError(
+                f"{option} goes with --kind {' or '.join(kinds)}, not with {arguments.kind}",
+                f"{option} gehört zu --kind {' oder '.join(kinds)}, nicht zu {arguments.kind}",
+            )
         if isinstance(value, float) and not math.isfinite(value):
-            raise GrueblerError(f"{option}: expected a finite number, but found {value}")
+            raise GrueblerError(
+                f"{option}: expected a finite number, but found {value}",
+                f"{option}: erwartet wird eine endliche Zahl, nicht {value}",
+            )
+    if arguments.kind == "ratio" and len(arguments.point) > 1:
+        raise GrueblerError(
+            f"--kind ratio is of one point, but found {', '.join(arguments.point)}",
+            f"--kind ratio zeigt einen Punkt, genannt sind {', '.join(arguments.point)}",
+        )
 
 
 @dataclass(frozen=True)
@@ -75,6 +81,7 @@ class _Asked:
     linkage: Linkage
     between: tuple[float, float] | None
     name: str
+    names: Mapping[str, str]
     arguments: argparse.Namespace
 
     @property
@@ -89,16 +96,19 @@ class _Asked:
         found = self.arguments.point or list(self.linkage.points)
         if not found:
             joints = ", ".join(self.linkage.mechanism.chain.joint_names())
-            raise GrueblerError(f"this linkage has no named points; name one of its joints with --point: {joints}")
+            raise GrueblerError(
+                f"this linkage has no named points; name one of its joints with --point: {joints}",
+                f"dieses Getriebe hat keine benannten Punkte; nenne eines seiner Gelenke mit --point: {joints}",
+            )
         return found
 
 
 def _transfer(asked: _Asked) -> Figure:
-    return transfer_plot(asked.linkage, asked.arguments.output, **asked.common)
+    return transfer_plot(asked.linkage, asked.arguments.output, names=asked.names, **asked.common)
 
 
 def _transmission(asked: _Asked) -> Figure:
-    return transmission_plot(asked.linkage, asked.arguments.output, **asked.common)
+    return transmission_plot(asked.linkage, asked.arguments.output, names=asked.names, **asked.common)
 
 
 def _hodograph(asked: _Asked) -> Figure:

@@ -52,7 +52,7 @@ def add(commands: _Commands) -> None:
     )
     plot.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
     plot.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
-    plot.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; SVG is on that of the reader")
+    plot.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; an SVG is on the reader's")
     plot.add_argument("-o", dest="file", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
     _finish(plot)
 

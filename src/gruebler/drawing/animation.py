@@ -11,9 +11,9 @@ from typing import NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
-from gruebler.drawing.figure import Figure, Point, Shape, bounds
+from gruebler.drawing.figure import MARGIN, Figure, Point, Shape, bounds
 from gruebler.drawing.linkage_bodies import PINS, Part, at_pose, parts
-from gruebler.drawing.linkage_layers import coupler_curve, drive_arrows
+from gruebler.drawing.linkage_layers import coupler_curve, drive_parts
 from gruebler.drawing.prose import describe, title
 from gruebler.drawing.stage import Stage, staged
 from gruebler.drawing.svg import document, element, number
@@ -30,7 +30,6 @@ _WORDS = {
     },
 }
 _LONGEST = 3600.0  # seconds
-_MARGIN = 16.0
 
 
 class Options(TypedDict, total=False):
@@ -50,7 +49,7 @@ class Scene(NamedTuple):
     stage: Stage
     pieces: tuple[Part, ...]
     still: tuple[Shape, ...]
-    """Curves and the arrow of the drive."""
+    """Curves."""
     corner: Point
     """The upper left corner of all that is ever seen."""
     page: Figure
@@ -92,12 +91,12 @@ def scene(
         raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
     stage = staged(linkage, branch=branch, between=between)
     turns = stage.driven().span.turns
-    pieces = parts(stage)
+    pieces = (*parts(stage), *drive_parts(stage))
     rows = range(0, len(stage.path), 2)
     poses = [shape for row in rows for part in pieces for shape in at_pose(stage, part, stage.path, row)]
     curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
-    still = (*curve, *_arrows(stage))
-    corner, size = bounds([*poses, *still], _MARGIN)
+    still = tuple(curve)
+    corner, size = bounds([*poses, *still], MARGIN)
     words = _WORDS[lang][stage.goes_round].format(turns=turns)
     described = f"{describe(linkage.mechanism, lang)} {words}"
     page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
@@ -124,18 +123,11 @@ def svg_of(shown: Scene) -> str:
         f'<g transform="translate({number(-shown.corner.x)} {number(-shown.corner.y)})">',
         *motion.groups([part for part in shown.pieces if part.layer < PINS]),
         *map(element, shown.still),
-        *motion.groups([part for part in shown.pieces if part.layer == PINS]),
+        *motion.groups([part for part in shown.pieces if part.layer >= PINS]),
         "</g>",
     ]
     used = [shape.style for shape in shown.still] + [shape.style for part in shown.pieces for shape in part.shapes]
     return document(shown.page, used, lines)
-
-
-def _arrows(stage: Stage) -> list[Shape]:
-    """The arrows of a drive at the frame; others would have to move."""
-    frame = stage.lower.mechanism.frame
-    turning = stage.driven().turning_drive
-    return drive_arrows(stage) if turning and frame in stage.lower.mechanism.drives[0].between else []
 
 
 class _Motion:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any, Unpack
 
@@ -16,7 +17,7 @@ from gruebler.drawing.plotting import painted
 from gruebler.errors import GrueblerError
 from gruebler.linkages import Linkage
 
-__all__ = ["FRAMES", "animated_frames"]
+__all__ = ["FRAMES", "animated_frames", "check_kind", "frames_of"]
 
 FRAMES = ("gif", "webp", "png")
 """Kinds of files; png is APNG."""
@@ -40,18 +41,34 @@ def animated_frames(
 
     Cost: some 40 ms a picture. Raises `GrueblerError` if matplotlib is not installed, `LinkageError` as `scene` does.
     """
-    if kind not in FRAMES:
-        raise GrueblerError(f"expected a kind of file among {', '.join(FRAMES)}, but found {kind!r}")
+    check_kind(kind)
     shown = scene(linkage, **options)
     rows = shown.rows[:-1]
     rows = rows[:: -(-len(rows) // _MOST)]
-    made = {row: _picture(_figure(shown, row), zoom, dark) for row in dict.fromkeys(rows)}
-    palette = _palette(made[rows[0]])
-    made = {row: picture.quantize(palette=palette, dither=0) for row, picture in made.items()}
+    made = {row: _figure(shown, row) for row in dict.fromkeys(rows)}
+    return frames_of([made[row] for row in rows], kind, shown.seconds, dark=dark, zoom=zoom)
+
+
+def check_kind(kind: str) -> None:
+    """`GrueblerError` for a kind of file that is none of `FRAMES`."""
+    if kind not in FRAMES:
+        raise GrueblerError(f"expected a kind of file among {', '.join(FRAMES)}, but found {kind!r}")
+
+
+def frames_of(figures: Sequence[Figure], kind: str, seconds: float, *, dark: bool = False, zoom: float = 1.25) -> bytes:
+    """The content of a file that shows figures of one size one after another, evenly in so many seconds, over and over.
+
+    A figure that comes twice as the same object is painted once. Arguments as for `animated_frames`.
+    """
+    check_kind(kind)
+    made = {id(figure): figure for figure in figures}
+    pictures = {key: _picture(figure, zoom, dark) for key, figure in made.items()}
+    palette = _palette(pictures[id(figures[0])])
+    pictures = {key: picture.quantize(palette=palette, dither=0) for key, picture in pictures.items()}
     tick = _TICK.get(kind, 1)
-    ends = [tick * round(1000 * shown.seconds * k / len(rows) / tick) for k in range(len(rows) + 1)]
+    ends = [tick * round(1000 * seconds * k / len(figures) / tick) for k in range(len(figures) + 1)]
     memory = io.BytesIO()
-    first, *rest = (made[row] for row in rows)
+    first, *rest = (pictures[id(figure)] for figure in figures)
     first.save(
         memory,
         kind,
@@ -74,7 +91,7 @@ def _figure(shown: Scene, row: int) -> Figure:
         [
             shape
             for part in shown.pieces
-            if (part.layer == PINS) == pins
+            if (part.layer >= PINS) == pins
             for shape in at_pose(stage, part, stage.path, row)
         ]
         for pins in (False, True)

@@ -8,13 +8,14 @@ from __future__ import annotations
 import json
 import math
 from html import escape
-from typing import Any, Unpack
+from typing import TypedDict, Unpack
 
 from gruebler.drawing.animation import Options, Scene, scene, svg_of
+from gruebler.drawing.figure import Figure
 from gruebler.drawing.styles import COLOURS
 from gruebler.linkages import Linkage
 
-__all__ = ["animated_page"]
+__all__ = ["Settings", "animated_page", "page_of"]
 
 _WORDS = {
     "en": {"play": "Play", "pause": "Pause", "drive": "Drive", "keys": "Space: play or pause. Arrow keys: the drive."},
@@ -44,8 +45,21 @@ run=()=>{b.textContent=on?m.pause:m.play;on?v.unpauseAnimations():v.pauseAnimati
 tick=()=>{if(on){const q=at(v.getCurrentTime());s.value=q;show(q)}requestAnimationFrame(tick)};
 b.onclick=()=>{on=!on;run()};
 s.oninput=()=>{on=false;run();v.setCurrentTime(time(+s.value));show(+s.value)};
-onkeydown=e=>{if(e.key==" "&&e.target==document.body){e.preventDefault();b.click()}};
+onkeydown=e=>{if(e.target!=document.body)return;const k={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,ArrowUp:1}[e.key];
+if(e.key==" "){e.preventDefault();b.click()}else if(k){e.preventDefault();s.stepUp(8*k);s.oninput()}};
 run();show(at(0));tick();"""
+
+
+class Settings(TypedDict):
+    """What the script needs to know: from where to where the drive goes, and in which time."""
+
+    low: float
+    high: float
+    seconds: float
+    round: bool
+    """Evenly from low to high; else there and back."""
+    places: int
+    unit: str
 
 
 def animated_page(linkage: Linkage, **options: Unpack[Options]) -> str:
@@ -58,39 +72,44 @@ def animated_page(linkage: Linkage, **options: Unpack[Options]) -> str:
     >>> page.count("<svg"), page.count("<script"), "http" in page.replace("http://www.w3.org/2000/svg", "")
     (1, 1, False)
     """
-    shown, lang = scene(linkage, **options), options.get("lang", "en")
-    words, settings = _WORDS[lang], _settings(shown)
+    shown = scene(linkage, **options)
+    return page_of(svg_of(shown), shown.page, _settings(shown), options.get("lang", "en"))
+
+
+def page_of(picture: str, about: Figure, settings: Settings, lang: str) -> str:
+    """The page around an SVG that moves by itself, with the title and description of a figure."""
+    words = _WORDS[lang]
     low, high = settings["low"], settings["high"]
     colours = dict(zip(("light", "dark"), COLOURS["paper"], strict=True))
     colours |= {"ink": COLOURS["ink"][0], "pale": COLOURS["ink"][1], "accent": COLOURS["motion"][0]}
-    told = json.dumps(settings | {key: words[key] for key in ("play", "pause")}, ensure_ascii=False)
+    told = json.dumps({**settings, **{key: words[key] for key in ("play", "pause")}}, ensure_ascii=False)
     script = _SCRIPT % told.replace("<", "\\u003c")
-    title, about = escape(shown.page.title), escape(shown.page.description)
+    title, description = escape(about.title), escape(about.description)
     slider = f'type="range" id="drive" min="{low:.6g}" max="{high:.6g}" step="{(high - low) / 720:.4g}"'
     return "\n".join(
         [
             f'<!doctype html>\n<html lang="{lang}">\n<meta charset="utf-8">',
             f'<meta name="viewport" content="width=device-width,initial-scale=1">\n<title>{title}</title>',
-            f"<style>{_STYLE.format(width=max(480, round(shown.page.width)), **colours)}</style>",
-            f"<main>\n<h1>{title}</h1>\n{svg_of(shown)}",
+            f"<style>{_STYLE.format(width=max(480, round(about.width)), **colours)}</style>",
+            f"<main>\n<h1>{title}</h1>\n{picture}",
             f'<div><button type="button" id="play">{words["play"]}</button>',
             f'<input {slider} aria-label="{words["drive"]}"><output id="value" for="drive"></output></div>',
-            f"<p><small>{words['keys']}</small></p>\n<p><small>{about}</small></p>\n</main>",
+            f"<p><small>{words['keys']}</small></p>\n<p><small>{description}</small></p>\n</main>",
             f"<script>\n{script}\n</script>\n</html>\n",
         ]
     )
 
 
-def _settings(shown: Scene) -> dict[str, Any]:
-    """What the script needs to know: from where to where the drive goes, and in which time."""
+def _settings(shown: Scene) -> Settings:
+    """Those of a linkage."""
     drives, stage = shown.stage.path.drives[:, 0], shown.stage
     turning = stage.driven().turning_drive
     low, high = (math.degrees(q) if turning else float(q) for q in (drives[0], drives[-1]))
-    return {
-        "low": round(low, 6),
-        "high": round(high, 6),
-        "seconds": shown.seconds,
-        "round": stage.goes_round,
-        "places": 1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
-        "unit": "°" if turning else f" {stage.linkage.unit}",
-    }
+    return Settings(
+        low=round(low, 6),
+        high=round(high, 6),
+        seconds=shown.seconds,
+        round=stage.goes_round,
+        places=1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
+        unit="°" if turning else f" {stage.linkage.unit}",
+    )

@@ -6,7 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-__all__ = ["Axis", "Scale", "angles", "decades", "decimals", "said"]
+from gruebler.drawing.prose import in_language
+
+__all__ = ["Axis", "Scale", "angles", "decades", "decimals", "figures", "said"]
 
 _FEW = 7  # ticks of an axis, about
 _ANGLES = (1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720)  # degrees
@@ -93,6 +95,17 @@ def said(values: Sequence[float], step: float) -> tuple[str, ...]:
         return tuple(_with_power(value) for value in values)
     places = max(0, -math.floor(math.log10(step) + 1e-9))
     return tuple(f"{value + 0.0:.{places}f}".replace("-", "−") for value in values)
+
+
+def figures(value: float, unit: str, lang: str = "en") -> str:
+    """A size with four digits and its unit; with a power of ten where it is huge or tiny.
+
+    >>> figures(70.0, "mm"), figures(40.311, "mm", "de"), figures(3e7, "mm"), figures(1e-6, "mm")
+    ('70 mm', '40,31 mm', '3×10⁷ mm', '10⁻⁶ mm')
+    """
+    plain = not value or 1e-3 <= abs(float(f"{value:.4g}")) < 1e5
+    number = f"{float(f'{value:.4g}'):.10g}".replace("-", "−") if plain else _with_power(value).removeprefix("1×")
+    return in_language(f"{number} {unit}", lang)
 
 
 def _with_power(value: float) -> str:

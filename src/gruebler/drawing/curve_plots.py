@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from gruebler.drawing.axes import Axis, Scale, decimals
 from gruebler.drawing.figure import Figure, Point
-from gruebler.drawing.plot_runs import ROWS, Between, Branch, PlotRun, plot_run
+from gruebler.drawing.plot_runs import Between, Branch, PlotRun, plot_run
 from gruebler.drawing.plots import Curve, Panel, Spot, plotted
+from gruebler.drawing.prose import in_language
 from gruebler.drawing.stage import floating, nodes
 from gruebler.drawing.styles import LINES
 from gruebler.errors import LinkageError
@@ -24,7 +25,6 @@ __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 Complexes = NDArray[np.complex128]
 
 _SQUARE = 460.0  # pixels of the longer side
-_SPOTS = 12  # drive values written beside a hodograph
 _NEAR = 0.03  # of the field: drive values nearer to each other are left out
 _AROUND = 0.04  # of the field
 _MOST = len(LINES)
@@ -74,30 +74,37 @@ def hodograph(
     'four-bar linkage: hodograph of K'
     """
     chosen, words = _few(points), _WORDS[lang]
+    if speed is not None and not (math.isfinite(speed) and speed):
+        raise LinkageError(
+            f"a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}",
+            f"ein Hodograph braucht einen Antrieb, der sich bewegt: erwartet wird ein Wert ungleich 0, nicht {speed}",
+        )
     run = plot_run(linkage, 1, branch, between, lang, name)
     places = [linkage.named(point)[-1] for point in chosen]
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, 1) for place in places]
     per = run.drive_unit if speed is None else "s"
-    rate = "1" if speed is None else f"{speed:.6g} {run.drive_unit}/s"
+    rate = "1" if speed is None else in_language(f"{speed:.6g} {run.drive_unit}/s", lang)
     names = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
     axes = [f"{one} in {run.unit}/{per}" for one in names]
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
     ]
-    spots = _tips(run, paths[0], _NEAR * max(high - low for low, high in ranges))
+    tips = factor * run.course.at(run.round_drives, 1).complex_point(places[0], 1)
+    spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
     panel = _square(paths, chosen if len(chosen) > 1 else [""], axes, [*spots, Spot(0.0, 0.0, "")], ranges=ranges)
     about = words["hodograph_about"].format(range=run.range, output=", ".join(chosen), speed=rate)
-    return plotted([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about)
+    return plotted([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about, lang)
 
 
 def _tips(run: PlotRun, path: Complexes, near: float) -> list[Spot]:
-    """Drive values at points of a path that are not near to each other."""
+    """Points at round drive values; of those near to each other the first is named."""
     spots: list[Spot] = []
-    for k in range(0, _SPOTS * (ROWS // _SPOTS), ROWS // _SPOTS):
-        z = complex(path[k])
-        if np.isfinite(z) and all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in spots):
-            spots.append(Spot(z.real, z.imag, run.value(run.drives[k])))
+    for drive, z in zip(run.round_drives, path, strict=True):
+        if np.isfinite(z):
+            named = [spot for spot in spots if spot.words]
+            apart = all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in named)
+            spots.append(Spot(z.real, z.imag, run.value(drive) if apart else ""))
     return spots
 
 
@@ -163,10 +170,16 @@ def family_of(
 ) -> dict[str, Named]:
     """The points of a family, named by their coordinates in the link."""
     if not 2 <= count <= _MOST:
-        raise LinkageError(f"a family has 2 to {_MOST} points, not {count!r}")
+        raise LinkageError(
+            f"a family has 2 to {_MOST} points, not {count!r}", f"eine Schar hat 2 bis {_MOST} Punkte, nicht {count!r}"
+        )
     chosen = floating(linkage) if link is None else link
     if chosen not in linkage.mechanism.chain.links:
         raise LinkageError(f"there is no link {chosen!r}; the links are {', '.join(linkage.mechanism.chain.links)}")
+    if chosen == linkage.mechanism.frame:
+        raise LinkageError(
+            f"{chosen!r} is the frame: its points do not move", f"{chosen!r} ist das Gestell: seine Punkte ruhen"
+        )
     places = nodes(linkage, chosen)
     if start is None or end is None:
         if len(places) < 2:
@@ -195,7 +208,7 @@ def _paths(
     spots = [Spot(path[row].real, path[row].imag, "") for path in paths]
     panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
     about = words["curves_about"].format(range=run.range, output="; ".join(places), at=run.value(run.drives[row]))
-    return plotted([panel], words["curves"].format(name=run.name), about)
+    return plotted([panel], words["curves"].format(name=run.name), about, lang)
 
 
 def _skeleton(motion: Motion, row: int, places: Iterable[Named]) -> list[Complexes]:
@@ -238,7 +251,7 @@ def _even(low: float, high: float, longest: float) -> Scale:
     """A tight scale whose step is that of the longer one."""
     few = max(1, round(8 * (high - low) / longest))
     made = decimals(low, high, few=few, tight=True)
-    return made if len(made.ticks) > 1 else decimals(low, high, few=5, tight=True)
+    return made if len(made.ticks) > 1 else decimals(low, high, few=2, tight=True)
 
 
 def _few(points: Sequence[str]) -> list[str]:

@@ -6,11 +6,28 @@ Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; n
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-__all__ = ["Arc", "Circle", "Figure", "Lines", "Point", "Shape", "Text", "bounds", "figure_of", "moved", "text_width"]
+from gruebler.drawing.styles import STYLES
+
+__all__ = [
+    "MARGIN",
+    "Arc",
+    "Circle",
+    "Figure",
+    "Lines",
+    "Point",
+    "Shape",
+    "Text",
+    "bounds",
+    "figure_of",
+    "lowered",
+    "moved",
+    "text_width",
+]
 
 
 class Point(NamedTuple):
@@ -104,6 +121,8 @@ class Figure:
     height: float
     title: str
     description: str
+    notes: tuple[str, ...] = ()
+    """What was asked for and could not be shown, in sentences."""
 
     def svg(self, *, styled: bool = True) -> str:
         """The picture as SVG; without its styles where the page around has them."""
@@ -115,12 +134,18 @@ class Figure:
         return self.svg()
 
 
-def figure_of(shapes: Iterable[Shape], title: str, description: str, margin: float = 10.0) -> Figure:
+MARGIN = 16.0
+"""Pixels around pictures of linkages; half the width of a link with a slot is less."""
+
+
+def figure_of(
+    shapes: Iterable[Shape], title: str, description: str, margin: float = 10.0, notes: Iterable[str] = ()
+) -> Figure:
     """The figure that just holds the shapes."""
     all_shapes = tuple(shapes)
     corner, size = bounds(all_shapes, margin)
     placed = tuple(moved(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
-    return Figure(placed, size.x, size.y, title, description)
+    return Figure(placed, size.x, size.y, title, description, tuple(notes))
 
 
 def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]:
@@ -129,6 +154,23 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
     left, top = (min(axis) - margin for axis in zip(*corners, strict=True))
     right, bottom = (max(axis) + margin for axis in zip(*corners, strict=True))
     return Point(left, top), Point(right - left, bottom - top)
+
+
+_LOWERED = re.compile(r"(?<!\w)([^\W\d_])_(\w{1,3})(?!\w)")
+
+
+def lowered(words: str) -> list[tuple[str, bool]]:
+    """A text in pieces, each with whether it stands lower: up to three signs after a letter and an underscore.
+
+    >>> lowered("μ_min = 3°, left_arm")
+    [('μ', False), ('min', True), (' = 3°, left_arm', False)]
+    """
+    pieces = _LOWERED.split(words)
+    in_order = [(pieces[0], False)]
+    for letter, low, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+        in_order[-1] = in_order[-1][0] + letter, False
+        in_order += [(low, True), (rest, False)]
+    return [piece for piece in in_order if piece[0]]
 
 
 def text_width(words: str, size: float = 13.0) -> float:
@@ -142,8 +184,8 @@ def _corners(shape: Shape) -> Iterator[Point]:
             yield from (point for part in parts for point in part)
         case Circle(at, radius) | Arc(at, radius):
             yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
-        case Text(at, words, _, anchor):
-            wide = text_width(words)
+        case Text(at, words, style, anchor):
+            wide = text_width(words, STYLES[style].size)
             left = at.x - wide * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
             yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
 

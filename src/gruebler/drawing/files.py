@@ -18,7 +18,10 @@ def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in known:
         endings = " or ".join(filter(None, (", ".join(f".{one}" for one in known[:-1]), f".{known[-1]}")))
-        raise GrueblerError(f"{str(path)!r} does not say what kind of picture it is: end it with {endings}")
+        raise GrueblerError(
+            f"{str(path)!r} does not say what kind of picture it is: end it with {endings}",
+            f"{str(path)!r} sagt nicht, was für ein Bild es ist: die Endung sei {endings.replace(' or ', ' oder ')}",
+        )
     return suffix
 
 

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+import numpy as np
+
 from gruebler.chain import Chain
 from gruebler.drawing.bodies import Bodies
 from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text, figure_of
@@ -14,6 +16,7 @@ from gruebler.drawing.labels import labelled, legend, short_names
 from gruebler.drawing.layout import lay_out
 from gruebler.drawing.orientation import turned
 from gruebler.drawing.prose import describe, title
+from gruebler.drawing.room import complexes, from_segment, inside
 from gruebler.drawing.structure import chain_of, letters, mean_scale, paint, place
 from gruebler.drawing.symbols import arrow_head
 from gruebler.isomorphism import canonical_order
@@ -26,6 +29,7 @@ _NODE = 11.0
 _BIG = 6.0
 _SMALL = 3.2
 _LOOP = 15.0  # radius of the largest arrow in a loop
+_GRID = 24  # places in a row where it is looked for the most room
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +94,8 @@ def draw_graph(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") ->
         if isinstance(thing, Mechanism) and link == thing.frame:
             shapes.append(Circle(at, _NODE + 3.5, "node"))
         shapes += [Circle(at, _NODE, "node"), Text(at, names[link], "letter")]
-    if any(names[link] != link for link in chain.links):
-        shapes += legend(names, drawn.points)
+    listed = {link: number for link, number in names.items() if link != number}
+    shapes += legend(listed, drawn.points) if listed else ()
     return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
 
 
@@ -198,27 +202,14 @@ def _roomiest(loop: Sequence[Point]) -> tuple[Point, float]:
     """The point of a grid inside a polygon that is farthest from its rim, and how far."""
     left, right = min(p.x for p in loop), max(p.x for p in loop)
     top, bottom = min(p.y for p in loop), max(p.y for p in loop)
-    steps = 24
-    grid = [
-        Point(left + (right - left) * (i + 0.5) / steps, top + (bottom - top) * (j + 0.5) / steps)
-        for i in range(steps)
-        for j in range(steps)
-    ]
-    rim = list(zip(loop, [*loop[1:], loop[0]], strict=True))
-    inside = [p for p in grid if _inside(p, rim)] or [_middle(loop)]
-    room = {p: round(min(_distance(p, a, b) for a, b in rim), 3) for p in inside}
-    most = max(room.values())
-    best = [p for p in inside if room[p] >= most - 1.0]
+    parts = (np.arange(_GRID) + 0.5) / _GRID
+    x, y = np.meshgrid(left + (right - left) * parts, top + (bottom - top) * parts, indexing="ij")
+    rim, grid = complexes(loop), (x + 1j * y).ravel()
+    good = grid[inside(grid, rim)] if len(loop) > 2 else grid[:0]
+    if not len(good):
+        good = complexes([_middle(loop)])
+    room = np.min(from_segment(good[:, None], rim[None, :], np.roll(rim, -1)[None, :]), axis=1).round(3)
+    most = float(room.max())
+    best = [Point(float(z.real), float(z.imag)) for z in good[room >= most - 1.0]]
     at = _middle(best)
-    return (at, most) if _inside(at, rim) else (max(best), most)
-
-
-def _inside(p: Point, rim: Sequence[tuple[Point, Point]]) -> bool:
-    cuts = sum((a.y > p.y) != (b.y > p.y) and p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x) for a, b in rim)
-    return cuts % 2 == 1
-
-
-def _distance(p: Point, a: Point, b: Point) -> float:
-    ab, ap = b.minus(a), p.minus(a)
-    t = min(1.0, max(0.0, ap.dot(ab) / max(ab.dot(ab), 1e-12)))
-    return p.minus(a.plus(ab, t)).length
+    return (at, most) if inside(complexes([at]), rim)[0] else (max(best), most)

@@ -3,50 +3,62 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from typing import NamedTuple
 
+from gruebler.drawing.axes import figures
 from gruebler.drawing.figure import Lines, Point, Shape, Text, bounds
 from gruebler.drawing.sheet import Sheet
 from gruebler.drawing.stage import Stage
 from gruebler.drawing.symbols import arrow
 from gruebler.linkages import Named
 
-__all__ = ["acceleration_arrows", "length_bar", "velocity_arrows"]
+__all__ = ["acceleration_arrows", "scale_bars", "velocity_arrows"]
 
 _LONGEST = 74.0  # pixels of the longest arrow
 _LEAST = 0.02  # of the longest: shorter ones are left out
 _REST = 1e-9  # sizes, for a drive of speed 1
+_LENGTH = 90.0  # pixels of a length to compare with, at most
+_BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
 _RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
 
 
 def velocity_arrows(sheet: Sheet) -> list[Shape]:
-    """Velocities of joints and named points for a drive of speed 1, with a scale below."""
-    return _arrows(sheet, 1, "velocity")
+    """Velocities of joints and named points for a drive of speed 1."""
+    return _arrows(sheet.stage, 1, "velocity")
 
 
 def acceleration_arrows(sheet: Sheet) -> list[Shape]:
-    """Accelerations of joints and named points for a drive of even speed 1, with a scale below."""
-    return _arrows(sheet, 2, "acceleration")
+    """Accelerations of joints and named points for a drive of even speed 1."""
+    return _arrows(sheet.stage, 2, "acceleration")
 
 
-def _arrows(sheet: Sheet, order: int, style: str) -> list[Shape]:
-    stage, course, lower = sheet.stage, sheet.stage.driven(), sheet.stage.lower
+def _rates(stage: Stage, order: int) -> list[tuple[complex, complex]]:
+    """Places of joints and named points, each once, with their velocities or accelerations."""
+    stage.driven()
     pairs = {}
     for place in _moving_points(stage):
         at, rate = (complex(stage.pose.complex_point(place, k)[0]) for k in (0, order))
         pairs[round(at.real, 9), round(at.imag, 9)] = at, rate
-    longest = max((abs(rate) for _, rate in pairs.values()), default=0.0)
-    if not _REST * lower.size < longest < math.inf:
-        return []
-    factor = _LONGEST / longest
+    return list(pairs.values())
+
+
+def _longest(stage: Stage, rates: Sequence[tuple[complex, complex]]) -> float:
+    """The length of the longest one; 0 if nothing moves, or infinitely fast."""
+    longest = max((abs(rate) for _, rate in rates), default=0.0)
+    return longest if _REST * stage.lower.size < longest < math.inf else 0.0
+
+
+def _arrows(stage: Stage, order: int, style: str) -> list[Shape]:
+    rates = _rates(stage, order)
+    longest = _longest(stage, rates)
     shapes: list[Shape] = []
-    for at, rate in pairs.values():
+    for at, rate in rates if longest else ():
         if abs(rate) > _LEAST * longest:
-            way = Point(factor * rate.real, -factor * rate.imag)
+            way = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
             tip = stage.local(at).plus(way.unit, max(way.length - 7.0, 1.0))
             shapes += arrow(stage.local(at), tip, style, f"{style}-head")
-    power = "" if order == 1 else "²"
-    unit = f"{stage.linkage.unit}/{'rad' if course.turning_drive else stage.linkage.unit}{power}"
-    return [*shapes, *_bar(sheet, factor, longest, unit, style)]
+    return shapes
 
 
 def _moving_points(stage: Stage) -> list[Named]:
@@ -60,22 +72,40 @@ def _moving_points(stage: Stage) -> list[Named]:
     return places
 
 
-def length_bar(sheet: Sheet) -> list[Shape]:
-    """A length to compare with."""
-    stage = sheet.stage
-    return _bar(sheet, stage.scale, 90.0 / stage.scale, stage.linkage.unit, "measure")
+class _Bar(NamedTuple):
+    """At most so many pixels that stand for so many units."""
+
+    pixels: float
+    most: float
+    unit: str
+    style: str
 
 
-def _bar(sheet: Sheet, factor: float, most: float, unit: str, style: str) -> list[Shape]:
-    """A bar of a round number of units, below all that the linkage reaches and all that is drawn."""
-    round_number = _round(most)
-    upper, lower = sheet.stage.reach
+def scale_bars(sheet: Sheet, layers: Sequence[str]) -> list[Shape]:
+    """Bars of round numbers of units for arrows and lengths, one below the other, below all that is drawn."""
     corner, size = bounds(sheet.drawn, 0.0)
-    left = Point(upper.x, max(lower.y + 52.0, corner.y + size.y + 14.0))
-    right = left.plus(_RIGHT, round_number * factor)
-    ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (left, right)]
-    words = Text(right.plus(_RIGHT, 9.0), f"{round_number:g} {unit}", "value", "start")
-    return [Lines(((left, right), *ends), style), words]
+    shapes: list[Shape] = []
+    bars = [bar for key in layers if (bar := _bar(sheet.stage, key)) is not None]
+    for k, bar in enumerate(bars):
+        number = _round(bar.most)
+        left = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
+        right = left.plus(_RIGHT, number * bar.pixels / bar.most)
+        ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (left, right)]
+        words = figures(number, bar.unit, sheet.lang)
+        shapes += [Lines(((left, right), *ends), bar.style), Text(right.plus(_RIGHT, 9.0), words, "value", "start")]
+    return shapes
+
+
+def _bar(stage: Stage, key: str) -> _Bar | None:
+    unit = stage.linkage.unit
+    if key == "scale":
+        return _Bar(_LENGTH, _LENGTH / stage.scale, unit, "measure")
+    order = {"velocities": 1, "accelerations": 2}.get(key, 0)
+    longest = _longest(stage, _rates(stage, order)) if order else 0.0
+    if not longest:
+        return None
+    by = f"{'rad' if stage.driven().turning_drive else unit}{'²' if order == 2 else ''}"
+    return _Bar(_LONGEST, longest, f"{unit}/{by}", ("velocity", "acceleration")[order - 1])
 
 
 def _round(most: float) -> float:

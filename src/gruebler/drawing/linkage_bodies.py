@@ -13,12 +13,25 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.linkage_wheels import round_parts
 from gruebler.drawing.stage import Stage
 from gruebler.drawing.symbols import Member, joint_sign, ticks
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line, Linkage, Pin
 
-__all__ = ["Part", "Slide", "at_pose", "corners_of", "hull", "parts", "slides"]
+__all__ = [
+    "Part",
+    "Slide",
+    "at_pose",
+    "barrel",
+    "corners_of",
+    "hull",
+    "in_link",
+    "layered",
+    "parts",
+    "pins_of",
+    "slides",
+]
 
 FRAME, BODIES, BLOCKS, PINS = range(4)
 """Layers, from below."""
@@ -79,7 +92,7 @@ def _slide(stage: Stage, number: int) -> Slide:
     ways = ((places - start) * along.conjugate()).real
     low, high = float(ways.min()), float(ways.max())
     sign = "block"
-    if block not in stage.linkage.mechanism.chain.links and _pins(lower, block):
+    if block not in stage.linkage.mechanism.chain.links and pins_of(lower, block):
         sign = "slot"
     elif _is_cylinder(lower, number, guide, start, along, low, high):
         sign = "cylinder"
@@ -108,14 +121,15 @@ def _guide_and_block(stage: Stage, number: int) -> tuple[str, str]:
     return first, second
 
 
-def _pins(lower: Linkage, link: str) -> list[complex]:
+def pins_of(lower: Linkage, link: str) -> list[complex]:
+    """The pins of a link, in its coordinates."""
     elements = [e for (_, own), e in lower.elements.items() if own == link and isinstance(e, Pin)]
     return [complex(*e) for e in elements]
 
 
 def _foot(lower: Linkage, link: str, line: Line) -> complex:
     """The middle of a block: where its one pin stands on its line, else the point from which ways are counted."""
-    start, pins = complex(line.x, line.y), _pins(lower, link)
+    start, pins = complex(line.x, line.y), pins_of(lower, link)
     if len(pins) != 1:
         return start
     along = cmath.rect(1, line.angle)
@@ -137,7 +151,7 @@ def _is_cylinder(
     mechanism = lower.mechanism
     if all(drive.joint != number for drive in mechanism.drives) or guide == mechanism.frame:
         return False
-    pins = [(pin - start) * along.conjugate() for pin in _pins(lower, guide)]
+    pins = [(pin - start) * along.conjugate() for pin in pins_of(lower, guide)]
     if len(pins) != 1 or abs(pins[0].imag) > _FLAT * lower.size:
         return False
     ways = sorted(abs(way - pins[0].real) for way in (low, high))
@@ -153,7 +167,8 @@ def parts(stage: Stage) -> tuple[Part, ...]:
     frame = stage.lower.mechanism.frame
     links = [link for link in stage.lower.mechanism.chain.links if link != frame]
     bodies = {link: _body(stage, link, found) for link in links}
-    made = [Part(FRAME, frame, tuple(_ground(stage, found)))]
+    made = [Part(FRAME, *part) for part in round_parts(stage)]
+    made += [Part(FRAME, frame, tuple(_ground(stage, found)))]
     made += [Part(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))]
     made += [_block(stage, slide) for slide in found if slide.sign != "slot"]
     made += _pin_parts(stage)
@@ -163,13 +178,14 @@ def parts(stage: Stage) -> tuple[Part, ...]:
 def corners_of(stage: Stage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
     """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
     lower = stage.lower
-    nodes = _pins(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
+    nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
     nodes += [slide.middle for slide in found if slide.block == link and slide.sign != "cylinder"]
     for slide in found:
         if slide.guide == link and slide.sign != "cylinder":
             middle = sum(nodes) / len(nodes) if nodes else slide.low
             way = ((middle - slide.low) * slide.along.conjugate()).real
-            nodes.append(slide.low + slide.along * min(max(way, 0.0), abs(slide.high - slide.low)))
+            more = _reach(slide) / stage.scale
+            nodes.append(slide.low + slide.along * min(max(way, -more), abs(slide.high - slide.low) + more))
     return hull([stage.local(z) for z in nodes], _FLAT * lower.size * stage.scale)
 
 
@@ -211,8 +227,7 @@ def _body(stage: Stage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
                 outlines.append(Lines(line, f"outline-{wide}"))
                 fills.append(Lines(line, f"body-{wide}"))
         elif slide.guide == link:
-            beyond = _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND
-            line = (_guide_line(stage, slide, 0.0 if slide.sign == "slot" else beyond),)
+            line = (_guide_line(stage, slide, _reach(slide)),)
             wide = "wide" if slide.sign == "slot" else "bar"
             outlines.append(Lines(line, f"outline-{wide}"))
             fills.append(Lines(line, f"body-{wide}"))
@@ -221,14 +236,19 @@ def _body(stage: Stage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
     return [*outlines, *fills, *slots]
 
 
+def _reach(slide: Slide) -> float:
+    """Pixels by which the bar of a guide goes on beyond the way of the block's middle."""
+    return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
+
+
 def _guide_line(stage: Stage, slide: Slide, beyond: float) -> tuple[Point, Point]:
     more = max(beyond, 1.0) / stage.scale * slide.along
     return stage.local(slide.low - more), stage.local(slide.high + more)
 
 
-def _barrel(stage: Stage, slide: Slide) -> tuple[Point, Point]:
+def barrel(stage: Stage, slide: Slide) -> tuple[Point, Point]:
     """The middle line of a barrel: from near its pin as far as the shortest length allows."""
-    pin = stage.local(_pins(stage.lower, slide.guide)[0])
+    pin = stage.local(pins_of(stage.lower, slide.guide)[0])
     ends = sorted((stage.local(slide.low), stage.local(slide.high)), key=lambda end: end.minus(pin).length)
     along = ends[0].minus(pin)
     return pin.plus(along.unit, 11.0), pin.plus(along, 0.93)
@@ -237,9 +257,9 @@ def _barrel(stage: Stage, slide: Slide) -> tuple[Point, Point]:
 def _cylinder(stage: Stage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
     """What carries the barrel, or the rod from its pin into the barrel, also where the cylinder is longest."""
     lower = stage.lower
-    pin = _pins(lower, slide.guide)[0]
+    pin = pins_of(lower, slide.guide)[0]
     if link == slide.guide:
-        return ((stage.local(pin), _barrel(stage, slide)[0]),), "bar"
+        return ((stage.local(pin), barrel(stage, slide)[0]),), "bar"
     line = lower.elements[slide.joint, link]
     assert isinstance(line, Line)
     forward = ((slide.low - pin) * slide.along.conjugate()).real > 0
@@ -255,7 +275,7 @@ def _extent(shapes: list[Shape]) -> float:
 def _block(stage: Stage, slide: Slide) -> Part:
     """A rectangle: a block along its guide, or the barrel of a cylinder."""
     if slide.sign == "cylinder":
-        a, b = _barrel(stage, slide)
+        a, b = barrel(stage, slide)
         return Part(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
     line = stage.lower.elements[slide.joint, slide.block]
     assert isinstance(line, Line)
@@ -284,7 +304,7 @@ def _ground(stage: Stage, found: tuple[Slide, ...]) -> list[Shape]:
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Lines((rail,), "rail"), ticks(*rail, side)]
-    for pin in dict.fromkeys(_pins(lower, frame)):
+    for pin in dict.fromkeys(pins_of(lower, frame)):
         at = stage.local(pin)
         left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
         base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
@@ -323,6 +343,21 @@ def at_pose(stage: Stage, part: Part, motion: Motion | None = None, row: int = 0
     k = stage.lower.mechanism.chain.index(part.link)
     turn, place = complex(poses.turns[row, k]), stage.local(complex(poses.places[0, row, k]))
     return [_put(shape, turn, place) for shape in part.shapes]
+
+
+def layered(stage: Stage, pieces: Sequence[Part], lowest: int, highest: int) -> list[Shape]:
+    """The shapes of some layers in the pose of the stage."""
+    return [shape for part in pieces if lowest <= part.layer <= highest for shape in at_pose(stage, part)]
+
+
+def in_link(stage: Stage, link: str, shapes: Sequence[Shape]) -> Part:
+    """Shapes that lie somewhere in the pose of the stage, as a part that goes with a link above all others."""
+    k = stage.lower.mechanism.chain.index(link)
+    back = complex(stage.pose.turns[0, k]).conjugate()
+    origin = _put(Circle(stage.local(complex(stage.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
+    assert isinstance(origin, Circle)
+    place = Point(-origin.at.x, -origin.at.y)
+    return Part(PINS + 1, link, tuple(_put(shape, back, place) for shape in shapes))
 
 
 def _put(shape: Shape, turn: complex, place: Point) -> Shape:

@@ -1,15 +1,19 @@
-"""Dimension lines: the distances of the pins and points of every link, and how far pins lie beside slides."""
+"""Dimension lines: the distances of the pins and points of every link, how far pins lie beside slides, cylinders."""
 
 from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from itertools import pairwise, product
 from typing import NamedTuple
 
+import numpy as np
+
+from gruebler.drawing.axes import figures
 from gruebler.drawing.figure import Lines, Point, Shape, Text, text_width
-from gruebler.drawing.labels import Segment, core, distance, noted, obstacles
-from gruebler.drawing.linkage_bodies import hull
+from gruebler.drawing.labels import noted
+from gruebler.drawing.linkage_bodies import hull, pins_of, slides
+from gruebler.drawing.room import HALF, Complexes, Reals, Room, complexes
 from gruebler.drawing.sheet import Sheet
 from gruebler.drawing.stage import Stage
 from gruebler.drawing.styles import STYLES
@@ -17,83 +21,84 @@ from gruebler.linkages import Line, Named
 
 __all__ = ["dimension_lines"]
 
-_OFFSETS = (21.0, 30.0, 40.0, 52.0, 66.0, 82.0, 100.0)  # pixels from what is measured to its dimension line
+_OFFSETS = (21.0, 26.0, 32.0, 39.0, 47.0, 56.0, 66.0, 78.0, 92.0, 108.0, 126.0, 146.0)  # pixels to a dimension line
+_PARTS = (0.5, 0.36, 0.64)  # of a dimension line: where its number may stand
 _CLEAR = 4.0  # pixels around a dimension line; more is no better
-_STEP = 0.05  # pixels of clearance that a pixel of distance costs
+_STEP = 0.05  # what a pixel of distance costs
+_TOUCHED, _HIDDEN, _ON_BODY, _ASIDE = (
+    6.0,
+    12.0,
+    3.0,
+    0.4,
+)  # a line that touches, a number that does, lies on a body, ...
+_CROSSED = 0.5  # what is crossed by an extension line
 _START, _BEYOND = 8.0, 4.0  # of the extension lines: where they begin, how far they go on
+_STARTS = (_START, 18.0, 28.0, 38.0, 48.0, 60.0)
 _HEAD = (8.0, 2.2)
 _GAP = 4.0  # pixels between a number and its line
-_HALF = 7.0  # half the height of a number
 _SAME = 1e-9  # sizes: dimensions are not drawn below
 
 
 class _Measure(NamedTuple):
-    """Two points of a link whose distance is told."""
+    """Two points whose distance is told."""
 
-    link: str
-    first: complex
-    second: complex
-
-    @property
-    def length(self) -> float:
-        return abs(self.second - self.first)
+    first: Named
+    second: Named
+    length: float
 
 
 def dimension_lines(sheet: Sheet) -> list[Shape]:
     """A dimension line for every length of every link, clear of bodies and of each other where there is room."""
     stage = sheet.stage
-    taken = [*obstacles(sheet.drawn), *_insides(sheet.drawn)]
     shapes: list[Shape] = []
     for measure in _measures(stage):
-        a, b = (stage.place(Named(measure.link, z.real, z.imag)) for z in (measure.first, measure.second))
-        made = _dimension(a, b, f"{measure.length:.4g} {stage.linkage.unit}", taken, [*sheet.drawn, *shapes])
-        shapes += made
-        taken += obstacles(made)
+        words = figures(measure.length, stage.linkage.unit, sheet.lang)
+        shapes += _dimension(stage.place(measure.first), stage.place(measure.second), words, [*sheet.drawn, *shapes])
     return shapes
-
-
-def _insides(drawn: Sequence[Shape]) -> Iterator[tuple[Segment, float]]:
-    """Strokes over the inside of polygons: from their middle to their corners and the middles of their sides."""
-    for shape in drawn:
-        if isinstance(shape, Lines) and shape.style == "body" and shape.closed:
-            for corners in shape.parts:
-                middle = Point(*(sum(axis) / len(corners) for axis in zip(*corners, strict=True)))
-                for a, b in pairwise([*corners, corners[0]]):
-                    yield (middle, a), 0.0
-                    yield (middle, a.plus(b.minus(a), 0.5)), 0.0
 
 
 # --- what is measured ------------------------------------------------------------------------------
 
 
-def _measures(stage: Stage) -> Iterator[_Measure]:
+def _measures(stage: Stage) -> list[_Measure]:
     """Lengths of the links as they were given, the short ones first: their dimension lines stand nearest."""
     linkage = stage.linkage
     least = _SAME * linkage.size
-    found = [
-        measure for link in linkage.mechanism.chain.links for measure in (*_sides(stage, link), *_beside(stage, link))
+    pairs = [
+        (link, one, other)
+        for link in linkage.mechanism.chain.links
+        for one, other in (*_sides(stage, link), *_beside(stage, link))
     ]
-    yield from sorted((one for one in found if one.length > least), key=lambda one: one.length)
+    found = [_Measure(_named(link, a), _named(link, b), abs(b - a)) for link, a, b in pairs]
+    found += _cylinders(stage)
+    return sorted((one for one in found if one.length > least), key=lambda one: one.length)
 
 
-def _sides(stage: Stage, link: str) -> Iterator[_Measure]:
-    """From pin to pin: along a line, or around a polygon."""
+def _named(link: str, z: complex) -> Named:
+    return Named(link, z.real, z.imag)
+
+
+def _sides(stage: Stage, link: str) -> Iterator[tuple[complex, complex]]:
+    """From pin to pin along a line, or around a polygon; from pins within a polygon to its two nearest corners."""
     linkage = stage.linkage
     joints = linkage.mechanism.chain.joints
     nodes = [e for (n, own), e in linkage.elements.items() if own == link and joints[n].pair.name == "revolute"]
     points = [point for point in linkage.points.values() if point.link == link]
-    places = dict.fromkeys([*(complex(e.x, e.y) for e in nodes), *(complex(p.x, p.y) for p in points)])
+    places = list(dict.fromkeys([*(complex(e.x, e.y) for e in nodes), *(complex(p.x, p.y) for p in points)]))
     flat = 1e-6 * linkage.size
     corners = [complex(p.x, p.y) for p in hull([Point(z.real, z.imag) for z in places], flat)]
-    if len(corners) == 2:
-        along = corners[1] - corners[0]
-        in_order = sorted(places, key=lambda z: ((z - corners[0]) * along.conjugate()).real)
-        yield from (_Measure(link, a, b) for a, b in pairwise(in_order))
-    elif len(corners) > 2:
-        yield from (_Measure(link, a, b) for a, b in pairwise([*corners, corners[0]]))
+    rim = list(pairwise([*corners, corners[0]])) if len(corners) > 2 else list(pairwise(corners))
+    left = [z for z in places if min((abs(z - corner) for corner in corners), default=0.0) > flat]
+    for a, b in rim:
+        along = (b - a) / abs(b - a)
+        on_it = [z for z in left if abs(((z - a) * along.conjugate()).imag) <= flat]
+        yield from pairwise([a, *sorted(on_it, key=lambda z: ((z - a) * along.conjugate()).real), b])
+        left = [z for z in left if z not in on_it]
+    for z in left:
+        yield from ((corner, z) for corner in sorted(corners, key=lambda corner: abs(corner - z))[:2])
 
 
-def _beside(stage: Stage, link: str) -> Iterator[_Measure]:
+def _beside(stage: Stage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pins to the line of a slide on the same link: the offset, if there is one."""
     linkage = stage.linkage
     joints = linkage.mechanism.chain.joints
@@ -106,33 +111,47 @@ def _beside(stage: Stage, link: str) -> Iterator[_Measure]:
                     pin = complex(e.x, e.y)
                     foot = start + ((pin - start) * along.conjugate()).real * along
                     if abs(foot - pin) > 1e-6 * linkage.size:
-                        yield _Measure(link, foot, pin)
+                        yield foot, pin
+
+
+def _cylinders(stage: Stage) -> Iterator[_Measure]:
+    """How long cylinders are in this pose, from pin to pin."""
+    for slide in slides(stage):
+        if slide.sign == "cylinder":
+            ends = _named(slide.guide, pins_of(stage.lower, slide.guide)[0]), _named(slide.block, slide.middle)
+            a, b = (complex(stage.pose.complex_point(end)[0]) for end in ends)
+            yield _Measure(*ends, abs(b - a))
 
 
 # --- how it is drawn -------------------------------------------------------------------------------
 
 
-def _dimension(
-    a: Point, b: Point, words: str, taken: Sequence[tuple[Segment, float]], drawn: Sequence[Shape]
-) -> list[Shape]:
+class _Way(NamedTuple):
+    """How a dimension line may stand: on which side, how far off, its number after which part of it."""
+
+    side: int
+    off: float
+    part: float
+
+
+def _dimension(a: Point, b: Point, words: str, drawn: Sequence[Shape]) -> list[Shape]:
     """Two extension lines, the line between them with a head at both ends, and the number in it, or beside it."""
     along = b.minus(a)
     u, v = along.unit, along.unit.across
     wide = text_width(words, STYLES["value"].size)
-    best = max(
-        ((side, off) for off in _OFFSETS for side in (1, -1)),
-        key=lambda one: (
-            min(_room(a.plus(v, one[0] * one[1]), b.plus(v, one[0] * one[1]), wide, taken), _CLEAR) - _STEP * one[1]
-        ),
-    )
-    out = Point(best[0] * v.x, best[0] * v.y)
-    first, last = a.plus(out, best[1]), b.plus(out, best[1])
-    lines = [(p.plus(out, _START), q.plus(out, _BEYOND)) for p, q in ((a, first), (b, last))]
-    heads = [(first, u), (last, Point(-u.x, -u.y))]
     half = _gap(u, wide)
-    middle = first.plus(along, 0.5)
     fits = along.length > 2 * (half + _HEAD[0])
+    shift = max(0.0, 0.5 - (half + _HEAD[0] + 2.0) / max(along.length, 1.0))
+    parts = sorted({min(max(part, 0.5 - shift), 0.5 + shift) for part in _PARTS}) if fits else [0.5]
+    ways = [_Way(*one) for one in product((1, -1), _OFFSETS, parts)]
+    room = Room(drawn)
+    best = ways[int(_costs(a, b, ways, wide if fits else None, room).argmin())]
+    out = Point(best.side * v.x, best.side * v.y)
+    first, last = a.plus(out, best.off), b.plus(out, best.off)
+    lines = [_extension(p, out, best.off, room) for p in (a, b)]
+    heads = [(first, u), (last, Point(-u.x, -u.y))]
     inside = along.length > 2.5 * _HEAD[0]
+    middle = first.plus(along, best.part)
     if fits:
         lines += [(first, middle.plus(u, -half)), (middle.plus(u, half), last)]
     else:
@@ -144,9 +163,47 @@ def _dimension(
     return [*shapes, text]
 
 
+def _extension(foot: Point, out: Point, off: float, room: Room) -> tuple[Point, Point]:
+    """From a measured point to beyond its dimension line; it begins behind the texts that are in the way."""
+    starts = [start for start in _STARTS if start < off] or [_START]
+    end = foot.plus(out, off + _BEYOND)
+    feet = [foot.plus(out, start) for start in starts]
+    gaps = room.texts.gap(complexes(feet), complexes([end] * len(feet)))
+    return next((p for p, gap in zip(feet, gaps, strict=True) if gap > 0), feet[0]), end
+
+
+def _costs(a: Point, b: Point, ways: Sequence[_Way], wide: float | None, room: Room) -> Reals:
+    """What is wrong with each way of a dimension: docs/theory/drawing.md. Without a width no number stands in it."""
+    start, along = complex(*a), complex(*b.minus(a))
+    unit = along / abs(along)
+    out = np.array([1j * way.side for way in ways]) * unit
+    off = np.array([way.off for way in ways])
+    first = start + off * out
+    last = first + along
+    cost = _STEP * off + _touched(room, first, last, _TOUCHED)
+    for foot in (start, start + along):
+        begin, end = foot + _START * out, foot + (off + _BEYOND) * out
+        cost += _CROSSED * (room.lines.gaps(begin, end) < 0).sum(axis=1)
+        cost += 5 * _CROSSED * (room.texts.gaps(begin, end) < 0).sum(axis=1)
+    for part in (0.1, 0.5, 0.9):
+        cost += _ON_BODY / 3 * room.covered(first + part * along)
+    if wide is not None:
+        after = np.array([way.part for way in ways])
+        free = room.free(first + after * along, wide)
+        cost += _HIDDEN * np.clip(1.0 - free / _CLEAR, 0.0, 1.5) + _ASIDE * (after != 0.5)
+    return cost
+
+
+def _touched(room: Room, first: Complexes, last: Complexes, price: float) -> Reals:
+    """The price of all that lies nearer to lines than is wanted, the full one where it touches."""
+    gaps = np.concatenate([room.lines.gaps(first, last), room.texts.gaps(first, last)], axis=1)
+    nearest = np.clip(1.0 - gaps / _CLEAR, 0.0, 1.0).max(axis=1, initial=0.0)
+    return np.asarray(price * nearest + (gaps < 0).sum(axis=1))
+
+
 def _gap(u: Point, wide: float) -> float:
     """Half of what a level number takes of a line."""
-    across, up = wide / 2 + _GAP, _HALF + _GAP / 2
+    across, up = wide / 2 + _GAP, HALF + _GAP / 2
     return min(across / max(abs(u.x), 1e-9), up / max(abs(u.y), 1e-9))
 
 
@@ -154,11 +211,3 @@ def _head(at: Point, way: Point) -> Lines:
     long, half = _HEAD
     back, side = at.plus(way, long), way.across
     return Lines(((at, back.plus(side, half), back.plus(side, -half)),), "dimension-head", closed=True)
-
-
-def _room(a: Point, b: Point, wide: float, taken: Sequence[tuple[Segment, float]]) -> float:
-    """How far a dimension line and its number are from all that is there."""
-    number = core(a.plus(b.minus(a), 0.5), wide)
-    return min(
-        (min(distance((a, b), one), distance(number, one) - _HALF) - half for one, half in taken), default=_CLEAR
-    )

@@ -14,13 +14,14 @@ from numpy.typing import NDArray
 
 from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text
 from gruebler.drawing.labels import noted
-from gruebler.drawing.linkage_arrows import acceleration_arrows, length_bar, velocity_arrows
-from gruebler.drawing.linkage_bodies import Part, at_pose, corners_of, slides
+from gruebler.drawing.linkage_arrows import acceleration_arrows, velocity_arrows
+from gruebler.drawing.linkage_bodies import Part, at_pose, corners_of, in_link, slides
 from gruebler.drawing.linkage_dimensions import dimension_lines
 from gruebler.drawing.linkage_poles import centrode_lines, inflection_lines, pole_crosses
+from gruebler.drawing.prose import in_language
 from gruebler.drawing.sheet import Layer, Sheet
 from gruebler.drawing.stage import Stage
-from gruebler.drawing.symbols import RADIUS, straight_drive, turning_drive
+from gruebler.drawing.symbols import RADIUS, straight_drive, turning_drive, widest_gap
 from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
@@ -29,7 +30,18 @@ from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.transmission import Leg, driving_legs
 from gruebler.linkages import Line, Named
 
-__all__ = ["BELOW", "LAYERS", "coupler_curve", "curve_of", "drive_arrows", "ghost", "ghosts", "layer", "point_names"]
+__all__ = [
+    "BELOW",
+    "LAYERS",
+    "coupler_curve",
+    "curve_of",
+    "drive_arrows",
+    "drive_parts",
+    "ghost",
+    "ghosts",
+    "layer",
+    "point_names",
+]
 
 Complexes = NDArray[np.complex128]
 
@@ -73,21 +85,29 @@ def curve_of(stage: Stage, z: Complexes, style: str) -> Lines:
 
 def drive_arrows(stage: Stage) -> list[Shape]:
     """A curved arrow at every turning drive, a straight one beside every sliding one, in their positive sense."""
+    return [shape for part in drive_parts(stage) for shape in at_pose(stage, part)]
+
+
+def drive_parts(stage: Stage) -> list[Part]:
+    """The arrows of the drives, each going with a link of its joint."""
     lower = stage.lower
-    shapes: list[Shape] = []
-    for number, drive in enumerate(lower.mechanism.drives):
+    made: list[Part] = []
+    for number, drive in enumerate(lower.mechanism.drives if stage.linkage.mechanism.drives else ()):
         first, other = lower.reference(number)
         e, f = lower.elements[drive.joint, first], lower.elements[drive.joint, other]
         at = stage.place(Named(other, f.x, f.y))
         if isinstance(e, Line):
             angle = e.angle + float(stage.pose.angle(first)[0])
             axis = Point(math.cos(angle), -math.sin(angle))
-            if any(slide.joint == drive.joint and slide.sign == "cylinder" for slide in slides(stage)):
+            cylinder = [s for s in slides(stage) if s.joint == drive.joint and s.sign == "cylinder"]
+            if cylinder:
                 at = at.plus(stage.place(Named(first, e.x, e.y)).minus(at), 0.5)
-            shapes += straight_drive(at, axis, axis.across if axis.x < 0 else Point(0, 0).minus(axis.across))
+            arrow = straight_drive(at, axis, axis.across if axis.x < 0 else Point(0, 0).minus(axis.across))
+            made.append(in_link(stage, cylinder[0].guide if cylinder else other, arrow))
         else:
-            shapes += turning_drive(at, RADIUS + 10.0, _free_direction(stage, drive.joint, at))
-    return shapes
+            arrow = turning_drive(at, RADIUS + 10.0, _free_direction(stage, drive.joint, at))
+            made.append(in_link(stage, first, arrow))
+    return made
 
 
 def _free_direction(stage: Stage, joint: int, at: Point) -> float:
@@ -100,10 +120,7 @@ def _free_direction(stage: Stage, joint: int, at: Point) -> float:
             continue
         pins = [(n, e) for (n, own), e in lower.elements.items() if own == link and n != joint]
         angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := stage.place(Named(link, e.x, e.y)))]
-    angles = sorted(angles or [math.pi / 2])
-    gaps = [(b - a, a) for a, b in zip(angles, [*angles[1:], angles[0] + 2 * math.pi], strict=True)]
-    width, begin = max(gaps)
-    return begin + width / 2
+    return widest_gap(angles or [math.pi / 2])
 
 
 # --- layers by name ------------------------------------------------------------------------------
@@ -170,7 +187,8 @@ def _transmission(sheet: Sheet) -> list[Shape]:
     rays = [(apex, Arc(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
     arc = Arc(apex, _ARC, begin, extent, "measure")
     shapes: list[Shape] = [Lines(tuple(rays), "measure"), arc]
-    return [*shapes, noted(arc.place(0.5), f"μ = {math.degrees(abs(extent)):.1f}°", "value", [*sheet.drawn, *shapes])]
+    value = in_language(f"μ = {math.degrees(abs(extent)):.1f}°", sheet.lang)
+    return [*shapes, noted(arc.place(0.5), value, "value", [*sheet.drawn, *shapes])]
 
 
 def _push(stage: Stage, leg: Leg) -> tuple[complex, complex, complex]:
@@ -208,6 +226,11 @@ def point_names(stage: Stage, shapes: Sequence[Shape]) -> Iterable[Text]:
         yield text
 
 
+def _later(_: Sheet) -> list[Shape]:
+    """Bars are put below everything else, when all of it is there."""
+    return []
+
+
 LAYERS: Mapping[str, Layer] = {
     "dead-centres": _dead_centres,
     "centrodes": centrode_lines,
@@ -217,10 +240,10 @@ LAYERS: Mapping[str, Layer] = {
     "accelerations": acceleration_arrows,
     "poles": pole_crosses,
     "dimensions": dimension_lines,
-    "scale": length_bar,
+    "scale": _later,
 }
 BELOW = ("dead-centres", "centrodes", "inflection")
-"""Layers that lie under the bodies."""
+"""Layers that lie under the bodies, but for their marks and words."""
 
 
 def layer(name: str) -> Layer:

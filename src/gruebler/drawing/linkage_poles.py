@@ -12,6 +12,7 @@ from gruebler.drawing.labels import noted
 from gruebler.drawing.sheet import Sheet
 from gruebler.drawing.stage import Stage, drive_rows, floating
 from gruebler.drawing.thinning import FINE, thinned
+from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 
 __all__ = ["centrode_lines", "inflection_lines", "pole_crosses"]
@@ -19,7 +20,7 @@ __all__ = ["centrode_lines", "inflection_lines", "pole_crosses"]
 Complexes = NDArray[np.complex128]
 
 _AWAY = 0.4  # of the figure's longer side: poles farther away from it are not shown
-_WIDE = 0.75  # the same, for what is seen of centrodes and inflection circles
+_WIDE = 0.3  # the same, for what is seen of centrodes and inflection circles
 _SAMPLES = 1440  # points of a centrode or circle
 _TURNING = 1e-6  # for a drive of speed 1: a link that turns more slowly has its pole far away
 _POINT = 1e-6  # sizes: a smaller inflection circle is a point
@@ -73,8 +74,16 @@ class _Box(NamedTuple):
 
 def _number(sheet: Sheet) -> int:
     """The link that is looked at: the one asked for, else a link that is no neighbour of the frame."""
-    links = sheet.stage.lower.mechanism.chain.links
-    return links.index(sheet.output if sheet.output in links else floating(sheet.stage.linkage))
+    links, output = sheet.stage.lower.mechanism.chain.links, sheet.output
+    if output is not None and output not in links:
+        known = sheet.stage.linkage.mechanism.chain.links
+        there = ", ".join(known)
+        raise LinkageError(
+            f"centrodes and inflection circles are those of a link{nearest(output, known)}; {output!r} is none of "
+            f"{there}",
+            f"Polbahnen und Wendekreis gehören zu einem Glied; {output!r} ist keines von {there}",
+        )
+    return links.index(floating(sheet.stage.linkage) if output is None else output)
 
 
 def inflection_lines(sheet: Sheet) -> list[Shape]:

@@ -7,8 +7,8 @@ from itertools import chain
 
 import numpy as np
 
-from gruebler.drawing.figure import Figure, figure_of
-from gruebler.drawing.linkage_bodies import PINS, at_pose, parts
+from gruebler.drawing.figure import MARGIN, Figure, figure_of
+from gruebler.drawing.linkage_bodies import FRAME, PINS, layered, parts
 from gruebler.drawing.linkage_layers import curve_of, drive_arrows, ghost, point_names
 from gruebler.drawing.prose import describe, title
 from gruebler.drawing.stage import stage_of
@@ -18,7 +18,6 @@ from gruebler.kinematics import Motion
 __all__ = ["draw_motion"]
 
 _GHOSTS = 5
-_MARGIN = 16.0
 _WORDS = {
     "en": "A motion of {rows} poses; {ghosts} of them thinly.",
     "de": "Eine Bewegung aus {rows} Stellungen; {ghosts} davon dünn.",
@@ -48,10 +47,7 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
     stage = stage_of(motion)
     rows = sorted({round(row) for row in np.linspace(0, len(motion) - 1, _GHOSTS + 1)[1:]} - {0})
     pieces = parts(stage)
-    below, above = (
-        [shape for part in pieces if (part.layer == PINS) == pins for shape in at_pose(stage, part)]
-        for pins in (False, True)
-    )
+    below, above = layered(stage, pieces, FRAME, PINS - 1), layered(stage, pieces, PINS, PINS)
     shapes = [
         *chain.from_iterable(ghost(stage, motion, row) for row in rows),
         *below,
@@ -61,4 +57,4 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
     ]
     shapes += point_names(stage, shapes)
     told = _WORDS[lang].format(rows=len(motion), ghosts=len(rows))
-    return figure_of(shapes, title(mechanism, lang, name), f"{about} {told} {motion.message(lang)}".rstrip(), _MARGIN)
+    return figure_of(shapes, title(mechanism, lang, name), f"{about} {told} {motion.message(lang)}".rstrip(), MARGIN)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,9 @@ from gruebler.drawing.axes import Axis, angles, decimals
 from gruebler.drawing.figure import Figure, Point
 from gruebler.drawing.plot_runs import Between, Branch, PlotRun, plot_run
 from gruebler.drawing.plots import Band, Curve, Mark, Panel, Spot, plotted
+from gruebler.drawing.prose import in_language
 from gruebler.drawing.styles import LINES
+from gruebler.errors import LinkageError
 from gruebler.kinematics import transmission_angle
 from gruebler.kinematics.events import dead_centres, natural
 from gruebler.kinematics.outputs import Output, find_output
@@ -30,17 +33,18 @@ _WORDS = {
         "transfer": "{name}: transfer functions of {output}",
         "transfer_about": "Output {output} and its first and second derivative over the drive, {range}.",
         "transmission": "{name}: transmission angle of {output}",
-        "transmission_about": "Transmission angle over the drive, {range}. Smallest {mu:.2f}° at {at}; shaded below "
-        "40°.",
+        "transmission_about": "Transmission angle over the drive, {range}. Smallest {mu}° at {at}; shaded below 40°.",
         "dead": "Dead centres at {values}.",
+        "mark": "dead centre",
     },
     "de": {
         "transfer": "{name}: Übertragungsfunktionen von {output}",
         "transfer_about": "Abtrieb {output} und seine erste und zweite Ableitung über dem Antrieb, {range}.",
         "transmission": "{name}: Übertragungswinkel von {output}",
-        "transmission_about": "Übertragungswinkel über dem Antrieb, {range}. Kleinster {mu:.2f}° bei {at}; unter 40° "
+        "transmission_about": "Übertragungswinkel über dem Antrieb, {range}. Kleinster {mu}° bei {at}; unter 40° "
         "getönt.",
         "dead": "Totlagen bei {values}.",
+        "mark": "Totlage",
     },
 }
 
@@ -53,6 +57,7 @@ def transfer_plot(
     between: Between = None,
     lang: str = "en",
     name: str = "",
+    names: Mapping[str, str] | None = None,
 ) -> Figure:
     """The transfer functions of order 0, 1 and 2 over the drive, one below the other, with the dead centres.
 
@@ -63,8 +68,10 @@ def transfer_plot(
         between: drive values between which it is plotted (radians, or a way), if not the whole range.
         lang: ``en`` or ``de``.
         name: of the linkage, if it is not to be found out.
+        names: what to call links, where that is not their own name.
 
-    Raises `LinkageError` for several drives or an unknown output.
+    Raises `LinkageError` for several drives, an unknown output, the frame, and if the linkage's own output moves
+    without turning.
 
     >>> from gruebler.linkages import FourBar
     >>> transfer_plot(FourBar(25, 70, 40, 70).linkage()).title
@@ -72,22 +79,51 @@ def transfer_plot(
     """
     run = plot_run(linkage, 2, branch, between, lang, name)
     found, words = find_output(linkage, output), _WORDS[lang]
+    _check(run, found, output)
+    called = (names or {}).get(found.name, found.name)
     marks = _dead(run, found)
     panels = []
     for order in range(3):
         values = found.track(run.motion, order)
+        if order == 0 and np.ptp(values) < _least(run, found, 1):
+            values = np.full_like(values, values.mean())
         if found.turning and order == 0:
             values = np.degrees(values)
-        if order:
-            values = np.where(np.abs(values) < _least(run, found, order), 0.0, values)
+        values = np.where(np.abs(values) < _least(run, found, max(order, 1)), 0.0, values)
         scale = angles if found.turning and order == 0 else decimals
         axis = Axis(_order_words(run, found, order), scale(*run.bulk(values), few=6))
         shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
-        panels.append(Panel(run.across, axis, (Curve(run.x, values, "", LINES[0]),), marks=shown, size=_LOW))
-    about = words["transfer_about"].format(range=run.range, output=found.name)
-    if marks:
-        about += " " + words["dead"].format(values=", ".join(mark.words for mark in marks))
-    return plotted(panels, words["transfer"].format(name=run.name, output=found.name), about)
+        curves = (Curve(run.x, values, "", LINES[0]),)
+        panels.append(Panel(run.across, axis, curves, marks=shown, size=_LOW, marked=words["mark"]))
+    about = words["transfer_about"].format(range=run.range, output=called) + _told(marks, words)
+    return plotted(panels, words["transfer"].format(name=run.name, output=called), about, lang)
+
+
+def _check(run: PlotRun, output: Output, asked: str | None) -> None:
+    """`LinkageError` for an output that cannot have a transfer function: the frame, or a link that does not turn."""
+    linkage = run.course.linkage
+    frame = linkage.mechanism.frame
+    moving = [link for link in linkage.mechanism.chain.links if link != frame]
+    still = {link: np.ptp(find_output(linkage, link).track(run.motion, 0)) < _NOISE for link in moving}
+    others = ", ".join(link for link in moving if not still[link])
+    if output.link == frame:
+        raise LinkageError(
+            f"the frame does not move: name another output, such as {others}",
+            f"das Gestell bewegt sich nicht: nenne einen anderen Abtrieb, etwa {others}",
+        )
+    if asked is None and output.turning and still[output.link]:
+        raise LinkageError(
+            f"the output {output.name} moves without turning, so it has no transfer function of an angle; name "
+            f"another output: {others}",
+            f"der Abtrieb {output.name} bewegt sich, ohne sich zu drehen, und hat keine Übertragungsfunktion eines "
+            f"Winkels; nenne einen anderen Abtrieb: {others}",
+        )
+
+
+def _told(marks: tuple[Mark, ...], words: dict[str, str]) -> str:
+    """The dead centres in words."""
+    values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
+    return " " + words["dead"].format(values=values) if values else ""
 
 
 def _order_words(run: PlotRun, output: Output, order: int) -> str:
@@ -117,7 +153,10 @@ def _dead(run: PlotRun, output: Output) -> tuple[Mark, ...]:
     """The dead centres within what is plotted."""
     drives = [run.within(centre.drive) for centre in dead_centres(run.course, output)]
     shown = sorted(drive for drive in drives if drive is not None)
-    return tuple(Mark(run.shown(drive), run.value(drive)) for drive in shown)
+    end, period = float(run.drives[-1]), run.course.span.period
+    again = [drive + period for drive in shown if drive + period <= end + 1e-9]
+    marks = [Mark(run.shown(drive), run.value(drive)) for drive in shown]
+    return *marks, *(Mark(run.shown(drive), "") for drive in again)
 
 
 def transmission_plot(
@@ -128,6 +167,7 @@ def transmission_plot(
     between: Between = None,
     lang: str = "en",
     name: str = "",
+    names: Mapping[str, str] | None = None,
 ) -> Figure:
     """The transmission angle over the drive, with the band below 40 degrees, its smallest value and the dead centres.
 
@@ -139,6 +179,7 @@ def transmission_plot(
     """
     run = plot_run(linkage, 2, branch, between, lang, name)
     found, words = find_output(linkage, output), _WORDS[lang]
+    called = (names or {}).get(found.name, found.name)
     values = np.degrees(transmission_angle(run.motion, found.name))
     smallest = measure_transmission(run.course, found).smallest
     least, at = math.degrees(smallest.mu), run.within(smallest.drive)
@@ -152,8 +193,8 @@ def transmission_plot(
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
         marks=_dead(run, found),
         spots=(Spot(run.shown(at), least, f"μ_min = {least:.1f}°"),),
+        marked=words["mark"],
     )
-    about = words["transmission_about"].format(range=run.range, mu=least, at=run.value(at))
-    if panel.marks:
-        about += " " + words["dead"].format(values=", ".join(mark.words for mark in panel.marks))
-    return plotted([panel], words["transmission"].format(name=run.name, output=found.name), about)
+    about = words["transmission_about"].format(range=run.range, mu=in_language(f"{least:.2f}", lang), at=run.value(at))
+    about += _told(panel.marks, words)
+    return plotted([panel], words["transmission"].format(name=run.name, output=called), about, lang)

@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.drawing.axes import Axis, angles, decimals
-from gruebler.drawing.prose import title
+from gruebler.drawing.axes import Axis, angles, decimals, figures
+from gruebler.drawing.prose import in_language, title
 from gruebler.drawing.stage import drive_rows
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
@@ -26,6 +26,7 @@ Branch = str | Iterable[str] | None
 
 ROWS = 720
 """Poses of a turn, or of the range."""
+_DOZEN = 12
 _TINY = 1e-9  # of a period or range
 _BULK = 0.9  # the middle part of all values
 _STEEP = {False: 1.5, True: 20.0}  # what lies farther from it than so many times its width is cut off; True: full turns
@@ -79,7 +80,17 @@ class PlotRun:
 
     def value(self, drive: float) -> str:
         """A drive value in words."""
-        return f"{round(self.shown(drive), 6) + 0.0:.4g}{'°' if self.course.turning_drive else ' ' + self.unit}"
+        if not self.course.turning_drive:
+            return figures(drive, self.unit, self.lang)
+        return in_language(f"{round(self.shown(drive), 6) + 0.0:.4g}°", self.lang)
+
+    @cached_property
+    def round_drives(self) -> Reals:
+        """Round drive values, a dozen or so; of full turns without the last, which is the first."""
+        scale = angles if self.course.turning_drive else decimals
+        ticks = scale(float(self.x.min()), float(self.x.max()), few=_DOZEN, tight=True).ticks
+        inner = [tick for tick in ticks if not self.course.span.full or tick < self.x.max() - 1e-9]
+        return np.radians(inner) if self.course.turning_drive else np.array(inner)
 
     def bulk(self, values: Reals) -> tuple[float, float]:
         """The range of values; where some are far beyond the bulk of them, as near limits, not so far."""
@@ -108,7 +119,10 @@ def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lan
     if not isinstance(linkage, Linkage):
         raise LinkageError(f"expected a linkage, but found {linkage!r}")
     if not linkage.mechanism.drives:
-        raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
+        raise LinkageError(
+            "no joint is driven, so there is nothing to be plotted; name a drive",
+            "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
+        )
     course = follow(linkage, branch)
     drives = drive_rows(course, between, ROWS)
     if between is None and course.span.full:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.drawing.axes import Axis, angles, decades, decimals
+from gruebler.drawing.axes import Axis, Scale, angles, decades, decimals
 from gruebler.drawing.figure import Circle, Figure, Lines, Point, Shape, Text, figure_of, moved, text_width
-from gruebler.drawing.labels import Room, noted, obstacles
+from gruebler.drawing.labels import noted
+from gruebler.drawing.prose import in_language
+from gruebler.drawing.room import Room, complexes
 from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import GrueblerError
 
@@ -75,6 +78,8 @@ class Panel(NamedTuple):
     marks: tuple[Mark, ...] = ()
     spots: tuple[Spot, ...] = ()
     size: Point = _SIZE
+    marked: str = ""
+    """What the marks are, for the list of lines."""
 
     def place(self, x: float, y: float, right: bool = False) -> Point:
         """A pair of values in pixels; the lower left corner is the origin."""
@@ -82,7 +87,7 @@ class Panel(NamedTuple):
         return Point(self.size.x * self.across.scale.part(x), -self.size.y * axis.scale.part(y))
 
 
-def plotted(panels: Sequence[Panel], title: str, description: str) -> Figure:
+def plotted(panels: Sequence[Panel], title: str, description: str, lang: str = "en") -> Figure:
     """The figure of panels one below the other; all lines with a name are listed on the right.
 
     >>> x = np.linspace(0, 360, 100)
@@ -96,8 +101,17 @@ def plotted(panels: Sequence[Panel], title: str, description: str) -> Figure:
         shapes += [moved(shape, Point(0.0, top + panel.size.y)) for shape in _painted(panel)]
         top += panel.size.y + _BETWEEN
     named = {curve.name: curve.style for panel in panels for curve in panel.curves if curve.name}
+    named |= {panel.marked: "dead" for panel in panels if panel.marks and panel.marked}
     wide = max(panel.size.x + (_right_margin(panel.right) if panel.right else 0.0) for panel in panels)
-    return figure_of([*shapes, *_listed(named, wide + _BESIDE)], title, description, margin=14.0)
+    shapes += _listed(named, wide + _BESIDE)
+    return figure_of([_localised(shape, lang) for shape in shapes], title, description, margin=14.0)
+
+
+def _localised(shape: Shape, lang: str) -> Shape:
+    """A shape whose numbers have the decimal sign of a language."""
+    if isinstance(shape, Text) and shape.style in ("tick", "value"):
+        return replace(shape, words=in_language(shape.words, lang))
+    return shape
 
 
 def _right_margin(axis: Axis) -> float:
@@ -106,9 +120,8 @@ def _right_margin(axis: Axis) -> float:
 
 def _painted(panel: Panel) -> list[Shape]:
     """Everything in a panel; the words at its points keep clear of lines, not of the grid."""
-    drawn: list[Shape] = [*_marks(panel)]
-    drawn += [Lines(lines, curve.style) for curve in panel.curves if (lines := tuple(_pieces(panel, curve)))]
-    drawn += _frame(panel)
+    drawn: list[Shape] = [Lines(lines, c.style) for c in panel.curves if (lines := tuple(_pieces(panel, c)))]
+    drawn += [*_frame(panel), *_marks(panel)]
     sides = [x for off in _MARGINS for x in (-off, panel.size.x + off)]
     margins = Lines(tuple((Point(x, 0.0), Point(x, -panel.size.y)) for x in sides), "grid")
     for spot in panel.spots:
@@ -164,9 +177,10 @@ def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]
     low, high = (panel.place(panel.across.scale.low, y) for y in (band.low, band.high))
     wide = Point(panel.size.x, 0.0)
     yield Lines(((low, low.plus(wide), high.plus(wide), high),), "warning", closed=True)
-    half, room = text_width(band.words, 11.0) / 2, Room([*obstacles(drawn)], [low])
+    half = text_width(band.words, 11.0) / 2
     places = [Point(x, y) for y in (high.y + 11.0, low.y - 11.0) for x in (wide.x - half - 6.0, half + 6.0, wide.x / 2)]
-    yield Text(max(places, key=lambda at: room.free(at, 2 * half)), band.words, "tick")
+    free = Room(drawn).free(complexes(places), 2 * half)
+    yield Text(places[int(free.argmax())], band.words, "tick")
 
 
 def _marks(panel: Panel) -> Iterator[Shape]:
@@ -295,14 +309,19 @@ def ratio_diagram(
         x = math.degrees(at[0])
         spots = Spot(x, at[1], "P₁"), Spot(x, at[2], "P₂", right=True)
         about += " " + words["at"].format(angle=x, ratio=at[1], length=at[2])
+        about = in_language(about, lang)
+
+    def axis(key: str, scale: Scale) -> Axis:
+        return Axis(words[key], scale._replace(names=tuple(in_language(name, lang) for name in scale.names)))
+
     panel = Panel(
-        Axis(words["angle"], angles(0.0, float(degrees.max()), tight=True)),
-        Axis(words["ratio"], decades(float(q.min()), float(q.max()))),
+        axis("angle", angles(0.0, float(degrees.max()), tight=True)),
+        axis("ratio", decades(float(q.min()), float(q.max()))),
         (
             Curve(degrees, q, words["ratio"], "line-1"),
             Curve(degrees, way, words["length"], "line-2", right=True),
         ),
-        Axis(words["length"], decimals(0.0, float(way.max()))),
+        axis("length", decimals(0.0, float(way.max()))),
         marks=(Mark(spots[0].x, ""),) if spots else (),
         spots=spots,
         size=Point(*size),

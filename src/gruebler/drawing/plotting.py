@@ -9,7 +9,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any, BinaryIO
 
-from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Shape, Text
+from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Shape, Text, lowered
 from gruebler.drawing.gallery import Item, Section
 from gruebler.drawing.styles import COLOURS, STYLES
 from gruebler.errors import GrueblerError
@@ -46,7 +46,10 @@ def _library() -> Any:
         from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
     except ImportError:
         raise GrueblerError(
-            "PNG and PDF need matplotlib, which is not installed: pip install 'gruebler[plot]', or write an .svg"
+            "pictures of pixels and PDF need matplotlib, which is not installed: pip install 'gruebler[plot]', or "
+            "write an .svg or .html",
+            "Pixelbilder und PDF brauchen matplotlib, das nicht installiert ist: pip install 'gruebler[plot]', oder "
+            "schreibe ein .svg oder .html",
         ) from None
     return figure
 
@@ -67,15 +70,16 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
 
     style = STYLES[shape.style]
     if isinstance(shape, Text):
+        pieces = lowered(shape.words)
         axes.text(
             *shape.at,
-            shape.words,
+            _as_math(pieces) if len(pieces) > 1 else shape.words,
             fontsize=style.size * point,
             color=COLOURS[style.fill][dark],
             ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
             va="center_baseline",
             zorder=order,
-            parse_math=False,
+            parse_math=len(pieces) > 1,
         )
         return
     match shape:
@@ -102,6 +106,12 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
     )
 
 
+def _as_math(pieces: Sequence[tuple[str, bool]]) -> str:
+    """Words with what stands lower, in the notation of matplotlib, upright as all others."""
+    plain = [(piece.replace("$", r"\$"), low) for piece, low in pieces]
+    return "".join(rf"$_\mathregular{{{piece}}}$" if low else piece for piece, low in plain)
+
+
 def _line(part: Sequence[tuple[float, float]], closed: bool) -> Any:
     from matplotlib.path import Path as Outline
 
@@ -109,13 +119,15 @@ def _line(part: Sequence[tuple[float, float]], closed: bool) -> Any:
 
 
 _A4 = (210 / 25.4, 297 / 25.4)
-_LEFT, _TOP, _BOTTOM, _COLUMNS = 0.05, 0.95, 0.04, 5
-_COLUMN = (1 - 2 * _LEFT) / _COLUMNS
-_ROW, _HEADING = 0.15, 0.022  # of the height of a page
+_LEFT, _TOP, _BOTTOM = 0.05, 0.95, 0.04
+_ROW, _HEADING, _TITLE = 0.15, 0.022, 0.012  # of the height of a page
+_COLUMNS = (5, 3, 2, 1)
+_LEGIBLE = 0.62  # of their size: pictures are not made smaller as long as fewer of them stand in a row
+_CODE = 5.0  # points
 
 
 def gallery_pdf(title: str, sections: Iterable[Section], *, note: str = "") -> bytes:
-    """The gallery on A4 pages, five pictures in a row.
+    """The gallery on A4 pages, up to five pictures in a row, fewer where words in them would become illegible.
 
     Raises `GrueblerError` if matplotlib is not installed.
     """
@@ -124,35 +136,56 @@ def gallery_pdf(title: str, sections: Iterable[Section], *, note: str = "") -> b
 
     memory = io.BytesIO()
     with PdfPages(memory, metadata=_METADATA["pdf"] | {"Title": title}) as pages:
-        page, top = library.Figure(figsize=_A4), _TOP - _HEADING
+        page, top = library.Figure(figsize=_A4), _TOP - _TITLE
         page.text(_LEFT, _TOP, f"{title}. {note}", fontsize=11, va="center", parse_math=False)
         for section in sections:
-            rows = [section.items[k : k + _COLUMNS] for k in range(0, len(section.items), _COLUMNS)]
+            columns = _columns(section)
+            high = _ROW * _COLUMNS[0] / columns if columns > 1 else _TALL
+            rows = [section.items[k : k + columns] for k in range(0, len(section.items), columns)]
             for number, row in enumerate(rows):
-                if top - _ROW - _HEADING * (number == 0) < _BOTTOM:
+                headed = number == 0 and bool(section.heading)
+                if top - high - _HEADING * headed < _BOTTOM:
                     pages.savefig(page)
                     page, top = library.Figure(figsize=_A4), _TOP + _HEADING
-                if number == 0:
+                if headed:
                     page.text(_LEFT, top - _HEADING / 2, section.heading, fontsize=9, va="center", parse_math=False)
                     top -= _HEADING
                 for k, item in enumerate(row):
-                    _paint_item(page, item, _LEFT + k * _COLUMN, top)
-                top -= _ROW
+                    wide = (1 - 2 * _LEFT) / columns
+                    _paint_item(page, item, (_LEFT + k * wide, top), (wide, high))
+                top -= high
         pages.savefig(page)
     return memory.getvalue()
 
 
-def _paint_item(page: Any, item: Item, left: float, top: float) -> None:
+_TALL = 0.42  # of the height of a page, for one picture in a row
+
+
+def _columns(section: Section) -> int:
+    """How many pictures stand in a row of a section."""
+    for columns in _COLUMNS:
+        wide, high = (1 - 2 * _LEFT) / columns, _ROW * _COLUMNS[0] / columns
+        if all(_scale(item.figure, wide, high) >= _LEGIBLE for item in section.items):
+            return columns
+    return _COLUMNS[-1]
+
+
+def _scale(figure: Figure, wide: float, high: float) -> float:
+    """The scale of a picture in a cell of a page."""
+    return min(1.0, 96 * min((wide - 0.016) * _A4[0] / figure.width, (high - 0.046) * _A4[1] / figure.height))
+
+
+def _paint_item(page: Any, item: Item, corner: tuple[float, float], size: tuple[float, float]) -> None:
     """A picture in its cell, caption and code below it."""
-    box = (left + 0.008, top - _ROW + 0.042, _COLUMN - 0.016, _ROW - 0.046)
-    room = min(box[2] * _A4[0] / item.figure.width, box[3] * _A4[1] / item.figure.height)
-    scale = min(1.0, 96 * room)
+    (left, top), (column, row) = corner, size
+    box = (left + 0.008, top - row + 0.042, column - 0.016, row - 0.046)
+    scale = _scale(item.figure, column, row)
     wide, high = scale * item.figure.width / 96 / _A4[0], scale * item.figure.height / 96 / _A4[1]
-    middle = left + _COLUMN / 2
+    middle = left + column / 2
     axes = page.add_axes((middle - wide / 2, box[1] + (box[3] - high) / 2, wide, high))
     paint_on(axes, item.figure, scale=scale)
-    lines = wrap(item.caption, 28)
+    lines = wrap(item.caption, round(150 * column))
     page.text(middle, box[1] - 0.003, "\n".join(lines), fontsize=7, ha="center", va="top", parse_math=False)
-    code = "\n".join(wrap(item.code, 46))
+    code = "\n".join(wrap(item.code, round(190 * column)))
     below = box[1] - 0.005 - 0.0105 * len(lines)
-    page.text(middle, below, code, fontsize=3.8, ha="center", va="top", parse_math=False)
+    page.text(middle, below, code, fontsize=_CODE, ha="center", va="top", parse_math=False)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
+
 from gruebler.chain import Chain
 from gruebler.mechanism import Mechanism
 
-__all__ = ["chain_name", "describe", "title"]
+__all__ = ["chain_name", "describe", "in_language", "title"]
 
 _WORDS = {
     "en": {
@@ -57,6 +59,15 @@ def chain_name(chain: Chain, lang: str = "en") -> str:
 
 
 _LARGEST_NAMED = 6
+
+
+def in_language(numbers: str, lang: str) -> str:
+    """Numbers and their units with the decimal sign of a language.
+
+    >>> in_language("1.5 mm", "de"), in_language("1.5 mm", "en")
+    ('1,5 mm', '1.5 mm')
+    """
+    return re.sub(r"(?<=\d)\.(?=\d)", ",", numbers) if lang == "de" else numbers
 
 
 def title(thing: Chain | Mechanism, lang: str = "en", name: str = "") -> str:

@@ -19,6 +19,7 @@ class Sheet(NamedTuple):
     """The link or joint that is looked at; None for the linkage's own."""
     drawn: Sequence[Shape]
     """What is there already; texts keep clear of it."""
+    lang: str = "en"
 
 
 Layer = Callable[[Sheet], list[Shape]]

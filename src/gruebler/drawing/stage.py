@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.drawing.figure import Point
-from gruebler.errors import LinkageError
+from gruebler.drawing.prose import in_language
+from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.course import Course, follow
 from gruebler.kinematics.home import at_home
 from gruebler.kinematics.moving import planned
 from gruebler.linkages import Linkage, Named, Pin
+from gruebler.mechanism import Mechanism
 
 __all__ = ["Stage", "drive_rows", "floating", "nodes", "stage_of", "staged"]
 
@@ -38,11 +40,11 @@ class Stage:
     lower: Linkage
     """The linkage with turning and sliding joints only; links that it had before keep their names."""
     course: Course | None
-    """The whole motion; None with several drives."""
+    """The whole motion; None with several drives or none, and where there is one position only."""
     pose: Motion
     """One row, with rates for a drive of speed 1 where there is one drive."""
     path: Motion
-    """Rows through the range of the drive, evenly in time; the pose alone with several drives."""
+    """Rows through the range of the drive, evenly in time; without a course the pose alone."""
     scale: float
     """Pixels to a unit of length."""
 
@@ -76,7 +78,17 @@ class Stage:
         """The course; `LinkageError` with several drives."""
         if self.course is None:
             count = len(self.linkage.mechanism.drives)
-            raise LinkageError(f"this is drawn for linkages with one drive only; this one has {count}")
+            if count == 1:
+                raise LinkageError(
+                    "all that can be assembled is one position, so there is no motion to be drawn",
+                    "zusammenbauen lässt sich nur eine Lage, eine Bewegung ist nicht zu zeichnen",
+                )
+            raise LinkageError(
+                f"this is drawn for linkages with one drive only; this one has {count}: leave one of them driven, or "
+                "draw a path of all drives with draw_motion(move(linkage, path))",
+                f"das wird nur für Getriebe mit einem Antrieb gezeichnet, dieses hat {count}: nur einen davon "
+                "antreiben oder einen Weg aller Antriebe mit draw_motion(move(linkage, path)) zeichnen",
+            )
         return self.course
 
 
@@ -110,22 +122,28 @@ def staged(
 ) -> Stage:
     """Follow a linkage through its range, or between two drive values, and stop it in a pose.
 
-    Without a drive value the pose is the home; else a third of the way to a half turn; else the middle of the range.
+    Without a drive value the pose is the home; else a third of the way to a half turn; else a quarter of the range,
+    since its middle and ends are often singular. A linkage that has one position only is shown in it, one without a
+    drive at home.
 
-    Raises `LinkageError` for a linkage without a drive, or a pose that it cannot reach.
+    Raises `LinkageError` for a pose that it cannot reach, and without a drive if there is no home.
     """
     if not isinstance(linkage, Linkage):
         raise LinkageError(f"expected a linkage, but found {linkage!r}")
-    if not linkage.mechanism.drives:
-        names = linkage.mechanism.chain.joint_names()
-        raise LinkageError(f"no joint is driven, so there is no pose; name a drive, such as {names[0]}")
-    plan = planned(linkage)
     try:
         given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
     except (TypeError, ValueError):
-        raise LinkageError(f"drive values are numbers, but found {drive!r}") from None
+        raise LinkageError(
+            f"drive values are numbers, but found {drive!r}", f"Antriebswerte sind Zahlen, nicht {drive!r}"
+        ) from None
+    if not linkage.mechanism.drives:
+        return _at_rest(linkage)
+    plan = planned(linkage)
     if len(linkage.mechanism.drives) == 1:
-        course = follow(linkage, branch)
+        try:
+            course = follow(linkage, branch)
+        except LinkageError as error:
+            return _one_position(linkage, given, branch, error)
         path = course.at(drive_rows(course, between), 0)
         pose = course.at(np.array([_value(course, given, path.drives[:, 0])]), 2)
         return Stage(plan.lower, course, pose, path, _scale(plan.lower, path))
@@ -134,8 +152,48 @@ def staged(
         given = zeros if plan.lower.home is None else at_home(plan, zeros).drives
     pose = move(linkage, given.reshape(1, -1), branch=branch)
     if not len(pose):
-        raise LinkageError(pose.message())
-    return Stage(plan.lower, None, pose, pose, _scale(plan.lower, pose))
+        raise LinkageError(pose.message(), pose.message("de"))
+    return _posed(pose)
+
+
+def _posed(pose: Motion) -> Stage:
+    """One pose and no more."""
+    return Stage(pose.plan.lower, None, pose, pose, _scale(pose.plan.lower, pose))
+
+
+def _one_position(
+    linkage: Linkage, given: Reals | None, branch: str | Iterable[str] | None, why: LinkageError
+) -> Stage:
+    """The pose of a linkage that cannot be followed, at the value given or where there is one; else its error."""
+    tried = given.reshape(1, -1) if given is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
+    turning = linkage.mechanism.drives[0].direction.startswith("R")
+    for values in tried if given is not None or turning else ():
+        try:
+            pose = move(linkage, values.reshape(1, -1), branch=branch)
+        except LinkageError:
+            raise why from None
+        if len(pose):
+            return _posed(pose)
+    raise why
+
+
+def _at_rest(linkage: Linkage) -> Stage:
+    """The home of a linkage without a drive, found as that of the same linkage with one."""
+    mechanism = linkage.mechanism
+    for number in range(len(mechanism.chain.joints)) if linkage.home is not None else ():
+        try:
+            driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [number]))
+            plan = planned(driven)
+            pose = move(driven, at_home(plan, np.zeros(1)).drives.reshape(1, -1))
+        except GrueblerError:
+            continue
+        if len(pose):
+            return _posed(replace(pose, linkage=linkage))
+    name = mechanism.chain.joint_names()[0]
+    raise LinkageError(
+        f"no joint is driven, so there is no pose; name a drive, such as {name}",
+        f"kein Gelenk ist angetrieben, also gibt es keine Lage; ein Antrieb wäre zum Beispiel {name}",
+    )
 
 
 def drive_rows(course: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
@@ -158,7 +216,10 @@ def drive_rows(course: Course, between: tuple[float, float] | None = None, count
         asked = between[0] + shift, between[1] + shift
         low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
     if not high > low:
-        raise LinkageError(f"{_range(course)}; nothing of it lies between the two values asked for")
+        raise LinkageError(
+            f"{_range(course, 'en')}; nothing of it lies between the two values asked for",
+            f"{_range(course, 'de')}; nichts davon liegt zwischen den beiden verlangten Werten",
+        )
     return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
@@ -168,23 +229,34 @@ def _value(course: Course, given: Reals | None, rows: Reals) -> float:
         start = float(course.start.drives[0, 0])
         if course.plan.lower.home is not None and rows[0] <= start <= rows[-1]:
             return start
-        return math.pi / 3 if _is_whole(course, rows) else float(rows[len(rows) // 2])
+        return math.pi / 3 if _is_whole(course, rows) else float(rows[len(rows) // 3])
     if given.shape != (1,) or not np.isfinite(given).all():
-        raise LinkageError(f"expected one finite drive value, but found {given.tolist()}")
+        raise LinkageError(
+            f"expected one finite drive value, but found {given.tolist()}",
+            f"erwartet wird ein endlicher Antriebswert, nicht {given.tolist()}",
+        )
     value, span = float(given[0]), course.span
     if course.turning_drive and not span.full:
         value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
     if not span.full and not span.low <= value <= span.high:
-        raise LinkageError(f"{_range(course)}; there is no pose at {_said(course, float(given[0]))}")
+        raise LinkageError(
+            f"{_range(course, 'en')}; there is no pose at {_said(course, float(given[0]), 'en')}",
+            f"{_range(course, 'de')}; bei {_said(course, float(given[0]), 'de')} gibt es keine Lage",
+        )
     return value
 
 
-def _range(course: Course) -> str:
-    return f"the drive goes from {_said(course, course.span.low)} to {_said(course, course.span.high)} on this branch"
+def _range(course: Course, lang: str) -> str:
+    low, high = (_said(course, value, lang) for value in (course.span.low, course.span.high))
+    if lang == "de":
+        return f"der Antrieb geht in dieser Einbaulage von {low} bis {high}"
+    return f"the drive goes from {low} to {high} on this branch"
 
 
-def _said(course: Course, value: float) -> str:
-    return f"{math.degrees(value):.6g} degrees" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
+def _said(course: Course, value: float, lang: str) -> str:
+    degrees = "Grad" if lang == "de" else "degrees"
+    words = f"{math.degrees(value):.6g} {degrees}" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
+    return in_language(words, lang)
 
 
 def floating(linkage: Linkage) -> str:

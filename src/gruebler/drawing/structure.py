@@ -20,7 +20,16 @@ from gruebler.drawing.figure import Figure, Point, Shape, figure_of
 from gruebler.drawing.layout import Layout, lay_out
 from gruebler.drawing.orientation import turned
 from gruebler.drawing.prose import describe, title
-from gruebler.drawing.symbols import JointSign, Member, bar, joint_sign, polygon, straight_drive, turning_drive
+from gruebler.drawing.symbols import (
+    JointSign,
+    Member,
+    bar,
+    joint_sign,
+    polygon,
+    straight_drive,
+    turning_drive,
+    widest_gap,
+)
 from gruebler.isomorphism import canonical_order
 from gruebler.mechanism import Mechanism
 from gruebler.pairs import Alphabet, Pair, Space
@@ -193,9 +202,4 @@ def _drive(placed: Placed, number: int, direction: str, sign: JointSign) -> list
         side = sign.axis.across
         lean = sum(side.dot(d.unit) for d in directions)
         return straight_drive(at, sign.axis, Point(-side.x, -side.y) if lean > 0 else side)
-    angles = sorted(math.atan2(d.y, d.x) for d in directions)
-    gaps = [
-        (after - before, before) for before, after in zip(angles, [*angles[1:], angles[0] + 2 * math.pi], strict=True)
-    ]
-    width, begin = max(gaps)
-    return turning_drive(at, sign.reach + 9.0, begin + width / 2)
+    return turning_drive(at, sign.reach + 9.0, widest_gap([math.atan2(d.y, d.x) for d in directions]))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 from xml.sax.saxutils import escape
 
-from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text
+from gruebler.drawing.figure import Arc, Circle, Figure, Lines, Point, Shape, Text, lowered
 from gruebler.drawing.styles import COLOURS, STYLES, Style
 
 __all__ = ["document", "element", "number", "style_sheet", "svg"]
@@ -79,7 +79,7 @@ def element(shape: Shape) -> str:
         case Text(at, words, style, anchor):
             where = f'x="{number(at.x)}" y="{number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
-            return f'<text class="gr-{style}" {where}{anchored}>{_plain(words)}</text>'
+            return f'<text class="gr-{style}" {where}{anchored}>{_worded(words, STYLES[style].size)}</text>'
 
 
 def _line(points: tuple[Point, ...], closed: bool) -> str:
@@ -93,6 +93,21 @@ def _pair(point: Point) -> str:
 def number(value: float) -> str:
     """Tenths of a pixel; no minus zero."""
     return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
+
+
+def _worded(words: str, size: float) -> str:
+    """Words with what stands lower, and after it as high as before."""
+    pieces = lowered(words)
+    if len(pieces) == 1:
+        return _plain(words)
+    made, was_low = "", False
+    for piece, low in pieces:
+        shift = 0.25 * size * (low - was_low)
+        small = f' font-size="{number(0.75 * size)}"' if low else ""
+        moved = f'<tspan dy="{number(shift)}"{small}>{_plain(piece)}</tspan>'
+        made += moved if shift or small else _plain(piece)
+        was_low = low
+    return made
 
 
 def _plain(words: str) -> str:

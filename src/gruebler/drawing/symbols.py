@@ -26,6 +26,7 @@ __all__ = [
     "straight_drive",
     "ticks",
     "turning_drive",
+    "widest_gap",
 ]
 
 RADIUS = 6.2
@@ -224,6 +225,18 @@ def ticks(a: Point, b: Point, outward: Point) -> Lines:
     places = [a.plus(along, (k + 0.5) / number) for k in range(number)]
     lean = outward.plus(along.unit, -0.7)
     return Lines(tuple((p.plus(outward, 1.3), p.plus(lean, 6.0)) for p in places), "hatch")
+
+
+def widest_gap(angles: Sequence[float]) -> float:
+    """The middle of the widest gap between directions, as an angle in radians.
+
+    >>> widest_gap([0.0, 1.0]) - 1.0 == (2 * math.pi - 1.0) / 2
+    True
+    """
+    around = sorted(angles)
+    gaps = [(b - a, a) for a, b in pairwise([*around, around[0] + 2 * math.pi])]
+    width, begin = max(gaps)
+    return begin + width / 2
 
 
 def turning_drive(at: Point, radius: float, away: float) -> list[Shape]:
