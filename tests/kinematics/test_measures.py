@@ -211,3 +211,30 @@ def test_other_wrong_calls() -> None:
                 {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (3, 4), "R(3-4)": (6, 2), "R(0-4)": (6, 0)},
             )
         )
+
+
+def test_strokes_are_those_between_dead_centres_that_follow_one_another():
+    """A gear of 2 to 3 drives a central slider-crank: three strokes of 120 degrees each way in two turns."""
+    from gruebler.linkages.files import linkage_from_json
+
+    geared = linkage_from_json(
+        {
+            "unit": "mm",
+            "joints": "R(frame-g1) R(frame-g2) G(g1-g2) R(g2-rod) R(rod-slider) P(frame-slider)",
+            "frame": "frame",
+            "drives": ["R(frame-g1)"],
+            "places": {
+                "R(frame-g1)": [0, 0],
+                "R(frame-g2)": [50, 0],
+                "R(g2-rod)": [50, 15],
+                "R(rod-slider)": [130, 0],
+                "P(frame-slider)": [130, 0, 0],
+                "G(g1-g2)": {"g1": {"at": [0, 0], "radius": 30}, "g2": {"at": [50, 0], "radius": 20}},
+            },
+        }
+    )
+    found = measures(geared)
+    assert found.span.turns == 2
+    assert len(found.dead_centres) == 6
+    assert np.degrees([found.phi_forward, found.phi_back]) == pytest.approx([120, 120], abs=1e-8)
+    assert found.time_ratio == pytest.approx(1, abs=1e-9)

@@ -109,15 +109,21 @@ class Measures:
 
     @property
     def phi_forward(self) -> float | None:
-        """The drive angle from the inner to the outer dead centre, in the positive sense."""
-        if self.inner is None or self.outer is None or not self.span.full:
-            return None
-        return (self.outer.drive - self.inner.drive) % self.span.period
+        """The drive angle from the inner to the next outer dead centre, in the positive sense."""
+        return self._way(self.inner, self.outer)
 
     @property
     def phi_back(self) -> float | None:
-        """The drive angle from the outer to the inner dead centre, in the positive sense."""
-        return None if self.phi_forward is None else self.span.period - self.phi_forward
+        """The drive angle from the outer to the next inner dead centre, in the positive sense."""
+        return self._way(self.outer, self.inner)
+
+    def _way(self, start: DeadCentre | None, end: DeadCentre | None) -> float | None:
+        """How far the drive turns from one dead centre to the next that is like the other; None without full turns."""
+        if start is None or end is None or not self.span.full:
+            return None
+        near = 1e-9 * (self.travel or 0.0)
+        alike = (one for one in self.dead_centres if one.kind == end.kind and abs(one.output - end.output) <= near)
+        return min((one.drive - start.drive) % self.span.period for one in alike)
 
     @property
     def phi_max(self) -> float | None:
