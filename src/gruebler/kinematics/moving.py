@@ -60,6 +60,7 @@ def move(
 
     Raises `LinkageError` if the drives do not fix the motion or the numbers are not usable.
 
+    >>> from gruebler.kinematics import degrees
     >>> from gruebler.linkages import FourBar
     >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), degrees(0, 360, 1), speed=10)
     >>> len(motion), motion.complete, bool(motion.closure < 1e-13)
