@@ -22,6 +22,9 @@ __all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
 FloatArray = NDArray[np.float64]
 
 
+_MOST = 2_000
+
+
 class GenevaError(GrueblerError):
     """Numbers that no Geneva drive can have."""
 
@@ -68,6 +71,8 @@ class Geneva:
         for name, number, least in (("slots", self.slots, 3), ("pins", self.pins, 1)):
             if not isinstance(number, int) or isinstance(number, bool) or number < least:
                 raise GenevaError(f"a Geneva drive has a whole number of {name}, at least {least}, not {number!r}")
+            if number > _MOST:
+                raise GenevaError(f"a Geneva drive has {_MOST:,} {name} at most, not {number:,}")
         if self.pins > self.most_pins:
             kind = "internal" if self.internal else "external"
             raise GenevaError(

@@ -215,3 +215,27 @@ def test_a_mechanism_is_checked_as_its_chain(capsys):
     status, out, _ = run(capsys, "check", f"{FOUR_BAR}; frame=frame; drive=R(frame-crank)", "--json")
     assert status == 0
     assert json.loads(out)[0]["counted"] == 1
+
+
+def test_the_file_of_a_linkage_is_taken_wherever_a_chain_is(capsys, tmp_path):
+    from gruebler.linkages import FourBar
+    from gruebler.linkages.files import write_linkage
+
+    for suffix in ("toml", "json"):
+        path = tmp_path / f"rocker.{suffix}"
+        write_linkage(path, FourBar(25, 70, 40, 70).linkage())
+        for command in ("assur", "inversions"):
+            status, out, err = run(capsys, command, str(path))
+            assert (status, err) == (0, ""), command
+            assert "frame" in out or "crank" in out
+    status, out, _ = run(capsys, "check", str(tmp_path / "rocker.toml"))
+    assert status == 0
+    assert "constrained" in out
+
+
+def test_a_table_is_not_written_under_the_name_of_a_picture(capsys, tmp_path):
+    for command in (("analyse", "lambda"), ("statics", "slider-crank:20,60", "--load", "R(coupler-slider)=-1,0")):
+        status, _, err = run(capsys, *command, "-o", str(tmp_path / "x.svg"))
+        assert status == 2
+        assert "end the name with .csv" in err
+    assert list(tmp_path.iterdir()) == []

@@ -30,7 +30,7 @@ def document(capsys, *arguments):
 def test_a_press_over_a_turn(capsys):
     status, out, _ = run(capsys, "slider-crank:20,50", "--load", "R(coupler-slider)=-100,0", "--friction", "0.1")
     assert status == 0
-    assert "Largest effort: torque R(frame-crank) = -2148.69 N·mm at 75°." in out
+    assert "Largest effort, without friction: torque R(frame-crank) = -2148.69 N·mm at 75°." in out
     rows = [line.split() for line in out.splitlines() if line.strip()[:2] == "90"]
     # tan(arcsin 0.4) of 100 N, a tenth of it, a torque 20 mm on that
     assert rows == [["90", "-2000", "109.109", "109.109", "109.109", "43.6436", "4.36436", "-1912.71"]]
@@ -73,7 +73,7 @@ def test_a_cylinder_has_a_force(capsys):
     assert forces["force P(cylinder-piston)"] == pytest.approx([100 * row[k] for row in found["rows"]])
     status, out, _ = run(capsys, *load)
     assert status == 0
-    assert "Largest effort: force P(cylinder-piston) = " in out
+    assert "Largest effort, without friction: force P(cylinder-piston) = " in out
 
 
 def test_poses_that_are_not_held(capsys):

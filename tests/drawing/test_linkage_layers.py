@@ -25,7 +25,8 @@ from gruebler.drawing.stage import stage_of, staged
 from gruebler.errors import LinkageError
 from gruebler.geometry import centrodes, inflection_circle
 from gruebler.kinematics import degrees, follow, move
-from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.mechanism import Mechanism
 
 GOLDEN = Path(__file__).parent / "golden_linkages.json"
 SVG = "{http://www.w3.org/2000/svg}"
@@ -161,9 +162,9 @@ def test_the_inflection_circle_is_that_of_the_geometry_and_passes_through_the_sl
 
 def test_links_without_centrodes():
     figure = draw_linkage(WITH_POINT, 1.0, show=["centrodes", "inflection"], output="rocker")
-    assert "Not there: fixed centrode" in figure.description
+    assert "Not there, or outside the picture: fixed centrode" in figure.description
     text = draw_linkage(entry("loco2").linkage(), 1.0, show=["centrodes", "inflection"], lang="de").description
-    assert "Nicht vorhanden: Rastpolbahn" in text
+    assert "Nicht vorhanden oder außerhalb des Bildes: Rastpolbahn" in text
 
 
 def test_an_unknown_layer_is_told_with_the_nearest():
@@ -268,3 +269,14 @@ if __name__ == "__main__":  # writes the golden file anew
         + "\n",
         "utf-8",
     )
+
+
+def test_a_bearing_that_a_body_would_hide_stands_before_it():
+    """A frame pin below the plate of a coupler: its pedestal is drawn after the plate, the others before all bodies."""
+    from gruebler.drawing.linkage_bodies import BODIES, FRAME, parts
+
+    mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(2-4) R(4-5) R(0-5); frame=0; drive=R(0-1)")
+    places = {0: (0, 0), 1: (2, 1), 2: (9, 6), 3: (12, 0), 4: (10, -6), 5: (12, -9), 6: (7, 0)}
+    found = parts(staged(Linkage.drawn(mechanism, places)))
+    layers = [part.layer for part in found if part.link == "0" and part.layer in (FRAME, BODIES)]
+    assert layers == [FRAME, BODIES]

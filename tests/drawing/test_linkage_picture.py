@@ -368,8 +368,8 @@ def test_lengths_are_drawn_to_scale(capsys):
 def test_what_is_not_there_is_said(capsys):
     assert draw.run(Namespace(chain="wiper", **(DRAW | {"show": ["dead-centres", "scale"]}))) == 0
     text, said = capsys.readouterr()  # the blade moves without turning
-    assert "Shown: scale. Not there: dead centres." in text
-    assert said == "Not there: dead centres.\n"
+    assert "Shown: scale. Not there, or outside the picture: dead centres." in text
+    assert said == "Not there, or outside the picture: dead centres.\n"
     assert "Shown: dead centres." in drawn(capsys, "wiper", show=["dead-centres"], of="rocker1")
 
 

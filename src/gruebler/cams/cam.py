@@ -80,8 +80,8 @@ class Cam:
     follower: Follower
 
     def __post_init__(self) -> None:
-        if isinstance(self.base, bool) or not isinstance(self.base, int | float) or not math.inf > self.base > 0:
-            raise CamError(f"the base circle has a positive radius, not {self.base!r}")
+        if isinstance(self.base, bool) or not isinstance(self.base, int | float) or not 1e70 > self.base > 0:
+            raise CamError(f"the base circle has a positive radius below 1e70, not {self.base!r}")
         lowest = min(value for _, value in self.lift.extremes(0))
         highest = max(value for _, value in self.lift.extremes(0))
         low, high = self.start + lowest, self.start + highest

@@ -44,8 +44,8 @@ class Line(NamedTuple):
 def _check(follower: Roller | Flat) -> None:
     for field in fields(follower):
         value = getattr(follower, field.name)
-        if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-            raise CamError(f"{field.name} of a follower: expected a finite number, not {value!r}")
+        if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e70:
+            raise CamError(f"{field.name} of a follower: expected a number below 1e70, not {value!r}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ class Roller:
         if not self.swings:
             if abs(self.offset) >= radius:
                 raise CamError(
-                    f"the offset {self.offset:g} is smaller than base radius and roller together, {radius:g}"
+                    f"the offset {self.offset:g} must be smaller than base radius and roller together, {radius:g}"
                 )
             return math.sqrt(radius**2 - self.offset**2)
         d = abs(self.distance)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.cli.analysis_table import Column, as_csv, columns, shown
+from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
 from gruebler.cli.point_inputs import point_of
@@ -62,6 +62,7 @@ _WORDS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
+    check_csv(arguments.csv)
     linkage, shown_range = linkage_of(arguments.linkage)
     added = {
         text: (point.link, point.x, point.y) for text in arguments.point if isinstance(point := point_of(text), Named)

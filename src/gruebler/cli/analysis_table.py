@@ -6,16 +6,18 @@ import csv
 import io
 from collections.abc import Iterable, Sequence
 from math import pi
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion
 from gruebler.kinematics.outputs import Output
 from gruebler.linkages import Linkage
 
-__all__ = ["Column", "as_csv", "columns", "shown"]
+__all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]
 
 Reals = NDArray[np.float64]
 _POSE = ("x", "y")
@@ -129,6 +131,15 @@ def _cell(value: float) -> str:
     if np.isfinite(value):
         return f"{value + 0.0:.6g}"
     return "∞" if np.isinf(value) else "–"
+
+
+def check_csv(path: Path | None) -> None:
+    """`GrueblerError` if the name of the file promises something else than a table."""
+    if path is not None and path.suffix.lower() not in ("", ".csv", ".txt"):
+        raise GrueblerError(
+            f"{path}: a table is written as CSV; end the name with .csv",
+            f"{path}: eine Tabelle wird als CSV geschrieben; der Name endet auf .csv",
+        )
 
 
 def as_csv(made: Sequence[Column]) -> str:

@@ -25,6 +25,7 @@ from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
 from gruebler.cli.tables import print_table
 from gruebler.errors import CatalogError, GrueblerError, NotationError
+from gruebler.linkages.documents import load
 from gruebler.mobility import mobility_report
 from gruebler.mobility.prose import verdict_word
 
@@ -161,7 +162,10 @@ def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
 
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
     if path.suffix == ".toml":
-        yield check_entry(read_entry(path), origin=str(path))
+        if _is_linkage(path):
+            yield _plain(chain_of(str(path)), path.stem, arguments)
+        else:
+            yield check_entry(read_entry(path), origin=str(path))
         return
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -175,6 +179,12 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
         yield from _lines("".join(f"g6:{line}\n" for line in text.split()), str(path), arguments)
     else:
         yield from _lines(text, str(path), arguments)
+
+
+def _is_linkage(path: Path) -> bool:
+    """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
+    document = load(path, lambda text: CatalogError(f"{path}: {text}"))
+    return isinstance(document, dict) and "id" not in document and "unit" in document
 
 
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from pathlib import Path
 
 from gruebler.catalog import entry
 from gruebler.chain import Chain
@@ -23,8 +24,20 @@ def _is_code(word: str) -> bool:
     return re.match(r"\s*gr\d+:", word) is not None
 
 
+def _of_file(word: str) -> Mechanism | None:
+    """The mechanism of a file with the dimensions of a linkage, if the word is one."""
+    path = Path(word)
+    if is_text(word) or path.suffix.lower() not in (".toml", ".json") or not path.is_file():
+        return None
+    from gruebler.linkages.files import read_linkage
+
+    return read_linkage(path).mechanism
+
+
 def chain_of(word: str, space: str | None = None) -> Chain:
-    """The chain of a text, a code (its marks left out), a graph6 code, or a catalog entry."""
+    """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
+    if (found := _of_file(word)) is not None:
+        return found.chain
     if _is_code(word):
         return decode(word.strip()).chain
     if is_text(word) and ";" in word:
@@ -33,8 +46,10 @@ def chain_of(word: str, space: str | None = None) -> Chain:
 
 
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechanism:
-    """The mechanism of a text or code with its marks, or of a catalog entry; frame and drives given here win."""
-    if not is_text(word):
+    """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
+    if (drawn := _of_file(word)) is not None:
+        found = drawn
+    elif not is_text(word):
         record = entry(word)
         chain = record.chain()
         found = Mechanism(chain, record.frame or chain.links[0], record.drives)

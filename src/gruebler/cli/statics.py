@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.cli.analysis_table import Column, as_csv, shown
+from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.tables import print_table
@@ -36,7 +36,7 @@ _WORDS = {
         "friction": "friction {joint}",
         "effort": "with friction {name}",
         "none": "Nothing acts: give --load, --moment or --mass.",
-        "most": "Largest effort: {name} = {value:.6g} {unit} at {drive}.",
+        "most": "Largest effort, without friction: {name} = {value:.6g} {unit} at {drive}.",
         "idle": "The drive carries nothing: {name} = 0.",
         "agree": "Equilibrium and virtual work agree to {part:.1e} of the largest load.",
     },
@@ -50,7 +50,7 @@ _WORDS = {
         "friction": "Reibkraft {joint}",
         "effort": "{name} mit Reibung",
         "none": "Es wirkt nichts: --load, --moment oder --mass angeben.",
-        "most": "Größtwert: {name} = {value:.6g} {unit} bei {drive}.",
+        "most": "Größtwert ohne Reibung: {name} = {value:.6g} {unit} bei {drive}.",
         "idle": "Der Antrieb trägt nichts: {name} = 0.",
         "agree": "Gleichgewicht und virtuelle Arbeit stimmen auf {part:.1e} der größten Last überein.",
     },
@@ -59,6 +59,7 @@ _WORDS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """A table over the rows, or all forces of one row; 1 if it stops or is not held somewhere."""
+    check_csv(arguments.csv)
     linkage, shown_range = linkage_of(arguments.linkage)
     turning, words = turning_drives(linkage), _WORDS[arguments.lang]
     loads = _loads(arguments)

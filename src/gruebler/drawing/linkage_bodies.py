@@ -17,7 +17,7 @@ from gruebler.drawing.linkage_wheels import round_parts
 from gruebler.drawing.stage import Stage
 from gruebler.drawing.symbols import Member, joint_sign, ticks
 from gruebler.kinematics import Motion
-from gruebler.linkages import Line, Linkage, Pin
+from gruebler.linkages import Line, Linkage, Named, Pin
 
 __all__ = [
     "Part",
@@ -170,6 +170,7 @@ def parts(stage: Stage) -> tuple[Part, ...]:
     made = [Part(FRAME, *part) for part in round_parts(stage)]
     made += [Part(FRAME, frame, tuple(_ground(stage, found)))]
     made += [Part(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))]
+    made += [Part(BODIES, frame, tuple(_pedestal(stage, pin))) for pin in _covered(stage, found)]
     made += [_block(stage, slide) for slide in found if slide.sign != "slot"]
     made += _pin_parts(stage)
     return tuple(part for part in made if part.shapes)
@@ -304,16 +305,50 @@ def _ground(stage: Stage, found: tuple[Slide, ...]) -> list[Shape]:
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Lines((rail,), "rail"), ticks(*rail, side)]
+    covered = set(_covered(stage, found))
     for pin in dict.fromkeys(pins_of(lower, frame)):
-        at = stage.local(pin)
-        left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
-        base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
-        shapes += [
-            Lines(((at, right, left),), "block-frame", closed=True),
-            Lines((base,), "rail"),
-            ticks(*base, Point(0.0, 1.0)),
-        ]
+        if pin not in covered:
+            shapes += _pedestal(stage, pin)
     return shapes
+
+
+def _pedestal(stage: Stage, pin: complex) -> list[Shape]:
+    at = stage.local(pin)
+    left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
+    base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
+    return [
+        Lines(((at, right, left),), "block-frame", closed=True),
+        Lines((base,), "rail"),
+        ticks(*base, Point(0.0, 1.0)),
+    ]
+
+
+def _covered(stage: Stage, found: tuple[Slide, ...]) -> list[complex]:
+    """The pins of the frame whose pedestals the body of another link would cover in the pose: they stand before it."""
+    lower, frame = stage.lower, stage.lower.mechanism.frame
+    joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
+    out = []
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        element = lower.elements.get((number, frame))
+        if not isinstance(element, Pin):
+            continue
+        foot = Point(*stage.place(Named(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
+        for link in lower.mechanism.chain.links:
+            if link == frame or joint in joints[link]:
+                continue
+            corners = [
+                stage.place(Named(link, p.x / stage.scale, -p.y / stage.scale)) for p in corners_of(stage, link, found)
+            ]
+            if len(corners) > 2 and _inside(foot, corners):
+                out.append(complex(element.x, element.y))
+                break
+    return out
+
+
+def _inside(point: Point, corners: Sequence[Point]) -> bool:
+    """Whether a point lies in a convex polygon."""
+    sides = [_height(a, b, point) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    return min(sides) > 0 or max(sides) < 0
 
 
 def _pin_parts(stage: Stage) -> list[Part]:

@@ -48,7 +48,7 @@ _WORDS = {
         "curve": "Curve of {names}.",
         "ghosts": "{count} positions thinly.",
         "shown": "Shown: {names}.",
-        "none": "Not there: {names}.",
+        "none": "Not there, or outside the picture: {names}.",
     },
     "de": {
         "pose": "Maßstäblich. Antrieb bei {values}.",
@@ -56,7 +56,7 @@ _WORDS = {
         "curve": "Bahnkurve von {names}.",
         "ghosts": "{count} Stellungen dünn.",
         "shown": "Eingezeichnet: {names}.",
-        "none": "Nicht vorhanden: {names}.",
+        "none": "Nicht vorhanden oder außerhalb des Bildes: {names}.",
     },
 }
 _LAYER_NAMES = {

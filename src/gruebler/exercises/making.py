@@ -303,6 +303,10 @@ def _slider(random: Random, eccentric: bool) -> Given:
     return _until(make, good)
 
 
+def _article(kind: str) -> str:
+    return "An" if kind[0] in "aeiou" else "A"
+
+
 _SLIDER = ("central slider-crank", "zentrische Schubkurbel"), ("eccentric slider-crank", "exzentrische Schubkurbel")
 
 
@@ -320,7 +324,7 @@ def _dead_centre(random: Random, level: int) -> _Made:
             )
         )
         task = Text(
-            f"A {kind} has {en}. Find the dead centres and the stroke H{more[0]}.",
+            f"{_article(kind)} {kind} has {en}. Find the dead centres and the stroke H{more[0]}.",
             f"Eine {art} hat {de}. Bestimmen Sie die Totlagen und den Hub H{more[1]}.",
         )
         return _Made("dead_centres.slider_crank", given | {"unit": "mm"}, asked, task)
@@ -342,7 +346,7 @@ def _transmission(random: Random, level: int) -> _Made:
         given = _slider(random, level == 2)
         (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
         task = Text(
-            f"A {kind} has {en}. Find the largest deviation angle and the smallest transmission angle.",
+            f"{_article(kind)} {kind} has {en}. Find the largest deviation angle and the smallest transmission angle.",
             f"Eine {art} hat {de}. Bestimmen Sie den größten Ablenkwinkel und den kleinsten Übertragungswinkel.",
         )
         return _Made("transmission_angle.slider_crank", given | {"unit": "mm"}, ("α_max", "μ_min"), task)
@@ -367,9 +371,9 @@ def _velocity(random: Random, level: int) -> _Made:
         more = ("", "") if level == 1 else (" (e above the crank's pivot)", " (e über dem Kurbeldrehpunkt)")
         acceleration = ("", "") if level == 1 else (" and acceleration", " und Beschleunigung")
         task = Text(
-            f"A {kind} has {en}{more[0]}. {turn_en} and stands at φ = {phi}° to the slider's way. Find "
+            f"{_article(kind)} {kind} has {en}{more[0]}. {turn_en} and stands at φ = {phi}° to the slider's way. Find "
             f"velocity{acceleration[0]} of the slider.",
-            f"Eine {art} hat {de}{more[1]}. {turn_de} und steht unter φ = {phi}° zum Schieberweg. Bestimmen Sie "
+            f"Eine {art} hat {de}{more[1]}. {turn_de} und steht unter φ = {phi}° zum Schieberweg. Bestimmen Sie die "
             f"Geschwindigkeit{acceleration[1]} des Schiebers.",
         )
         return _Made("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)

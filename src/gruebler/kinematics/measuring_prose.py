@@ -145,7 +145,9 @@ def _drive(found: Measures, value: float) -> str:
 
 
 def _output(found: Measures, value: float) -> str:
-    return _angle(value) if found.output.turning else f"{value:.7g} {found.linkage.unit}"
+    if found.output.turning:
+        return _angle(value)
+    return f"{0.0 if abs(value) < 1e-12 * found.linkage.size else value:.7g} {found.linkage.unit}"
 
 
 def plain(found: Measures) -> dict[str, Any]:
