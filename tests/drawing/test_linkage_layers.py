@@ -263,14 +263,6 @@ def test_pictures_are_small_and_lie_on_their_page():
         assert len(text) < 13_000, name
 
 
-if __name__ == "__main__":  # writes the golden file anew
-    GOLDEN.write_text(
-        json.dumps({name: structure(figure) for name, figure in golden_pictures()}, indent=1, ensure_ascii=False)
-        + "\n",
-        "utf-8",
-    )
-
-
 def test_a_bearing_that_a_body_would_hide_stands_before_it():
     """A frame pin below the plate of a coupler: its pedestal is drawn after the plate, the others before all bodies."""
     from gruebler.drawing.linkage_bodies import BODIES, FRAME, parts
@@ -280,3 +272,11 @@ def test_a_bearing_that_a_body_would_hide_stands_before_it():
     found = parts(staged(Linkage.drawn(mechanism, places)))
     layers = [part.layer for part in found if part.link == "0" and part.layer in (FRAME, BODIES)]
     assert layers == [FRAME, BODIES]
+
+
+if __name__ == "__main__":  # writes the golden file anew
+    GOLDEN.write_text(
+        json.dumps({name: structure(figure) for name, figure in golden_pictures()}, indent=1, ensure_ascii=False)
+        + "\n",
+        "utf-8",
+    )
