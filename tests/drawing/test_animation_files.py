@@ -87,7 +87,10 @@ def test_wicked_names_stay_text():
     assert "&lt;/script&gt;&lt;script&gt;alert(1)" in page
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="needs node")
+@pytest.mark.skipif(
+    shutil.which("node") is None,
+    reason="node stands in for the browser that runs the page's script",
+)
 @pytest.mark.parametrize(
     ("linkage", "between", "slid", "shown"),
     [

@@ -26,25 +26,10 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics import follow, move, transmission_angle
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, Named, Pin, SliderCrank
 from gruebler.mechanism import Mechanism
+from tests.samples import CLASS_III, CYLINDER
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70)
 WITH_POINT = CRANK_ROCKER.linkage({"K": (35, 20)})
-CLASS_III = Linkage.drawn(
-    Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"),
-    {
-        "R(0-1)": (0, 0),
-        "R(1-2)": (0.5, 0.3),
-        "R(2-h)": (2, 2),
-        "R(0-3)": (5, 0),
-        "R(3-h)": (4, 2.2),
-        "R(0-4)": (2, 5.5),
-        "R(4-h)": (3, 3.5),
-    },
-)
-CYLINDER = Linkage.drawn(
-    Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)"),
-    {"R(0-1)": (0, 0), "R(4-2)": (3, 2), "P(1-2)": (0, 0, math.atan2(2, 3)), "R(0-4)": (4, 0)},
-)
 FIVE_BAR = Linkage.drawn(
     Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); drive=R(0-1); drive=R(0-4)"),
     {"R(0-1)": (0, 0), "R(1-2)": (-1, 2), "R(2-3)": (2, 4), "R(3-4)": (5, 2), "R(0-4)": (4, 0)},

@@ -17,26 +17,9 @@ from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.zeros import bracketed, zeros
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
-from tests.samples import parallel_legs
+from tests.samples import CLASS_III, CYLINDER, parallel_legs
 
 TURN = 2 * math.pi
-
-CLASS_III = Linkage.drawn(
-    Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"),
-    {
-        "R(0-1)": (0, 0),
-        "R(1-2)": (0.5, 0.3),
-        "R(2-h)": (2, 2),
-        "R(0-3)": (5, 0),
-        "R(3-h)": (4, 2.2),
-        "R(0-4)": (2, 5.5),
-        "R(4-h)": (3, 3.5),
-    },
-)
-CYLINDER = Linkage.drawn(
-    Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)"),
-    {"R(0-1)": (0, 0), "R(4-2)": (3, 2), "P(1-2)": (0, 0, math.atan2(2, 3)), "R(0-4)": (4, 0)},
-)
 
 
 def dwell_six_bar() -> tuple[Linkage, float]:

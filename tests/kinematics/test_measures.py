@@ -16,7 +16,7 @@ from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.transmission import transmission_angle
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
-from tests.kinematics.test_events import CLASS_III, CYLINDER
+from tests.samples import CLASS_III, CYLINDER, parallel_legs
 
 DEGREE = math.pi / 180
 
@@ -238,3 +238,15 @@ def test_strokes_are_those_between_dead_centres_that_follow_one_another():
     assert len(found.dead_centres) == 6
     assert np.degrees([found.phi_forward, found.phi_back]) == pytest.approx([120, 120], abs=1e-8)
     assert found.time_ratio == pytest.approx(1, abs=1e-9)
+
+
+def test_change_points_that_are_not_known_are_not_told_as_none(monkeypatch):
+    def no_circuit(*_, **__):
+        raise LinkageError("it cannot be followed", "er lässt sich nicht verfolgen")
+
+    monkeypatch.setattr("gruebler.kinematics.events.circuit", no_circuit)
+    found = measures(parallel_legs())
+    assert found.change_points == ()
+    assert "Change points of larger groups are not known: it cannot be followed" in found.explain()
+    assert "nicht bekannt: er lässt sich nicht verfolgen" in found.explain("de")
+    assert found.to_json()["change_points_note"] == "it cannot be followed"

@@ -16,7 +16,7 @@ from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.transmission import deviation_angle, measure_transmission, transmission_angle
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
-from tests.kinematics.test_events import CLASS_III, CYLINDER
+from tests.samples import CLASS_III, CYLINDER
 
 SIZES = [
     FourBar(2, 5, 4, 5),

@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.assur import Group
-from gruebler.errors import LinkageError
 from gruebler.kinematics.circuits import Circuit, circuit
 from gruebler.kinematics.course import Course
 from gruebler.kinematics.motion import Reals
@@ -30,6 +29,7 @@ __all__ = [
     "crossings",
     "dead_centres",
     "drive_pivot",
+    "dyad_change_points",
     "natural",
     "output_turns",
     "transfer_function",
@@ -241,9 +241,15 @@ def change_points(course: Course) -> tuple[ChangePoint, ...]:
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
     near by, so the zero is that of a polynomial of degree 7 through eight poses around it; error some 1e-12. Those of
     larger groups are the places where another curve crosses the `circuit`; one where more than two curves meet is not
-    found.
+    found. Raises `LinkageError` if there are larger groups whose circuit cannot be followed.
     """
-    found = list(_of_larger_groups(course)) if course.plan.larger else []
+    larger = _of_larger_groups(course) if course.plan.larger else ()
+    return tuple(sorted([*larger, *dyad_change_points(course)]))
+
+
+def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
+    """Those of dyads alone."""
+    found = []
     roots = course.at(course.grid, 0).roots
     for dyad in (dyad for dyad in course.plan.dyads if dyad.branching):
         mine = roots[:, dyad.number]
@@ -253,10 +259,7 @@ def change_points(course: Course) -> tuple[ChangePoint, ...]:
 
 
 def _of_larger_groups(course: Course) -> Iterator[ChangePoint]:
-    try:
-        made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
-    except LinkageError:  # the circuit cannot be followed: nothing is known
-        return
+    made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
     for change in made.change_points:
         group = _singular(course, made, change.pose)
         if group is None:

@@ -10,7 +10,7 @@
   ``output_turns`` (turns of the output per period);
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back; None if not
   defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed);
-- ``change_points`` (tuple of `ChangePoint`: drive, links, form);
+- ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_notes`` say if some are not known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
 - ``transmission`` (`Transmission`: extremes, smallest, largest, legs, good; None if undefined, then
   ``transmission_note`` says why);
@@ -35,6 +35,7 @@ from gruebler.kinematics.events import (
     change_points,
     crossings,
     dead_centres,
+    dyad_change_points,
     natural,
     output_turns,
     transfer_function,
@@ -86,6 +87,8 @@ class Measures:
     output_turns: int
     travel: float | None
     change_points: tuple[ChangePoint, ...]
+    change_points_notes: dict[str, str]
+    """Why those of larger groups are not known, by language; empty if they are."""
     transfer: Transfer
     transmission: Transmission | None
     transmission_notes: dict[str, str]
@@ -205,6 +208,10 @@ def measures(
     centres = dead_centres(course, looked_at)
     turns = output_turns(course, looked_at)
     try:
+        changes, unknown = change_points(course), {"en": "", "de": ""}
+    except LinkageError as why:
+        changes, unknown = dyad_change_points(course), {lang: why.said(lang) for lang in ("en", "de")}
+    try:
         transmission, notes = measure_transmission(course, looked_at), {"en": "", "de": ""}
     except NoTransmissionAngleError as why:
         transmission, notes = None, {lang: why.said(lang) for lang in ("en", "de")}
@@ -219,7 +226,8 @@ def measures(
         centres,
         turns,
         None if turns else _travel(course, looked_at, centres, ends),
-        change_points(course),
+        changes,
+        unknown,
         _transfer(course, looked_at),
         transmission,
         notes,

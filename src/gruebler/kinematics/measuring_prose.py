@@ -66,6 +66,10 @@ _TEXTS = {
         "Change point of {form} {{{links}}} at {at}.",
         "Verzweigungslage (durchschlagend) von {form} {{{links}}} bei {at}.",
     ),
+    "unknown changes": (
+        "Change points of larger groups are not known: {why}",
+        "Verzweigungslagen größerer Gruppen sind nicht bekannt: {why}",
+    ),
     "mu": (
         "Transmission angle {small} at {at} (leg {links}) to {large}; deviation angle up to {alpha}.",
         "Übertragungswinkel {small} bei {at} (Glied {links}) bis {large}; Ablenkwinkel bis {alpha}.",
@@ -106,6 +110,8 @@ def explain(found: Measures, lang: str) -> Iterator[str]:
         yield say("times", rpm=found.speed_rpm, forward=found.times.forward, back=found.times.back)
     for point in found.change_points:
         yield say("change", form=point.form, links=", ".join(point.links), at=_drive(found, point.drive))
+    if found.change_points_notes[lang]:
+        yield say("unknown changes", why=found.change_points_notes[lang])
     if found.transmission is None:
         note = found.transmission_notes[lang]
         yield note[:1].upper() + note[1:] + "."
@@ -210,5 +216,6 @@ def plain(found: Measures) -> dict[str, Any]:
             "good": transmission.good,
             "extremes": [extreme(e) for e in transmission.extremes],
         },
+        "change_points_note": found.change_points_notes["en"],
         "transmission_note": found.transmission_note,
     }
