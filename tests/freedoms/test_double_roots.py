@@ -4,7 +4,7 @@ from math import atan2
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
@@ -48,6 +48,7 @@ def test_a_four_bar_on_one_line_has_one_position(size):
 
 
 @given(st.lists(st.floats(0.1, 10), min_size=3, max_size=3))
+@example([2.0, 3.0, 0.125])
 @settings(max_examples=15, deadline=None)
 def test_any_four_bar_on_one_line(lengths):
     found = freedoms(FourBar(*lengths, sum(lengths)).linkage())

@@ -25,6 +25,7 @@ _CLOSED = 1e-9  # joints that are open by more could not be closed
 _EXACT = 1e-15  # a home that is closed so well is meant as it is
 _NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
 _STARTS = 60  # random poses from which a linkage without a home is assembled
+_CLOSED, _NEARLY = 1e-12, 1e-8  # of the size: joints that are closed; that may be closed at a double root
 _PATIENT = 60  # steps of Newton's method: beside a double root each halves the error only
 _ENOUGH = 6  # closed poses among which the best is taken
 _GOOD = 0.01  # a smallest singular value, for each unknown, with which the search for a pose stops
@@ -166,8 +167,12 @@ def _assembled(closing: Closing) -> Reals:
     for _ in range(_STARTS):
         start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.home), 3))])
         pose = closing.settled(inverse(start[frame]) @ start, most=_PATIENT)
-        least = min(least, float(abs(closing.residual(pose)).max()))
-        if abs(closing.residual(pose)).max() > 1e-12:
+        open_by = float(abs(closing.residual(pose)).max())
+        if _CLOSED < open_by < _NEARLY:  # at a double root steps only halve
+            pose = sharpened(closing, pose)
+            open_by = float(abs(closing.residual(pose)).max())
+        least = min(least, open_by)
+        if open_by > _CLOSED:
             continue
         here = at_pose(closing, pose, 1e-9)
         margin = float(here.values[here.rank - 1]) / closing.unknowns
