@@ -112,7 +112,9 @@ class Circuit:
 
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import Curve, evaluate
+        from gruebler._numeric.work import sampling
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
@@ -126,7 +128,8 @@ class Circuit:
         segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
         x, t = np.empty((2, len(place), self.system.unknowns))
         curve = Curve(*traced[:3], np.zeros(0))
-        found = evaluate(self.system.conditions, curve, place, segments, x, t, self.system.room)
+        sample = for_work(evaluate, sampling(self.system.unknowns, len(place)))
+        found = sample(self.system.conditions, curve, place, segments, x, t, self.system.room)
         if found < len(place):
             raise LinkageError(
                 f"the position at {place[found]:.9g} of the circuit cannot be found: it is singular there"
