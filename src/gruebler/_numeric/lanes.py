@@ -1,8 +1,11 @@
-"""Words for loops that Python runs on all elements at once and numba one by one, from the same source.
+"""Words with which the same source is quick in both tiers: interpreted, and compiled by numba.
 
 `for i in lanes(n)` is `for i in range(n)` where it is compiled. Interpreted, its body runs once, `i` being the array of
 all indices: `x[at + i]` is an array then, a copy, and numpy does the work. So bodies do not branch on elements (they
 use `choose`), and no pass needs the result of an earlier one.
+
+Where passes do need one another, Python is three times as quick on lists as on arrays: `rows = taken(array)` is a list of
+lists of numbers then, which `give_back(array, rows)` writes into the array; compiled, `rows` is the array itself.
 """
 
 from __future__ import annotations
@@ -16,7 +19,7 @@ import numpy as np
 
 from gruebler._numeric.compiling import compiled, instead, njit
 
-__all__ = ["choose", "lanes", "number", "square_root", "tally"]
+__all__ = ["choose", "dot", "give_back", "lanes", "number", "square_root", "subtract", "taken", "tally"]
 
 
 @cache
@@ -52,11 +55,60 @@ def tally(truth: bool) -> int:
     return int(np.count_nonzero(truth))
 
 
+@instead(lambda: compiled(_same))
+def taken(array: Any) -> Any:
+    """A matrix or vector to work on: the array itself or, interpreted, a list with its rows or numbers."""
+    return array.tolist()
+
+
+@instead(lambda: compiled(_nothing))
+def give_back(array: Any, rows: Any) -> None:
+    """Write what has become of `taken(array)` into the array."""
+    array[:] = rows
+
+
+@instead(lambda: compiled(_dot))
+def dot(one: Any, other: Any) -> float:
+    """The scalar product of two vectors, added up from the first element on."""
+    total = 0.0
+    for x, y in zip(one, other, strict=True):
+        total += x * y
+    return total
+
+
+@instead(lambda: compiled(_subtract))
+def subtract(row: Any, share: float, other: Any) -> None:
+    """Take a multiple of another vector from one, in place."""
+    row[:] = [x - share * y for x, y in zip(row, other, strict=True)]
+
+
+@njit(forceinline=True, _nrt=False)
+def _same(array: Any) -> Any:
+    return array
+
+
+@njit(forceinline=True, _nrt=False)
+def _nothing(_array: Any, _rows: Any) -> None:
+    return
+
+
+@njit(error_model="numpy", forceinline=True, _nrt=False)
+def _dot(one: Any, other: Any) -> float:
+    total = 0.0
+    for k in range(len(one)):
+        total += one[k] * other[k]
+    return total
+
+
+@njit(error_model="numpy", forceinline=True, _nrt=False)
+def _subtract(row: Any, share: float, other: Any) -> None:
+    for k in range(len(row)):
+        row[k] -= share * other[k]
+
+
+@njit(error_model="numpy", forceinline=True, _nrt=False)
 def _either(truth: bool, one: float, other: float) -> float:
     return one if truth else other
-
-
-njit(error_model="numpy", forceinline=True, _nrt=False)(_either)
 
 
 @instead(lambda: compiled(_either))
