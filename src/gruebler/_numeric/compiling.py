@@ -29,11 +29,15 @@ Progress = Callable[[str, int, int], None]
 """Called before each kernel is compiled: its name, how many are done, how many there are; with an empty name at the
 end."""
 
-# Seconds of CPU on one core of a 2020s server, from benchmarks/startup.py. Only the order of magnitude matters: if an
-# estimate is off by a factor, some call takes that much longer than it need.
-LOADING_NUMBA = 0.6
-LOADING_KERNEL = 0.2  # from the cache
-COMPILING = 3e-3  # a kernel that is not in the cache, for each instruction of it and of the kernels that it calls
+# Seconds of CPU, measured on one core (benchmarks/README.md, "Start"). Only the order of magnitude matters: if one is
+# off by a factor, some call takes that much longer than it need.
+_LOADING_NUMBA = 0.55  # and what it makes ready before its first kernel
+_LOADING_KERNEL = 0.05  # from the cache
+_FIRST_COMPILING = 2.0  # what numba makes ready before it compiles
+_COMPILING = 2e-3  # for each instruction of a kernel and of the kernels that it calls: 4 s to 70 s in all
+# A compiled kernel is kept: whoever needs as much as this will need it again, so we do not interpret on until
+# compiling would have been cheaper within this process.
+_PATIENCE = 5.0
 
 
 class _Recipe(NamedTuple):
@@ -89,8 +93,7 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     """The kernel in the tier that pays for a call that would take so many seconds if it were interpreted.
 
     The seconds of earlier calls count too: once a kernel has been interpreted for as long as it takes to load or to
-    compile, it is compiled, so that many small calls never take more than twice what the best choice would. The
-    environment variable GRUEBLER_KERNELS (`auto`, `interpreted`, `compiled`) overrides it, and NUMBA_DISABLE_JIT=1
+    compile (5 s are always enough), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`, `compiled`) overrides it, and NUMBA_DISABLE_JIT=1
     means interpreted.
 
     Raises:
@@ -114,15 +117,16 @@ def _asked() -> str:
 
 
 def price(kernel: Callable[..., Any]) -> float:
-    """About how many seconds it takes until the compiled form of a kernel can be called."""
+    """About how many seconds of interpreting make up for loading or compiling a kernel."""
     ready = _dispatchers.get(kernel)
     if ready is not None and ready.signatures:
         return 0.0
-    loading = 0.0 if "numba" in sys.modules else LOADING_NUMBA
+    loading = _LOADING_KERNEL + (0.0 if "numba" in sys.modules else _LOADING_NUMBA)
     if is_cached(kernel):
-        return loading + LOADING_KERNEL
+        return loading
     missing = [one for one in _called(kernel) if one not in _dispatchers or not _dispatchers[one].signatures]
-    return loading + COMPILING * sum(len(one.__code__.co_code) // 2 for one in missing if not is_cached(one))
+    instructions = sum(len(one.__code__.co_code) // 2 for one in missing if not is_cached(one))
+    return min(loading + _FIRST_COMPILING + _COMPILING * instructions, _PATIENCE)
 
 
 @cache
@@ -213,18 +217,21 @@ def _made(function: Callable[..., Any], recipe: _Recipe) -> Any:
 
 @cache
 def _listen() -> None:
-    """Tell `on_compiling` what numba compiles."""
+    """Have numba tell `on_compiling` what it compiles; kernels compile the kernels that they call on their way."""
     from numba.core import event
 
-    done: set[str] = set()
+    done, open_ = set[int](), list[int]()
 
     class Listener(event.Listener):  # type: ignore[misc, unused-ignore]
         def on_start(self, event: Any) -> None:
+            kernel = event.data["dispatcher"]
+            open_.append(id(kernel))
             if _progress is not None:
-                name = event.data["dispatcher"].py_func.__name__
-                _progress(name, len(done), len(_dispatchers))
+                _progress(kernel.py_func.__name__, len(done), len(_dispatchers))
 
         def on_end(self, event: Any) -> None:
-            done.add(repr(event.data["dispatcher"]))
+            done.add(open_.pop())
+            if _progress is not None and not open_:
+                _progress("", len(done), len(_dispatchers))
 
     event.register("numba:compile", Listener())

@@ -82,9 +82,9 @@ class System:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
         from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import jacobian
-        from gruebler._numeric.work import closing_seconds
+        from gruebler._numeric.work import closing_work
 
-        m = for_work(jacobian, closing_seconds(self.unknowns))(self.conditions, x, self.room)
+        m = for_work(jacobian, closing_work(self.unknowns))(self.conditions, x, self.room)
         return self.room.residual[:m].copy(), self.room.rows[:m].copy()
 
     def independent(self, x: Reals) -> NDArray[np.int64]:

@@ -158,7 +158,7 @@ class Solver:
         from gruebler._numeric.closure import closing
         from gruebler._numeric.compiling import for_work
         from gruebler._numeric.newton import newton
-        from gruebler._numeric.work import closing_seconds, newton_seconds
+        from gruebler._numeric.work import closing_work, newton_work
 
         self.size, n = group.size, 3 * group.bodies
         self._group = group
@@ -171,8 +171,8 @@ class Solver:
             group.lines,
         )
         self._residual, self._jacobian, self._pivots = np.zeros(n), np.zeros((n, n)), np.zeros(n, np.int64)
-        self._closing = partial(for_work, closing, closing_seconds(n))
-        self._newton = partial(for_work, newton, newton_seconds(n))
+        self._closing = partial(for_work, closing, closing_work(n))
+        self._newton = partial(for_work, newton, newton_work(n))
         self._widest = max(self.size, float(np.abs(group.points).max()))
         self._leaders, self._offsets = _parallel_bodies(group)
 
