@@ -15,6 +15,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import cache, wraps
 from threading import RLock
 from types import FunctionType
@@ -22,7 +23,8 @@ from typing import Any, NamedTuple, TypeVar
 
 from gruebler._numeric.kernel_cache import is_cached, prepared_folder
 
-__all__ = ["Progress", "compiled", "for_work", "instead", "interpreted", "kernels", "njit", "on_compiling", "price"]
+__all__ = ["Progress", "compiled", "for_work", "instead", "interpreted", "kernels", "njit", "on_compiling", "price",
+           "wanted_tier"]
 
 Kernel = TypeVar("Kernel", bound=Callable[..., Any])
 Progress = Callable[[str, int, int], None]
@@ -99,7 +101,7 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     Raises:
         ValueError: GRUEBLER_KERNELS has another value.
     """
-    asked = _asked()
+    asked = wanted_tier()
     if asked == "auto":
         spent = _spent.get(kernel, 0.0) + seconds
         asked = "compiled" if spent >= price(kernel) else "interpreted"
@@ -107,7 +109,8 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     return compiled(kernel) if asked == "compiled" else interpreted(kernel)
 
 
-def _asked() -> str:
+def wanted_tier() -> str:
+    """The tier that the environment asks for: `auto`, `interpreted` or `compiled`; ValueError if it is none of them."""
     if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
         return "interpreted"
     asked = os.environ.get("GRUEBLER_KERNELS") or "auto"
@@ -146,8 +149,7 @@ def compiled(kernel: Kernel) -> Kernel:
     """The kernel as numba compiles it, for each combination of types at the first call with them."""
     ready: Kernel | None = _dispatchers.get(kernel)
     if ready is None:
-        with _lock:
-            _listen()
+        with _lock, _listener().together(kernel):
             ready = _dispatcher(kernel)
     return ready
 
@@ -215,23 +217,50 @@ def _made(function: Callable[..., Any], recipe: _Recipe) -> Any:
         config.CACHE_DIR = before
 
 
+class _Listener:
+    """Tells `on_compiling` what numba compiles; kernels compile the kernels that they call on their way."""
+
+    def __init__(self) -> None:
+        self.open: list[Any] = []
+        self.done: set[int] = set()
+        self.wanted: set[Callable[..., Any]] = set()
+        self.depth = 0
+
+    @contextmanager
+    def together(self, kernel: Callable[..., Any]) -> Iterator[None]:
+        """What is compiled here for a kernel is reported as one."""
+        self.wanted.update(_called(kernel))
+        self.depth += 1
+        count = len(self.done)
+        try:
+            yield
+        finally:
+            self.depth -= 1
+            if len(self.done) > count:
+                self._report()
+
+    def notify(self, event: Any) -> None:
+        """numba begins to compile something, or has done so."""
+        if event.is_start:
+            self.open.append(event.data["dispatcher"])
+        else:
+            self.done.add(id(self.open.pop()))
+        self._report()
+
+    def _report(self) -> None:
+        if _progress is None:
+            return
+        name = self.open[-1].py_func.__name__ if self.open else ""
+        if name or not self.depth:
+            done = sum(id(_dispatchers.get(kernel)) in self.done for kernel in self.wanted)
+            _progress(name, done, len(self.wanted))
+
+
 @cache
-def _listen() -> None:
-    """Have numba tell `on_compiling` what it compiles; kernels compile the kernels that they call on their way."""
+def _listener() -> _Listener:
     from numba.core import event
 
-    done, open_ = set[int](), list[int]()
-
-    class Listener(event.Listener):  # type: ignore[misc, unused-ignore]
-        def on_start(self, event: Any) -> None:
-            kernel = event.data["dispatcher"]
-            open_.append(id(kernel))
-            if _progress is not None:
-                _progress(kernel.py_func.__name__, len(done), len(_dispatchers))
-
-        def on_end(self, event: Any) -> None:
-            done.add(open_.pop())
-            if _progress is not None and not open_:
-                _progress("", len(done), len(_dispatchers))
-
-    event.register("numba:compile", Listener())
+    listener = _Listener()
+    event.Listener.register(_Listener)
+    event.register("numba:compile", listener)
+    return listener

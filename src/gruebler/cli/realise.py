@@ -9,7 +9,6 @@ from dataclasses import replace
 
 from gruebler.catalog import entry
 from gruebler.cli.inputs import is_text, mechanism_of
-from gruebler.cli.linkage_inputs import tell_compiling
 from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
@@ -23,7 +22,6 @@ def run(arguments: argparse.Namespace) -> int:
     mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
     if arguments.output is not None:
         check_linkage_path(arguments.output)
-    tell_compiling(arguments.lang)
     found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
     if found.linkage is not None and not is_text(arguments.chain):
         found = replace(found, linkage=found.linkage.with_outputs(entry(arguments.chain).outputs))
