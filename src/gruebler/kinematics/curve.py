@@ -220,9 +220,7 @@ def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:
     pose = x.copy()
     _, matrix = made.linearised(pose)
     tangent = np.linalg.svd(matrix)[2][-1].copy()
-    arrived, miss, gauge, rank = for_work(settle, sampling(made.unknowns, 1))(
-        made.conditions, pose, tangent, made.room
-    )
+    arrived, miss, gauge, rank = for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent, made.room)
     if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == made.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
