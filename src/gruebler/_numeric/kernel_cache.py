@@ -3,7 +3,8 @@
 Loading a kernel runs code that stands in its file (a pickle). So a folder is used only if nobody but this user can
 write there: it belongs to the user, is no link, and neither group nor others may write to it; the same holds for all
 folders above it, but that root and folders with the sticky bit are trusted there. Where there is no such folder,
-kernels are compiled in memory.
+kernels are compiled in memory. Of group rights, those of the user's own group are trusted above the folder, since
+many systems give every user a group.
 """
 
 from __future__ import annotations
@@ -65,35 +66,29 @@ def _only_mine(folder: Path) -> bool:
     return stat.S_ISDIR(found.st_mode) and found.st_uid == os.geteuid() and not found.st_mode & 0o022
 
 
-def _safe_above(folder: Path) -> bool:
-    """Whether nobody but the user and root can put another folder in the place of this one."""
-    if os.name != "posix":
+def _guarded(folder: Path) -> bool:
+    """Whether only the user and root can replace what is in a folder; a sticky bit guards what is theirs."""
+    if os.name != "posix" or not folder.exists():
         return True
-    try:
-        above = list(Path(os.path.realpath(folder)).parents)
-        for parent in above:
-            if not os.path.lexists(parent):
-                continue
-            found = os.stat(parent)
-            if found.st_uid not in (os.geteuid(), 0):
-                return False
-            if found.st_mode & stat.S_ISVTX:
-                continue
-            own_group = found.st_gid in (os.getegid(), 0)
-            if found.st_mode & 0o002 or (found.st_mode & 0o020 and not own_group):
-                return False
-    except OSError:
+    found = os.stat(folder)
+    if found.st_uid not in (os.geteuid(), 0):
         return False
-    return True
+    others = stat.S_IWOTH if found.st_gid in (os.getegid(), 0) else stat.S_IWOTH | stat.S_IWGRP
+    return bool(found.st_mode & stat.S_ISVTX) or not found.st_mode & others
 
 
 def _trusted(place: Path) -> Path | None:
+    """The folder for kernels in a place, if it can be trusted."""
     folder = place / _name()
-    if not _only_mine(folder):
+    try:
+        if not _only_mine(folder):
+            return None
+        if place.parent == _SOURCES:  # who can write further up can replace the sources themselves
+            return folder if not place.is_symlink() and _guarded(place) and _guarded(_SOURCES) else None
+        above = Path(os.path.realpath(place)).parents
+        return folder if _only_mine(place) and all(map(_guarded, above)) else None
+    except OSError:
         return None
-    if place.parent == _SOURCES:  # who can write there can change the sources themselves
-        return None if place.is_symlink() else folder
-    return folder if _only_mine(place) and _safe_above(place) else None
 
 
 def cache_folder() -> Path | None:
