@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -115,7 +115,9 @@ def test_small_commands_do_not_load_numba(command: str, tmp_path: Path) -> None:
     words = command.split()
     if words[0] == "realise":
         words.insert(1, "R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)")
-    ask = "import sys; from gruebler.cli import main; status = main(sys.argv[1:]); print(status, 'numba' in sys.modules)"
+    ask = (
+        "import sys; from gruebler.cli import main; status = main(sys.argv[1:]); print(status, 'numba' in sys.modules)"
+    )
     environment = {k: v for k, v in os.environ.items() if k not in ("GRUEBLER_KERNELS", "NUMBA_DISABLE_JIT")}
     done = subprocess.run(
         [sys.executable, "-c", ask, *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
@@ -161,14 +163,16 @@ def test_words_of_kernels_mean_the_same_in_both_tiers() -> None:
 
 
 @pytest.fixture
-def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A home of the user's own, sources that cannot be written to, and nothing known yet."""
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     for name in ("XDG_CACHE_HOME", "LOCALAPPDATA"):
         monkeypatch.delenv(name, raising=False)
     (tmp_path / "home").mkdir(mode=0o700)
     access = os.access
-    monkeypatch.setattr(os, "access", lambda path, mode: NUMERIC not in (path, *Path(path).parents) and access(path, mode))
+    monkeypatch.setattr(
+        os, "access", lambda path, mode: NUMERIC not in (path, *Path(path).parents) and access(path, mode)
+    )
     kernel_cache.prepared_folder.cache_clear()
     yield tmp_path / "home"
     kernel_cache.prepared_folder.cache_clear()
@@ -210,6 +214,7 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name != "posix", reason="owners and modes")
+@pytest.mark.usefixtures("home")
 class TestTrust:
     """Loading a kernel runs code: only what nobody else can have written is loaded."""
 
@@ -225,7 +230,7 @@ class TestTrust:
 
     @pytest.mark.parametrize("depth", [0, 1])
     @pytest.mark.parametrize("mode", [0o777, 0o770, 0o702])
-    def test_a_folder_others_may_write_to_is_refused(self, home: Path, depth: int, mode: int) -> None:
+    def test_a_folder_others_may_write_to_is_refused(self, depth: int, mode: int) -> None:
         folder = kernel_cache.prepared_folder()
         assert folder is not None
         (folder, folder.parent)[depth].chmod(mode)
@@ -238,7 +243,7 @@ class TestTrust:
         assert kernel_cache.cache_folder() is None
         assert kernel_cache.prepared_folder() is None
 
-    def test_a_folder_of_another_user_is_refused(self, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_a_folder_of_another_user_is_refused(self, monkeypatch: pytest.MonkeyPatch) -> None:
         assert kernel_cache.prepared_folder() is not None
         user = os.geteuid()
         monkeypatch.setattr(os, "geteuid", lambda: user + 1)
@@ -251,21 +256,21 @@ class TestTrust:
         assert kernel_cache.cache_folder() is not None
 
     def test_without_home_nothing_lies_in_the_temporary_folder(
-        self, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     ) -> None:
         monkeypatch.setenv("HOME", "/nonexistent/nobody")
         monkeypatch.setenv("TMPDIR", str(tmp_path))
         assert kernel_cache.cache_folder() is None
         assert kernel_cache.prepared_folder() is None
 
-    def test_a_home_that_cannot_be_written_to_is_no_error(self, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_a_home_that_cannot_be_written_to_is_no_error(self, monkeypatch: pytest.MonkeyPatch) -> None:
         def refuse(*_: object, **__: object) -> None:
             raise PermissionError(13, "Permission denied")
 
         monkeypatch.setattr(Path, "mkdir", refuse)
         assert kernel_cache.prepared_folder() is None
 
-    def test_without_a_folder_kernels_are_compiled_in_memory(self, home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def test_without_a_folder_kernels_are_compiled_in_memory(self, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(compiling, "prepared_folder", lambda: None)
 
         @njit(cache=True)

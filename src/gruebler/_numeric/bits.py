@@ -10,7 +10,7 @@ _WORD = (1 << 64) - 1
 
 
 def _instruction(emit: Any) -> Any:
-    """numba's form of a function from int64 to int64 that `emit` writes."""
+    """The form that numba knows of a function from int64 to int64 that `emit` writes."""
     from numba import types
     from numba.extending import intrinsic
 

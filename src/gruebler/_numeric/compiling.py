@@ -64,7 +64,7 @@ _recipes: dict[Callable[..., Any], _Recipe] = {}
 _dispatchers: dict[Callable[..., Any], Any] = {}
 _spent: dict[Callable[..., Any], float] = {}
 _lock = RLock()
-_progress: Progress | None = None
+_told: list[Progress] = []  # none or one
 
 
 def njit(*signature: Callable[[], Any], **options: Any) -> Callable[[Kernel], Kernel]:
@@ -97,16 +97,15 @@ def kernels() -> list[Callable[..., Any]]:
 
 def on_compiling(progress: Progress | None) -> None:
     """Have a function called before each kernel that is compiled (not loaded); None: silence, as at first."""
-    global _progress
-    _progress = progress
+    _told[:] = [] if progress is None else [progress]
 
 
 def for_work(kernel: Kernel, seconds: float) -> Kernel:
     """The kernel in the tier that pays for a call that would take so many seconds if it were interpreted.
 
     The seconds of earlier calls count too: once a kernel has been interpreted for as long as it takes to load or to
-    compile (5 s are always enough), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`, `compiled`) overrides it, and NUMBA_DISABLE_JIT=1
-    means interpreted.
+    compile (5 s are always enough), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`,
+    `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
 
     Raises:
         ValueError: GRUEBLER_KERNELS has another value.
@@ -211,16 +210,18 @@ def _dispatcher(kernel: Callable[..., Any]) -> Any:
 
 
 def _made(function: Callable[..., Any], recipe: _Recipe) -> Any:
-    """numba's dispatcher, with its cache in the folder of `kernel_cache`; a NUMBA_CACHE_DIR is left as it is."""
+    """The dispatcher of numba, with its cache in the folder of `kernel_cache`."""
     import numba
 
-    options, config = dict(recipe.options), numba.config
+    options = dict(recipe.options)
+    config: Any = numba.config  # its attributes are made at run time
     signature = [make() for make in recipe.signature]
     before: str = config.CACHE_DIR
-    folder = before or prepared_folder()
+    folder = prepared_folder()
     if folder is None:
         options.pop("cache", None)
-    config.CACHE_DIR = str(folder or "")
+    else:
+        config.CACHE_DIR = str(folder)
     try:
         return numba.njit(*signature, **options)(function)
     finally:
@@ -250,7 +251,7 @@ class _Listener:
                 self._report()
 
     def notify(self, event: Any) -> None:
-        """numba begins to compile something, or has done so."""
+        """Called when numba begins to compile something, or has done so."""
         if event.is_start:
             self.open.append(event.data["dispatcher"])
         else:
@@ -258,12 +259,12 @@ class _Listener:
         self._report()
 
     def _report(self) -> None:
-        if _progress is None:
+        if not _told:
             return
         name = self.open[-1].py_func.__name__ if self.open else ""
         if name or not self.depth:
             done = sum(id(_dispatchers.get(kernel)) in self.done for kernel in self.wanted)
-            _progress(name, done, len(self.wanted))
+            _told[0](name, done, len(self.wanted))
 
 
 @cache
@@ -272,5 +273,5 @@ def _listener() -> _Listener:
 
     listener = _Listener()
     event.Listener.register(_Listener)
-    event.register("numba:compile", listener)
+    event.register("numba:compile", listener)  # type: ignore[no-untyped-call, unused-ignore]
     return listener

@@ -36,13 +36,16 @@ def _name() -> str:
 
 
 def _places() -> Iterator[Path]:
-    """The folders that may hold kernels, the preferred one first: beside the sources, then in the user's cache."""
+    """The folders that may hold kernels: the one that NUMBA_CACHE_DIR names, beside the sources, in the user's cache."""
+    asked = os.environ.get("NUMBA_CACHE_DIR", "")
+    if Path(asked).is_absolute():
+        yield Path(asked)
     beside = _SOURCES / "__pycache__"
     if os.access(beside if beside.is_dir() else _SOURCES, os.W_OK):
         yield beside
     for variable in ("XDG_CACHE_HOME", "LOCALAPPDATA"):
         base = os.environ.get(variable, "")
-        if os.path.isabs(base):
+        if Path(base).is_absolute():
             yield Path(base) / "gruebler"
             return
     try:
@@ -70,7 +73,7 @@ def _guarded(folder: Path) -> bool:
     """Whether only the user and root can replace what is in a folder; a sticky bit guards what is theirs."""
     if os.name != "posix" or not folder.exists():
         return True
-    found = os.stat(folder)
+    found = folder.stat()
     if found.st_uid not in (os.geteuid(), 0):
         return False
     others = stat.S_IWOTH if found.st_gid in (os.getegid(), 0) else stat.S_IWOTH | stat.S_IWGRP

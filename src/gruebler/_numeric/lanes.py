@@ -4,14 +4,14 @@
 all indices: `x[at + i]` is an array then, a copy, and numpy does the work. So bodies do not branch on elements (they
 use `choose`), and no pass needs the result of an earlier one.
 
-Where passes do need one another, Python is three times as quick on lists as on arrays: `rows = taken(array)` is a list of
-lists of numbers then, which `give_back(array, rows)` writes into the array; compiled, `rows` is the array itself.
+Where passes do need one another, Python is three times as quick on lists as on arrays: `rows = taken(array)` is a list
+of lists of numbers then, which `give_back(array, rows)` writes into the array; compiled, `rows` is the array itself.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import cache
 from typing import Any
 
@@ -56,14 +56,39 @@ def tally(truth: bool) -> int:
 
 
 def _itself() -> Any:
-    """numba's form of a function that returns its argument, whether or not the caller counts references."""
+    """The form that numba knows of a function that returns its argument; the caller may count references or not."""
     from numba.core.imputils import impl_ret_borrowed
     from numba.extending import intrinsic
 
     def emit(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return impl_ret_borrowed(context, builder, signature.return_type, arguments[0])
+        result = signature.return_type
+        return impl_ret_borrowed(context, builder, result, arguments[0])  # type: ignore[no-untyped-call, unused-ignore]
 
     return intrinsic(lambda _typing, array: (array(array), emit))
+
+
+@njit(forceinline=True, _nrt=False)
+def _nothing(_array: Any, _rows: Any) -> None:
+    return
+
+
+@njit(error_model="numpy", forceinline=True, _nrt=False)
+def _dot(one: Any, other: Any) -> float:
+    total = 0.0
+    for k in range(len(one)):
+        total += one[k] * other[k]
+    return total
+
+
+@njit(error_model="numpy", forceinline=True, _nrt=False)
+def _subtract(row: Any, share: float, other: Any) -> None:
+    for k in range(len(row)):
+        row[k] -= share * other[k]
+
+
+@njit(error_model="numpy", forceinline=True, _nrt=False)
+def _either(truth: bool, one: float, other: float) -> float:
+    return one if truth else other
 
 
 @instead(_itself)
@@ -91,30 +116,6 @@ def dot(one: Any, other: Any) -> float:
 def subtract(row: Any, share: float, other: Any) -> None:
     """Take a multiple of another vector from one, in place."""
     row[:] = [x - share * y for x, y in zip(row, other, strict=True)]
-
-
-@njit(forceinline=True, _nrt=False)
-def _nothing(_array: Any, _rows: Any) -> None:
-    return
-
-
-@njit(error_model="numpy", forceinline=True, _nrt=False)
-def _dot(one: Any, other: Any) -> float:
-    total = 0.0
-    for k in range(len(one)):
-        total += one[k] * other[k]
-    return total
-
-
-@njit(error_model="numpy", forceinline=True, _nrt=False)
-def _subtract(row: Any, share: float, other: Any) -> None:
-    for k in range(len(row)):
-        row[k] -= share * other[k]
-
-
-@njit(error_model="numpy", forceinline=True, _nrt=False)
-def _either(truth: bool, one: float, other: float) -> float:
-    return one if truth else other
 
 
 @instead(lambda: compiled(_either))

@@ -1,8 +1,8 @@
 """Many rows of a motion at once: what drives and dyads place.
 
-A sweep does for a block of rows what a walk does for one, operation by operation, in loops without branches (`lanes`). It makes
-no decisions: it tells how many of its rows may be trusted, by the same checks as the walk, and the walk goes on from
-there. docs/theory/kinematics.md has the equations.
+A sweep does for a block of rows what a walk does for one, operation by operation, in loops without branches (`lanes`).
+It makes no decisions: it tells how many of its rows may be trusted, by the same checks as the walk, and the walk goes
+on from there. docs/theory/kinematics.md has the equations.
 """
 
 from __future__ import annotations

@@ -62,7 +62,7 @@ def packed_labelling() -> float:
 
 def growing(loops: int, parents: int) -> float:
     """Contracted graphs with so many loops from their parents."""
-    return 3e-4 * 2 ** (loops - 3) * parents
+    return 3e-4 * float(1 << (loops - 3)) * parents
 
 
 def census(graphs: int) -> float:

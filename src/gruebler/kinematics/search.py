@@ -7,8 +7,8 @@ What the answer is worth is said in docs/theory/assembly-modes.md. A group comes
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import partial
 from dataclasses import dataclass
+from functools import partial
 from numbers import Integral, Number
 from typing import Literal, NamedTuple
 
