@@ -166,13 +166,11 @@ def test_words_of_kernels_mean_the_same_in_both_tiers() -> None:
 def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A home of the user's own, sources that cannot be written to, and nothing known yet."""
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
-    for name in ("XDG_CACHE_HOME", "LOCALAPPDATA"):
+    for name in ("XDG_CACHE_HOME", "LOCALAPPDATA", "NUMBA_CACHE_DIR"):
         monkeypatch.delenv(name, raising=False)
     (tmp_path / "home").mkdir(mode=0o700)
     access = os.access
-    monkeypatch.setattr(
-        os, "access", lambda path, mode: NUMERIC not in (path, *Path(path).parents) and access(path, mode)
-    )
+    monkeypatch.setattr(os, "access", lambda path, mode: not Path(path).is_relative_to(NUMERIC) and access(path, mode))
     kernel_cache.prepared_folder.cache_clear()
     yield tmp_path / "home"
     kernel_cache.prepared_folder.cache_clear()
@@ -235,6 +233,14 @@ class TestTrust:
         assert folder is not None
         (folder, folder.parent)[depth].chmod(mode)
         assert kernel_cache.cache_folder() is None
+
+    def test_the_folder_of_numba_s_own_variable_comes_first(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "mine"))
+        assert kernel_cache.prepared_folder() == tmp_path / "mine" / kernel_cache._name()
+        (tmp_path / "mine").chmod(0o777)
+        assert kernel_cache.cache_folder() == tmp_path / "home" / ".cache" / "gruebler" / kernel_cache._name()
 
     def test_a_link_is_refused(self, home: Path, tmp_path: Path) -> None:
         (tmp_path / "elsewhere").mkdir(mode=0o700)

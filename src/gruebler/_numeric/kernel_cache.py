@@ -36,7 +36,7 @@ def _name() -> str:
 
 
 def _places() -> Iterator[Path]:
-    """The folders that may hold kernels: the one that NUMBA_CACHE_DIR names, beside the sources, in the user's cache."""
+    """Where kernels may be kept: where NUMBA_CACHE_DIR says, else beside the sources, else in the user's cache."""
     asked = os.environ.get("NUMBA_CACHE_DIR", "")
     if Path(asked).is_absolute():
         yield Path(asked)
