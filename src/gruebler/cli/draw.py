@@ -14,13 +14,13 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from gruebler.atomic_files import atomic_file
 from gruebler.catalog import Entry, entries
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.drawing import Figure, draw, draw_contracted, draw_graph, draw_loops
 from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.enumeration.checkpoint import whole_file
 from gruebler.errors import GrueblerError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
@@ -202,5 +202,5 @@ def subject(word: str, space: str | None, frame: str | None, drives: list[str]) 
 
 def written(path: Path, content: bytes) -> None:
     """Write a file whole or not at all; `RunError` if it cannot be written."""
-    with whole_file(path, durable=False) as file:
+    with atomic_file(path, durable=False) as file:
         file.write(content)

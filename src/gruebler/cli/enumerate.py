@@ -11,15 +11,15 @@ from concurrent.futures import Executor
 from contextlib import closing, contextmanager
 from typing import BinaryIO
 
+from gruebler.atomic_files import atomic_file
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.tables import print_table
-from gruebler.enumeration.checkpoint import RunError, whole_file
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
 from gruebler.enumeration.runs import Processes, Progress
 from gruebler.enumeration.work import Listing
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, RunError
 
 __all__ = ["run"]
 
@@ -150,7 +150,7 @@ def _count(
     if request.fractionated == "all":
         document["by_fractionation"] = found.by_fractionation
     if arguments.output is not None:
-        with whole_file(arguments.output) as file:
+        with atomic_file(arguments.output) as file:
             file.write((json.dumps(document, indent=2) + "\n").encode())
     elif arguments.json:
         print(json.dumps(document, indent=2))
@@ -198,7 +198,7 @@ def _list(
             sys.stdout.flush()  # what follows goes past its buffer
             _write(listings, form, request, sys.stdout.buffer)
             return 0
-        with whole_file(arguments.output) as file:
+        with atomic_file(arguments.output) as file:
             number = _write(listings, form, request, file)
     if sys.stdout.isatty():
         print(_WORDS[arguments.lang]["found"].format(n=number, path=arguments.output))
