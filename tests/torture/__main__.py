@@ -25,7 +25,7 @@ def main() -> int:
         (folder / "inputs").mkdir()
         if arguments.only:
             return _one(arguments.only, arguments.seed, folder / "inputs")
-        faults = _inputs(arguments, folder / "inputs") if arguments.inputs else 0
+        faults = _inputs(arguments, folder / "inputs") if arguments.inputs or arguments.group else 0
         if arguments.kills:
             (folder / "kills").mkdir()
             for what, number in sorted(kill_all(arguments.kills, arguments.seed, folder / "kills").items()):

@@ -243,7 +243,8 @@ VALID: dict[str, Callable[[], list[Case]]] = {
 
 # --- damage ------------------------------------------------------------------------------------------
 
-_NUMBERS = ["0", "-0.0", "-1", "3", "65537", "1000000000", "9" * 30, "9" * 5000, "1e400", "-1e400", "1e308", "1e-308"]
+_NUMBERS = ["0", "-0.0", "-1", "1", "2.5", "7", "30", "45.001", "1e-9", "1e9", "-40"]
+_NUMBERS += ["3", "65537", "1000000000", "9" * 30, "9" * 5000, "1e400", "-1e400", "1e308", "1e-308"]
 _NUMBERS += ["nan", "inf", "-inf", "1_0", "0x10", "1/0", "1/3", "sqrt(-1)", "sqrt(2)", "1,5", "1e", "--1", "١٢", ""]
 _TOKENS = [*"()[]{}-;=,:#\"'\\\n\t \0", "\r\n", "\ufeff", "\u202e", "😀", "ä", "a" * 3000]
 _TOKENS += ["[" * 500, "{" * 500, "(" * 500]
@@ -276,19 +277,19 @@ def _damaged(text: str, chance: random.Random) -> str:
     ]
     if numbers:
         one = chance.choice(numbers)
-        changed += 2 * [text[: one.start()] + chance.choice(_NUMBERS) + text[one.end() :]]
+        changed += 8 * [text[: one.start()] + chance.choice(_NUMBERS) + text[one.end() :]]
     if words:
         one = chance.choice(words)
-        changed += 2 * [text[: one.start()] + chance.choice(words)[0] + text[one.end() :]]
+        changed += 4 * [text[: one.start()] + chance.choice(words)[0] + text[one.end() :]]
     return chance.choice(changed)
 
 
 def _damaged_bytes(content: bytes, chance: random.Random) -> bytes:
-    if chance.random() < 0.15 and content:  # no text any more
+    if chance.random() < 0.05 and content:  # no text any more
         at = chance.randrange(len(content))
         return content[:at] + bytes([chance.randrange(256)]) + content[at + 1 :]
     text = content.decode("utf-8", errors="surrogateescape")
-    for _ in range(chance.randint(1, 3)):
+    for _ in range(chance.choice((1, 1, 1, 2, 3))):
         text = _damaged(text, chance)
     return text.encode("utf-8", errors="surrogatepass" if chance.random() < 0.5 else "replace")
 
@@ -310,7 +311,7 @@ def _with_damage(case: Case, chance: random.Random) -> Case:
         return Case(case.arguments, files, case.only, case.answer)
     arguments = list(case.arguments)
     at = chance.choice(case.only or range(1, len(arguments)))
-    for _ in range(chance.randint(1, 3)):
+    for _ in range(chance.choice((1, 1, 1, 2, 3))):
         arguments[at] = _damaged(arguments[at], chance)
     arguments[at] = arguments[at].replace("\0", "?")  # no argument can hold it
     return Case(tuple(arguments), case.files, case.only)

@@ -88,7 +88,12 @@ def run(arguments: argparse.Namespace) -> int:
         found = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
         text = error.said(arguments.lang)
-        print(text[:1].upper() + text[1:] + "." * (not text.endswith(".")))
+        message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
+        if arguments.json:
+            none = {"columns": [], "rows": [], "complete": False, "message": message}
+            print_json({"linkage": to_json(linkage), **none})
+        else:
+            print(message)
         return 1
     rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, found, rows, arguments.branch)

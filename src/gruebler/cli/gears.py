@@ -39,6 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     reading = _read(arguments.train)
     found = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
+    possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     _picture(arguments, reading)
     if arguments.json:
         print_json(_document(reading, found, forces))
@@ -47,7 +48,6 @@ def run(arguments: argparse.Namespace) -> int:
         if reading.drives:
             print()
             _print_speeds(reading, found, forces, arguments.lang)
-    possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     return int((bool(reading.drives) and not found.complete) or not possible)
 
 
