@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import json
 
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.enumeration import assortments
 from gruebler.enumeration.multiple_assortment import joint_assortments
@@ -38,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
             if arguments.multiple_joints
             else [list(links) for links, _ in found]
         )
-        print(json.dumps(document))
+        print_json(document, indent=None)
     elif not found:
         print(_NONE[lang].format(n=n, f=f))
     else:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from gruebler.cli.machine_pictures import is_few, write_picture
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
     _picture(arguments, reading)
     if arguments.json:
-        print(json.dumps(_document(reading, found, forces), ensure_ascii=False, indent=2))
+        print_json(_document(reading, found, forces))
     else:
         print(explain(reading, arguments.lang))
         if reading.drives:

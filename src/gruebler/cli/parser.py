@@ -16,6 +16,7 @@ from gruebler.cli.linkage_commands import add_linkage_commands
 from gruebler.cli.plot_commands import add as add_plot_commands
 from gruebler.cli.sheet_commands import add as add_sheet_commands
 from gruebler.cli.statics_commands import add as add_statics_commands
+from gruebler.errors import shortened
 
 __all__ = ["build_parser"]
 
@@ -24,7 +25,7 @@ class _Parser(argparse.ArgumentParser):
     """argparse, but wrong usage is one sentence."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"{self.prog}: {shortened(message)} (see {self.prog} --help)\n")
 
 
 def build_parser() -> argparse.ArgumentParser:

@@ -20,6 +20,7 @@ from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.runs import run_rows
 from gruebler.linkages import Linkage
+from gruebler.views import Brief
 
 __all__ = ["Course", "Span", "follow"]
 
@@ -68,8 +69,8 @@ class Span(NamedTuple):
         return 0.0 if self.period - value < _ROUND else value
 
 
-@dataclass(frozen=True)
-class Course:
+@dataclass(frozen=True, repr=False)
+class Course(Brief):
     """A linkage on one branch over the whole range of its drive."""
 
     plan: Plan

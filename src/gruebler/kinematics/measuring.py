@@ -44,6 +44,7 @@ from gruebler.kinematics.outputs import Output, find_output
 from gruebler.kinematics.transmission import NoTransmissionAngleError, Transmission, measure_transmission
 from gruebler.linkages import Linkage
 from gruebler.linkages.extremes import StrokeTimes
+from gruebler.views import Brief
 
 __all__ = ["Measures", "Transfer", "measures"]
 
@@ -72,8 +73,8 @@ class Transfer(NamedTuple):
     """Extremes of psi'': zeros of psi'''."""
 
 
-@dataclass(frozen=True)
-class Measures:
+@dataclass(frozen=True, repr=False)
+class Measures(Brief):
     """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
 
     linkage: Linkage
