@@ -126,6 +126,8 @@ def _add_assortments(commands: argparse._SubParsersAction[_Parser]) -> None:
     assortments.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
     assortments.add_argument("--fractionated", action="store_true", help="also degrees that only these have")
     assortments.add_argument("--multiple-joints", action="store_true", help="with joints of more than two links")
+    assortments.add_argument("--count", action="store_true", help="only how many")
+    assortments.add_argument("--yes", action="store_true", help="begin even if it will be long")
     assortments.add_argument("--json", action="store_true", help="an object with a list of assortments")
     _add_language(assortments)
     assortments.set_defaults(run="gruebler.cli.assortments")
