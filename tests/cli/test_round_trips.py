@@ -1,6 +1,5 @@
 """What one command prints another one reads: entries, reports, lists of mechanisms."""
 
-import io
 import json
 
 import pytest

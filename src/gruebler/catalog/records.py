@@ -190,7 +190,7 @@ def read_entry(path: Path) -> Entry:
 
 
 def entry_of_data(data: object, where: str) -> Entry:
-    """The machine of plain data, such as ``gruebler catalog show --json`` prints; ``where`` leads in a `CatalogError`."""
+    """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
     entry = fitted(data, Entry, lambda text: CatalogError(f"{where}: {text}"))
     _check(entry, where)
     return entry

@@ -74,7 +74,7 @@ def _told(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
 def _list(arguments: argparse.Namespace) -> None:
     machines, tasks = entries().values(), exercises().values()
     if arguments.json:
-        _print_json([_plain(record, full=False) for record in (*machines, *tasks)])
+        _print_json([_plain(record, full=False) for records in (machines, tasks) for record in records])
         return
     lang = arguments.lang
     rows = []

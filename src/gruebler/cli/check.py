@@ -231,7 +231,8 @@ def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Ch
             continue
         empty = False
         try:
-            yield _plain(Chain.parse(line, arguments.space), line.strip(), arguments)
+            chain = chain_of(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
+            yield _plain(chain, line.strip(), arguments)
         except GrueblerError as error:
             raise NotationError(f"{source}, line {number}: {error}") from None
     if empty:
