@@ -89,7 +89,7 @@ def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
         raise GrueblerError(
             f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
         )
-    found = []
+    found: list[Marked] = []
     for word, answer in answers.items():
         key = _asked_for(word, exercise, solution.results)
         if key in (one.key for one in found):
