@@ -145,6 +145,7 @@ def _add_inversions(commands: argparse._SubParsersAction[_Parser]) -> None:
     inversions.add_argument("--anywhere", action="store_true", help="drives between moving links too")
     inversions.add_argument("--number", type=int, default=1, metavar="D", help="so many drives (default: 1)")
     inversions.add_argument("--output", action="store_true", help="choose an output link too")
+    inversions.add_argument("--text", action="store_true", help="a mechanism a line, as other commands read it")
     inversions.add_argument("--count", action="store_true", help="only how many")
     inversions.add_argument("--json", action="store_true", help="an object with count and items")
     _add_language(inversions)
