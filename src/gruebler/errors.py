@@ -47,6 +47,10 @@ class LinkageError(GrueblerError):
     """Dimensions that do not make a sound linkage, or a question that its dimensions do not answer."""
 
 
+class SynthesisError(GrueblerError):
+    """A task of dimensional synthesis that contradicts itself or cannot be read."""
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """The end of a message that offers the known word nearest to a wrong one, or nothing.
 

@@ -1,0 +1,30 @@
+"""Dimensional synthesis: linkages for a wanted motion.
+
+Tasks are positions of a body, points of a path, a function, dead centres; every answer is a `SynthesisResult`: all
+designs with their verdicts, and how many solutions there are by theorem, found and real. docs/theory/synthesis.md has
+the definitions, theorems and methods.
+"""
+
+from gruebler.synthesis.judging import Demands
+from gruebler.synthesis.positions import synthesise_positions
+from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
+from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
+from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+
+__all__ = [
+    "Count",
+    "DeadCentreTask",
+    "Demands",
+    "Design",
+    "FunctionTask",
+    "PathTask",
+    "PositionTask",
+    "SynthesisResult",
+    "Task",
+    "Verdict",
+    "read_task",
+    "synthesise_positions",
+    "task_from_json",
+    "task_to_json",
+    "write_task",
+]
