@@ -225,22 +225,14 @@ def _from_csv(text: str) -> Task:
     )
 
 
-_DIGITS = 17
-"""More digits than any double needs: an angle with more of them is taken as it is written."""
-
-
 def _angle(cell: str) -> float | str | None:
+    """An angle of a CSV file; one with more digits than a double has ends with a degree sign."""
+    if not cell or cell.endswith("°"):
+        return cell[:-1] or None
     try:
-        return (cell if sum(c.isdigit() for c in cell) > _DIGITS else float(cell)) if cell else None
+        return float(cell)
     except ValueError:
         return cell
-
-
-def _cell(value: Any) -> Any:
-    """A value for a CSV file: an angle that is a text gets so many digits that it is taken as one."""
-    if not isinstance(value, str) or not value:
-        return value
-    return value + ("0" * _DIGITS if "." in value else "." + "0" * _DIGITS)
 
 
 def write_task(path: Path | str, task: Task) -> None:
@@ -302,5 +294,7 @@ def _to_csv(document: Mapping[str, Any]) -> str:
     if document["unit"] != "mm":
         raise SynthesisError(f"a CSV file does not name the unit {document['unit']!r}: write .toml or .json")
     out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows([header, *([_cell(value) for value in row] for row in rows)])
+    csv.writer(out, lineterminator="\n").writerows(
+        [header, *([f"{v}°" if isinstance(v, str) and v else v for v in row] for row in rows)]
+    )
     return out.getvalue()
