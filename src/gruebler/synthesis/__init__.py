@@ -5,6 +5,9 @@ designs with their verdicts, and how many solutions there are by theorem, found 
 the definitions, theorems and methods.
 """
 
+from gruebler.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.synthesis.formulas import FunctionLaw
+from gruebler.synthesis.functions import function_task, minimax, structural_error, synthesise_function
 from gruebler.synthesis.judging import Demands
 from gruebler.synthesis.positions import synthesise_positions
 from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
@@ -16,13 +19,19 @@ __all__ = [
     "DeadCentreTask",
     "Demands",
     "Design",
+    "FunctionLaw",
     "FunctionTask",
     "PathTask",
     "PositionTask",
     "SynthesisResult",
     "Task",
     "Verdict",
+    "function_task",
+    "minimax",
     "read_task",
+    "structural_error",
+    "synthesise_dead_centres",
+    "synthesise_function",
     "synthesise_positions",
     "task_from_json",
     "task_to_json",

@@ -228,8 +228,8 @@ class DeadCentreTask:
     """A crank that drives a rocker or slider to and fro: its swing or stroke, and the crank angle between dead centres.
 
     Exactly one of ``swing`` (of a rocker) and ``stroke`` (of a slider), exactly one of ``crank_angle`` and
-    ``time_ratio`` (slow to quick travel, at least 1). The crank angle is that of the travel away from the inner dead
-    centre.
+    ``time_ratio`` (slow to quick travel, at least 1). The crank angle of a rocker is that in which rocker and crank
+    turn the same way; with a time ratio this is the slower travel.
 
     >>> DeadCentreTask(swing=1.0, time_ratio=1.2).angle
     3.4271...
