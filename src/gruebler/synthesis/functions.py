@@ -62,6 +62,8 @@ class _Kind:
     """(pairs, unknowns + 1): the conditions say that a combination of the first columns is the last one."""
     lengths: Callable[[Reals], tuple[float, ...] | None]
     """From the factors of that combination to signed lengths."""
+    input_degree: int = 2
+    """In how many columns the input enters: the degree of the condition for a free input start."""
 
 
 def _four_bar_columns(phi: Reals, psi: Reals) -> Reals:
@@ -94,13 +96,13 @@ def _inverted_columns(phi: Reals, psi: Reals) -> Reals:
 
 
 def _inverted_lengths(k: Reals) -> tuple[float, ...] | None:
-    return (k[0], 1.0, -k[1]) if abs(k[0]) > _SMALL else None
+    return (k[0], 1.0, k[1]) if abs(k[0]) > _SMALL else None
 
 
 _KINDS = (
     _Kind("four-bar", "angle", 3, _four_bar_columns, _four_bar_lengths),
     _Kind("slider-crank", "travel", 3, _slider_columns, _slider_lengths),
-    _Kind("inverted-slider-crank", "angle", 2, _inverted_columns, _inverted_lengths),
+    _Kind("inverted-slider-crank", "angle", 2, _inverted_columns, _inverted_lengths, 1),
 )
 
 
@@ -149,7 +151,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
             continue
         if len(task) == kind.unknowns + free and free < 2:
             solutions = _one_free(kind, task) if free else _none_free(kind, task)
-            theorem = theorem if theorem is None else theorem + (2 if free else 1)
+            theorem = theorem if theorem is None else theorem + (solutions.complex if free else 1)
             found, real = found + solutions.complex, real + len(solutions.real)
             made += [_design(task, wanted, solution) for solution in solutions.real]
     if free == 2:
@@ -205,6 +207,9 @@ def _one_free(kind: _Kind, task: FunctionTask) -> _Solutions:
             return float(np.linalg.det(kind.columns(*shifted(start)) / np.array([size, 1, 1, size**2])))
 
         starts = np.roots(np.polyfit(at, [plain(v) for v in at], 2))
+    elif not task.start_input and kind.input_degree == 1:
+        one, other = (np.linalg.det(kind.columns(*shifted(v))) for v in (0.0, np.pi / 2))
+        starts = np.array([np.arctan2(-one, other)])
     else:
         # A quadratic form in cosine and sine of the start: constant, cos 2t, sin 2t, from three values.
         angles = np.pi * np.arange(3) / 3
@@ -221,7 +226,7 @@ def _one_free(kind: _Kind, task: FunctionTask) -> _Solutions:
     for start in starts:
         if abs(start.imag) < 1e-9 * (1 + abs(start)):
             real += _solved(kind, *shifted(float(start.real)))
-    return _Solutions(tuple(real), 2)
+    return _Solutions(tuple(real), len(starts))
 
 
 def _solved(kind: _Kind, phi: Reals, out: Reals) -> list[Coordination]:
