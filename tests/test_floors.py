@@ -22,7 +22,7 @@ FLOORS = [
     {"assur", "inversion", "linkages", "gears", "cams", "geneva", "screws"},
     {"transformation", "specialisation", "kinematics"},
     {"drawing", "geometry", "realisation", "freedoms", "statics"},
-    {"catalog"},
+    {"catalog", "synthesis"},
     {"exercises", "sheets"},
     {"cli"},
 ]

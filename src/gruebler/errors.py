@@ -61,6 +61,10 @@ class RunError(GrueblerError):
     """A run that cannot begin or go on: workers that keep dying, a directory of another task, an unwritable file."""
 
 
+class SynthesisError(GrueblerError):
+    """A task of dimensional synthesis that contradicts itself or cannot be read."""
+
+
 def shortened(text: str) -> str:
     r"""One line of at most `LONGEST` characters: what is longer loses its middle, words first.
 

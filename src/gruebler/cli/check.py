@@ -21,12 +21,15 @@ from gruebler.catalog import (
     exercises,
     read_entry,
 )
+from gruebler.catalog.records import entry_of_data
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import CatalogError, GrueblerError, NotationError
+from gruebler.freedoms.files import spatial_from_json
 from gruebler.linkages.documents import load
+from gruebler.linkages.files import linkage_from_json
 from gruebler.mobility import mobility_report
 from gruebler.mobility.prose import verdict_word
 
@@ -200,15 +203,31 @@ def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Chec
         raise NotationError(f"{path}: is nested too deeply") from None
     except ValueError as error:  # JSONDecodeError, or a number of thousands of digits
         raise NotationError(f"{path}: is not JSON: {error}") from None
+    if isinstance(document, dict) and "items" in document:
+        document = document["items"]
     if document == []:
         raise NotationError(f"{path}: no chain in it; expected an object or a list of objects")
     documents = document if isinstance(document, list) else [document]
     for number, one in enumerate(documents, 1):
         name = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        if isinstance(one, dict) and "id" in one:
+            yield check_entry(entry_of_data(one, name), origin=name)
+            continue
         try:
-            yield _plain(Chain.from_json(one), name, arguments)
+            yield _plain(_chain_of_json(one), name, arguments)
         except GrueblerError as error:
             raise NotationError(f"{name}: {error}") from None
+
+
+def _chain_of_json(document: Any) -> Chain:
+    """The chain of an object: of a list of mechanisms, a linkage with dimensions or screws, a report, or its own."""
+    if isinstance(document, dict) and isinstance(document.get("text"), str):
+        return chain_of(document["text"])
+    if isinstance(document, dict) and "screws" in document:
+        return spatial_from_json(document).mechanism.chain
+    if isinstance(document, dict) and "unit" in document:
+        return linkage_from_json(document).mechanism.chain
+    return Chain.from_json(document)
 
 
 def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Checked]:
@@ -218,7 +237,8 @@ def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Ch
             continue
         empty = False
         try:
-            yield _plain(Chain.parse(line, arguments.space), line.strip(), arguments)
+            chain = chain_of(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
+            yield _plain(chain, line.strip(), arguments)
         except GrueblerError as error:
             raise NotationError(f"{source}, line {number}: {error}") from None
     if empty:

@@ -17,6 +17,7 @@ from gruebler.exercises import (
     mark,
     plain_key,
     plain_marks,
+    plain_name,
     plain_solution,
     plain_task,
     said_source,
@@ -85,7 +86,7 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
         key, equals, answer = word.partition("=")
         if not equals or not key.strip() or not answer.strip():
             raise GrueblerError(f"an answer is written KEY=ANSWER, such as H=40, not {word!r}")
-        if plain_key(key.strip()) in map(plain_key, answers):
+        if key.strip() in answers:
             raise GrueblerError(f"{key.strip()} is answered twice: give one answer for each")
         answers[key.strip()] = answer
     marks = mark(task, answers)
@@ -104,7 +105,8 @@ def _say(task: Exercise, marks: list[Marked], lang: str) -> None:
             line += f" ({said_value(one.result.value, one.result.unit, lang)})"
         print(line + (f". {one.hint.said(lang)}" if one.hint else ""))
     answered = {one.key for one in marks}
-    missing = [plain_key(asked.key) for asked in task.asked if asked.key not in answered]
+    results = solve(task).results
+    missing = [plain_name(results[asked.key]) for asked in task.asked if asked.key not in answered]
     if missing:
         print(_MISSING.said(lang).format(", ".join(missing)))
     print(_SUMMARY.said(lang).format(right=sum(one.mark is Mark.RIGHT for one in marks), all=len(marks)))

@@ -6,8 +6,7 @@ import argparse
 import math
 from dataclasses import replace
 
-from gruebler.catalog import entry
-from gruebler.cli.inputs import is_text, mechanism_of
+from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.linkage_inputs import tell_compiling
 from gruebler.cli.output import print_json, say_written
 from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
@@ -23,8 +22,8 @@ def run(arguments: argparse.Namespace) -> int:
         check_linkage_path(arguments.output)
     tell_compiling(arguments.lang)
     found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
-    if found.linkage is not None and not is_text(arguments.chain):
-        found = replace(found, linkage=found.linkage.with_outputs(entry(arguments.chain).outputs))
+    if found.linkage is not None and (outputs := outputs_of(arguments.chain)):
+        found = replace(found, linkage=found.linkage.with_outputs(outputs))
     if found.linkage is not None and arguments.output is not None:
         write_linkage(arguments.output, found.linkage)
         say_written(arguments.output, arguments.lang)

@@ -134,6 +134,8 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
     plan = planned(linkages[0])
     if plan.wheels and len(linkages) > 1:
         raise LinkageError("linkages with wheels are moved one by one, by move")
+    if plan.released:
+        raise LinkageError("overconstrained linkages are moved one by one, by move")
     lower = [with_lower_pairs(linkage) for linkage in linkages]
     arrays = [plan.element_arrays(linkage) for linkage in lower]
     points, lines = (np.array([pair[k] for pair in arrays]) for k in (0, 1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import radians
 
@@ -14,6 +14,7 @@ from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RR
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
@@ -69,7 +70,7 @@ class Plan(Brief):
     linkage: Linkage
     """The linkage as it was given."""
     lower: Linkage
-    """The same with turning and sliding joints only."""
+    """The same with turning and sliding joints only, and without redundant conditions."""
     decomposition: Decomposition
     parts: tuple[Dyad | Larger, ...]
     """Dyads and larger groups in solving order."""
@@ -78,6 +79,8 @@ class Plan(Brief):
     """For each larger group its closing conditions."""
     keys: tuple[tuple[int, str], ...]
     """The joint and link of each element by number."""
+    released: tuple[int, ...] = ()
+    """The joints, by number in `linkage`, that are closed only if its sizes are right: redundant conditions."""
 
     @property
     def dyads(self) -> tuple[Dyad, ...]:
@@ -204,10 +207,19 @@ def plan(linkage: Linkage) -> Plan:
         raise LinkageError(
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )
-    parts = decompose(lower.mechanism)
+    parts, released = decompose(lower.mechanism), ()
+    if parts.overconstrained:
+        try:
+            part, released = independent_part(linkage)
+        except LinkageError as error:
+            raise LinkageError(
+                f"the linkage cannot be moved by its drives: constraints or drives work against one another. {error}"
+            ) from None
+        lower = with_lower_pairs(part)
+        parts = decompose(lower.mechanism)
     if not parts.complete:
         raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
-    return _Planner(linkage, lower, parts).made()
+    return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
 class _Planner:

@@ -98,7 +98,8 @@ class MobilityReport(Brief):
             "rigid_clusters": [list(cluster) for cluster in self.rigid_clusters],
             "immobile_joints": [names[k] for k in self.immobile_joints],
             "idle_freedoms": [
-                {"link": idle.link, "freedoms": idle.freedoms, "when": str(idle.when)} for idle in self.idle_freedoms
+                {"links": list(idle.links), "freedoms": idle.freedoms, "when": str(idle.when)}
+                for idle in self.idle_freedoms
             ],
         }
 
