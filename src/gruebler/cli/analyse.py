@@ -230,6 +230,15 @@ def _extent(row: Rotatability, unit: str, words: dict[str, str]) -> str:
     return f"{row.range:.6g} {unit}"
 
 
+def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
+    """A row of the rotatability; the keys of angles end in ``_deg``."""
+    out = row._asdict()
+    angles = {key: out.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
+    if row.freedom == "turn":
+        return out | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
+    return out | angles | {"unit": unit}
+
+
 def _document(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], lang: str
 ) -> dict[str, Any]:
@@ -241,7 +250,7 @@ def _document(
             document |= {"roles": None, "rotatability": None}
         else:
             document["roles"] = {link: str(role) for link, role in motion_roles(around).items()}
-            document["rotatability"] = [row._asdict() | {"range": row.range} for row in rotatability(around)]
+            document["rotatability"] = [_plain_row(row, linkage.unit) for row in rotatability(around)]
     rows = zip(*(column.values for column in made), strict=True)
     return document | {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],

@@ -26,7 +26,7 @@ from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
 from gruebler.cli.tables import print_table
 from gruebler.errors import CatalogError, GrueblerError, NotationError
-from gruebler.freedoms.files import spatial_from_json
+from gruebler.freedoms.files import read_any_linkage, spatial_from_json
 from gruebler.linkages.documents import load
 from gruebler.linkages.files import linkage_from_json
 from gruebler.mobility import mobility_report
@@ -166,7 +166,7 @@ def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
     if path.suffix == ".toml":
         if _is_linkage(path):
-            yield _plain(chain_of(str(path)), path.stem, arguments)
+            yield _plain(read_any_linkage(path).mechanism.chain, path.stem, arguments)
         else:
             yield check_entry(read_entry(path), origin=str(path))
         return
@@ -187,7 +187,7 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
 def _is_linkage(path: Path) -> bool:
     """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
     document = load(path, lambda text: CatalogError(f"{path}: {text}"))
-    return isinstance(document, dict) and "id" not in document and "unit" in document
+    return isinstance(document, dict) and "id" not in document and ("unit" in document or "screws" in document)
 
 
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:

@@ -12,6 +12,7 @@ from gruebler.cli.machine_pictures import is_few, write_picture
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
+from gruebler.gears.assembly import axes
 from gruebler.gears.prose import number
 
 __all__ = ["run"]
@@ -117,6 +118,16 @@ def _document(reading: Reading, found: Speeds, forces: Balance | None) -> dict[s
     if forces:
         document["torques"] = {link: _value(value) for link, value in forces.torques.items()}
         document["powers"] = {link: _value(value) for link, value in forces.powers.items()}
+    document["axes"] = [
+        {
+            "planet": one.planet,
+            "carrier": one.carrier,
+            "wheels": [mesh.b for mesh in one.meshes],
+            "coaxial": one.coaxial,
+        }
+        | {"distances_in_half_modules": [_value(distance) for distance in one.distances]}
+        for one in axes(train)
+    ]
     if reading.planets:
         tested = [assembly(train, planet, count) for planet, count in reading.planets.items()]
         document["assembly"] = [
