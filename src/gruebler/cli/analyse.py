@@ -16,7 +16,7 @@ from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, show
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, motion_roles, move, rotatability
 from gruebler.kinematics.branches import all_branches, read_branch
@@ -195,7 +195,7 @@ def _tell(
 
 
 def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
-    print(found.explain(lang))
+    print_text(found.explain(lang))
     made = _circuit(linkage, found)
     if isinstance(made, LinkageError):
         print(words["unknown"].format(why=made.said(lang)))

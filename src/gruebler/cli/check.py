@@ -24,7 +24,7 @@ from gruebler.catalog import (
 from gruebler.catalog.records import entry_of_data
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import CatalogError, GrueblerError, NotationError
 from gruebler.freedoms.files import read_any_linkage, spatial_from_json
 from gruebler.linkages.documents import load
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps([to_json(one) for one in found], ensure_ascii=False, indent=2))
     elif arguments.explain:
-        print("\n\n".join(explanation(one, arguments.lang) for one in found))
+        print_text("\n\n".join(explanation(one, arguments.lang) for one in found))
     else:
         print_checked(found, arguments.lang)
     _complain(found)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.cli.machine_pictures import is_few, write_picture
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
 from gruebler.gears.assembly import axes
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print(json.dumps(_document(reading, found, forces), ensure_ascii=False, indent=2))
     else:
-        print(explain(reading, arguments.lang))
+        print_text(explain(reading, arguments.lang))
         if reading.drives:
             print()
             _print_speeds(reading, found, forces, arguments.lang)
