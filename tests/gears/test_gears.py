@@ -22,7 +22,9 @@ from gruebler.gears import (
     speeds,
 )
 from gruebler.gears.assembly import axes
-from tests.gears.oracles import fits, rolling
+from gruebler.gears.prose import number
+from gruebler.gears.rational import Elimination, echelon
+from tests.gears.oracles import fits, rolling, slow_echelon, slow_reduced
 
 PLANETARY = "sun:24 planet:18 ring:-60 on arm"
 teeth = st.integers(8, 90)
@@ -347,6 +349,44 @@ def test_numbers_of_planets():
     assert "Equal planets (planet) that fit at equal angles: 2, 3, 4, 6." in explain(
         read_train("sun:24 planet:18 ring:-60 on arm")
     )
-    for number in range(2, 13):
-        fits = assembly(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet", number).possible
-        assert fits == (84 % number == 0 and 42 * math.sin(math.pi / number) > 20)
+    for many in range(2, 13):
+        fits = assembly(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet", many).possible
+        assert fits == (84 % many == 0 and 42 * math.sin(math.pi / many) > 20)
+
+
+ROWS = st.lists(
+    st.dictionaries(st.integers(0, 7), st.builds(Q, st.integers(-3, 3), st.integers(1, 3)), max_size=4), max_size=9
+)
+
+
+@given(ROWS, st.permutations(range(8)))
+def test_elimination_gives_the_form_and_the_order_of_gauss_and_jordan(rows, columns):
+    slow = slow_echelon(rows, columns)
+    form = echelon(rows, columns)
+    assert list(form.items()) == list(slow.items())
+    growing = Elimination(columns)
+    for k, row in enumerate(rows):
+        before = slow_echelon(rows[:k], columns)
+        assert growing.left(row) == slow_reduced(row, before)
+        assert growing.add(row) == bool(slow_reduced(row, before))
+
+
+@pytest.mark.parametrize("driven", [0, 1999])
+def test_a_row_of_two_thousand_wheels(driven):
+    """w_k z_k = (-1)^(k - j) w_j z_j for wheels in a row, whichever is driven."""
+    teeth = [17 + k % 40 for k in range(2000)]
+    reading = read_train(" ".join(f"w{k}:{z}" for k, z in enumerate(teeth)) + f"; drive w{driven}=1")
+    found = speeds(reading.train, reading.drives)
+    assert found.values == {f"w{k}": Q((-1) ** abs(k - driven) * teeth[driven], z) for k, z in enumerate(teeth)}
+    assert reading.train.redundant == ()
+    assert explain(reading).startswith("2000 moving links, 1999 independent meshes: mobility 1.")
+
+
+def test_ratios_with_thousands_of_digits_are_said_in_six():
+    """5,000 stages of 100:10, whose ratio 10^5000 has more digits than Python writes."""
+    reading = read_train("; ".join(f"w{k}:100 w{k + 1}:10" for k in range(5000)) + "; drive w0=1")
+    found = speeds(reading.train, reading.drives).values["w5000"]
+    assert found == Q(10) ** 5000
+    assert number(found) == "1e+5000"
+    assert number(1 / found) == "1e-5000"
+    assert "Speeds: 1e+5000 w0 - w5000 = 0" in explain(reading)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
 
 import msgspec
 
 from gruebler.catalog import Entry, Exercise, entries, entry, exercises
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
 from gruebler.linkages.documents import infinities_as_words
 from gruebler.mechanism import Mechanism
@@ -44,14 +44,10 @@ def run(arguments: argparse.Namespace) -> int:
         case "show":
             records = [exercises().get(id) or entry(id) for id in arguments.ids]
             if arguments.json:
-                _print_json([_plain(record, arguments.full) for record in records])
+                print_json([_plain(record, arguments.full) for record in records])
             else:
                 print_text("\n\n".join(_told(record, arguments) for record in records))
     return 0
-
-
-def _print_json(documents: list[Any]) -> None:
-    print(json.dumps(documents, ensure_ascii=False, indent=2, allow_nan=False))
 
 
 def _plain(record: Entry | Exercise, full: bool) -> Any:
@@ -74,7 +70,7 @@ def _told(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
 def _list(arguments: argparse.Namespace) -> None:
     machines, tasks = entries().values(), exercises().values()
     if arguments.json:
-        _print_json([_plain(record, full=False) for records in (machines, tasks) for record in records])
+        print_json([_plain(record, full=False) for records in (machines, tasks) for record in records])
         return
     lang = arguments.lang
     rows = []

@@ -24,6 +24,7 @@ from gruebler.catalog import (
 from gruebler.catalog.records import entry_of_data
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import CatalogError, GrueblerError, NotationError
 from gruebler.freedoms.files import read_any_linkage, spatial_from_json
@@ -56,12 +57,14 @@ _GROUP = {
 }
 _WIDEST_NAME = 44
 
+_ENDINGS = (".toml", ".json", ".txt", ".g6")  # of files with chains; without an ending: one chain a line
+
 
 def run(arguments: argparse.Namespace) -> int:
     """Check what the arguments name; 1 if a claim fails."""
     found = [one for word in arguments.chains for one in _checked(word, arguments)] if arguments.chains else check_all()
     if arguments.json:
-        print(json.dumps([to_json(one) for one in found], ensure_ascii=False, indent=2))
+        print_json([to_json(one) for one in found])
     elif arguments.explain:
         print_text("\n\n".join(explanation(one, arguments.lang) for one in found))
     else:
@@ -144,7 +147,7 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
         yield from _lines(sys.stdin.read(), "standard input", arguments)
     elif is_text(word):
         yield _plain(chain_of(word, arguments.space), word, arguments)
-    elif (path := Path(word)).is_file() or path.suffix in {".toml", ".json", ".txt", ".g6"}:
+    elif (path := Path(word)).is_file() or path.suffix.lower() in _ENDINGS:
         yield from _file(path, arguments)
     elif word in exercises():
         yield from check_exercise(exercises()[word])
@@ -164,7 +167,10 @@ def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
 
 
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
-    if path.suffix == ".toml":
+    ending = path.suffix.lower()
+    if ending not in ("", *_ENDINGS):
+        raise CatalogError(f"{path}: expected a file that ends with {', '.join(_ENDINGS)}, not with {path.suffix}")
+    if ending == ".toml":
         if _is_linkage(path):
             yield _plain(read_any_linkage(path).mechanism.chain, path.stem, arguments)
         else:
@@ -176,9 +182,9 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
         raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
         raise CatalogError(f"{path}: is not UTF-8 text") from None
-    if path.suffix == ".json":
+    if ending == ".json":
         yield from _json(path, text, arguments)
-    elif path.suffix == ".g6":
+    elif ending == ".g6":
         yield from _lines("".join(f"g6:{line}\n" for line in text.split()), str(path), arguments)
     else:
         yield from _lines(text, str(path), arguments)

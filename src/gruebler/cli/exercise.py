@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
-from typing import Any
 
 from gruebler.catalog import Exercise, Text
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.exercises import (
@@ -61,14 +60,10 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _print_json(document: Any) -> None:
-    print(json.dumps(document, ensure_ascii=False, indent=2))
-
-
 def _list(arguments: argparse.Namespace) -> None:
     found = all_exercises().values()
     if arguments.json:
-        _print_json([plain_task(one) for one in found])
+        print_json([plain_task(one) for one in found])
         return
     lang = arguments.lang
     print_table(_HEADERS[lang], [(one.id, one.name.said(lang), said_source(one.source, lang)) for one in found])
@@ -76,7 +71,7 @@ def _list(arguments: argparse.Namespace) -> None:
 
 def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
     if arguments.json:
-        _print_json([plain_solution(one, solve(one)) if solved else plain_task(one) for one in found])
+        print_json([plain_solution(one, solve(one)) if solved else plain_task(one) for one in found])
         return
     texts = [
         solution_text(one, solve(one), arguments.lang) if solved else task_text(one, arguments.lang, solve(one))
@@ -97,7 +92,7 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
     marks = mark(task, answers)
     right = all(one.mark is Mark.RIGHT for one in marks)
     if arguments.json:
-        _print_json({"id": task.id, "right": right, "answers": plain_marks(marks)})
+        print_json({"id": task.id, "right": right, "answers": plain_marks(marks)})
     else:
         _say(task, marks, arguments.lang)
     return 0 if right else 1

@@ -11,8 +11,9 @@ from typing import Any
 
 from gruebler.catalog import entries, entry
 from gruebler.chain import Chain
-from gruebler.cli.draw import german, subject, written
+from gruebler.cli.draw import german, subject
 from gruebler.cli.inputs import assortment_of, is_text, outputs_of
+from gruebler.cli.output import write_file
 from gruebler.drawing import Item, Section, draw, gallery_html
 from gruebler.drawing.files import suffix_of
 from gruebler.drawing.prose import chain_name
@@ -78,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
         from gruebler.drawing.plotting import gallery_pdf
 
         content = gallery_pdf(title, sections, note=note)
-    written(arguments.output, content)
+    write_file(arguments.output, content, arguments.lang)
     return 0
 
 

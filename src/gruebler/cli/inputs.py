@@ -28,8 +28,10 @@ def _is_code(word: str) -> bool:
 def _of_file(word: str) -> Mechanism | None:
     """The mechanism of a file with the dimensions of a linkage or the screws of its joints, if the word is one."""
     path = Path(word)
-    if is_text(word) or path.suffix.lower() not in (".toml", ".json") or not path.is_file():
+    if is_text(word) or not path.suffix or not path.is_file():
         return None
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise GrueblerError(f"{path}: expected a .toml or .json file of a linkage, not {path.suffix}")
     from gruebler.freedoms.files import read_any_linkage
 
     return read_any_linkage(path).mechanism

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
 
 from gruebler.cli.inputs import chain_of
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven, driven_mechanisms, family, inversions
@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
         document: dict[str, object] = {"count": len(found)}
         if not arguments.count:
             document["items"] = [item(driven) for driven in found]
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     elif arguments.count:
         print(len(found))
     elif arguments.text:

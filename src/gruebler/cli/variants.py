@@ -9,6 +9,7 @@ import sys
 from gruebler.chain import Chain
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
+from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven
 from gruebler.isomorphism import code
@@ -42,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = list(variants(wanted))
     if arguments.json:
         items = [_item(one) for one in found]
-        print(json.dumps({"count": len(items), "items": items}, ensure_ascii=False, indent=2))
+        print_json({"count": len(items), "items": items})
         return 0
     for one in found:
         print(one)

@@ -21,14 +21,15 @@ from gruebler.linkages import Linkage
 from gruebler.mobility import MobilityReport, mobility_report
 from gruebler.mobility.idle import IdleFreedom
 from gruebler.screws import SpatialLinkage
+from gruebler.views import Brief
 
 __all__ = ["Freedoms", "freedom_report", "freedoms"]
 
 Reals = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class Freedoms:
+@dataclass(frozen=True, eq=False, repr=False)
+class Freedoms(Brief):
     """What `freedoms` found. `explain` says it in words."""
 
     linkage: Linkage | SpatialLinkage

@@ -115,8 +115,11 @@ def axes(train: Train) -> tuple[Axes, ...]:
         for mesh in meshes:
             partners.setdefault(mesh.a, set()).add(mesh.b)
             partners.setdefault(mesh.b, set()).add(mesh.a)
+        same: dict[frozenset[str], set[str]] = {}
         for planet, centres in partners.items():
-            alike = {link for link, mine in partners.items() if mine == centres}
+            same.setdefault(frozenset(centres), set()).add(planet)
+        for planet, centres in partners.items():
+            alike = same[frozenset(centres)]
             star = len(alike) == 1 and all(partners[centre] == {planet} for centre in centres)
             ring = len(alike) > 1 and len(centres) == 2 and all(partners[centre] == alike for centre in centres)
             if len(centres) > 1 and (star or ring):

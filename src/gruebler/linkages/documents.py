@@ -8,6 +8,7 @@ import re
 import tomllib
 from collections.abc import Callable, Mapping
 from difflib import get_close_matches
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
@@ -58,7 +59,8 @@ def _no_number(word: str) -> NoReturn:
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     out = dict(pairs)
     if len(out) < len(pairs):
-        twice = next(key for k, (key, _) in enumerate(pairs) if key in dict(pairs[:k]))
+        # The dictionary has each key where it stands first: the two part where one comes again.
+        twice = next(pair[0] for pair, key in zip_longest(pairs, out) if pair[0] != key)
         raise ValueError(f"the key {twice!r} stands twice in one object")
     return out
 

@@ -11,6 +11,7 @@ from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
 from gruebler.mobility.rank import Generic, generic
+from gruebler.views import Brief
 
 __all__ = ["MobilityReport", "Verdict", "mobility_report"]
 
@@ -30,8 +31,8 @@ class Verdict(StrEnum):
     """F > 1: as many drives are needed."""
 
 
-@dataclass(frozen=True)
-class MobilityReport:
+@dataclass(frozen=True, repr=False)
+class MobilityReport(Brief):
     """What `mobility_report` found. `explain` says it in words."""
 
     chain: Chain
