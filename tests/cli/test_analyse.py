@@ -163,7 +163,10 @@ REFUSED = [
     (["four-bar:a,b,c,d"], "four-bar: expected numbers a,b,c,d"),
     (["fourbar:1,2,3,4"], "did you mean 'four-bar'?"),
     (["crankroker"], "did you mean crankrocker"),
-    (["loco3"], "the places of its joints in one position, not the sizes of its links: `gruebler freedoms loco3` says"),
+    (
+        ["winch_screw"],
+        "the places of its joints in one position, not the sizes of its links: `gruebler freedoms winch_screw` says",
+    ),
     (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
     (["/dev/null"], "a linkage is in a .toml or .json file"),
