@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.dyads import dyad_square
 from gruebler._numeric.placing import attempt, commit, forget, set_drives, zero_ahead
 from gruebler._numeric.program import (
@@ -43,6 +43,7 @@ from gruebler._numeric.program import (
 )
 from gruebler._numeric.registers import REGISTERS
 from gruebler._numeric.sweep import steady, sweep, swept_links
+from gruebler._numeric.work import walking
 
 __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
 
@@ -195,7 +196,8 @@ def run(
     """
     memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
     s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
-    return walk(program, path, speeds, signs, start, poses, memory, s, np.empty(REGISTERS))
+    move = for_work(walk, walking(program, len(path), len(poses.rates)))
+    return move(program, path, speeds, signs, start, poses, memory, s, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
