@@ -64,30 +64,25 @@ def facts(found: Measures, mirrored: bool = False) -> dict[str, object]:
     def at(value: float) -> float:
         return value * drive
 
-    def rows(items: object, *, value: float) -> list[tuple[float, float, str]]:
-        return [(at(i.drive), getattr(i, "output", getattr(i, "value", 0.0)) * value, kind(i.kind)) for i in items]
-
-    def kind(word: str) -> str:
-        swap = {"maximum": "minimum", "minimum": "maximum", "rising": "falling", "falling": "rising"}
-        return swap.get(word, word) if mirrored and found.output.turning else word
-
     def rate(order: int) -> float:
         return out / drive**order
 
-    def flipped(items: list[tuple[float, float, str]], order: int) -> list[tuple[float, float, str]]:
-        """A derivative of odd order by a mirrored drive has the other sign once more."""
-        if not (mirrored and found.turning_drive and order % 2):
-            return items
+    def kind(word: str, order: int) -> str:
+        """What is a maximum of a derivative, or rises, is a minimum where its sign is the other one."""
         swap = {"maximum": "minimum", "minimum": "maximum", "rising": "falling", "falling": "rising"}
-        return [(x, y, swap.get(word, word)) for x, y, word in items]
+        return swap.get(word, word) if rate(order) < 0 else word
+
+    def rows(items: object, order: int) -> list[tuple[float, float, str]]:
+        values = [getattr(i, "output", getattr(i, "value", 0.0)) * rate(order) for i in items]
+        return [(at(i.drive), value, kind(i.kind, order)) for i, value in zip(items, values, strict=True)]
 
     transfer, mu = found.transfer, found.transmission
-    dwells = [(at(d.drive), d.output * out, kind(d.kind) + d.side) for d in found.dwells]
+    dwells = [(at(d.drive), d.output * out, kind(d.kind, 0) + d.side) for d in found.dwells]
     ways = [found.phi_forward, found.phi_back]
     return {
         "full": (span.full, span.turns),
         "range": [] if span.full else sorted((at(span.low), at(span.high))),
-        "dead centres": rows(found.dead_centres, value=out),
+        "dead centres": rows(found.dead_centres, 0),
         "sides": [(at(c.drive), 0.0, c.side) for c in found.dead_centres],
         "dwells": dwells,
         "durations": [(at(d.drive), d.duration * abs(drive), "") for d in found.dwells],
@@ -97,9 +92,9 @@ def facts(found: Measures, mirrored: bool = False) -> dict[str, object]:
         "ratio": found.time_ratio,
         "change points": [(at(c.drive), 0.0, c.form + " ".join(c.links)) for c in found.change_points],
         "still": (transfer.still, transfer.uniform),
-        "zeros": flipped(rows(transfer.zeros, value=rate(1)), 0),
-        "velocity": flipped(rows(transfer.velocity, value=rate(1)), 1),
-        "acceleration": rows(transfer.acceleration, value=rate(2)),
+        "zeros": rows(transfer.zeros, 1),
+        "velocity": rows(transfer.velocity, 1),
+        "acceleration": rows(transfer.acceleration, 2),
         "transmission": [] if mu is None else [(at(e.drive), e.mu, " ".join(e.links)) for e in mu.extremes],
     }
 
