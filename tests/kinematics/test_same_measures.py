@@ -54,7 +54,7 @@ def laid(linkage: Linkage, turn: float, shift: complex) -> Linkage:
     return Linkage(linkage.mechanism, elements, unit=linkage.unit, home=home, outputs=linkage.outputs)
 
 
-def facts(found: Measures, mirrored: bool = False) -> dict[str, object]:
+def facts(found: Measures, *, mirrored: bool = False, plain: bool = False) -> dict[str, object]:
     """What must be the same: lengths in sizes, angles as they are, of a mirror image with the other sign."""
     size = found.linkage.size
     drive = (-1 if mirrored else 1) if found.turning_drive else 1 / size
@@ -83,8 +83,9 @@ def facts(found: Measures, mirrored: bool = False) -> dict[str, object]:
         "full": (span.full, span.turns),
         "range": [] if span.full else sorted((at(span.low), at(span.high))),
         "dead centres": rows(found.dead_centres, 0),
-        "sides": [(at(c.drive), 0.0, c.side) for c in found.dead_centres],
-        "dwells": dwells,
+        # where nothing else decides, the larger angle is the inner dead centre: of a mirror image the other one
+        "sides": [] if mirrored or plain else [(at(c.drive), 0.0, c.side) for c in found.dead_centres],
+        "dwells": [(*row[:2], "") for row in dwells] if mirrored or plain else dwells,
         "durations": [(at(d.drive), d.duration * abs(drive), "") for d in found.dwells],
         "turns": abs(found.output_turns),
         "travel": None if found.travel is None else found.travel * abs(out),
@@ -129,7 +130,7 @@ def check(linkage: Linkage, scale: float, turn: float, shift: complex) -> None:
     same(facts(measures(linkage.scaled(scale))), plain, found)
     same(facts(measures(laid(linkage, turn, shift * linkage.size))), plain, found)
     if not any(isinstance(e, Disc) for e in linkage.elements.values()):
-        same(facts(measures(linkage.mirrored()), mirrored=True), plain, found)
+        same(facts(measures(linkage.mirrored()), mirrored=True), facts(found, plain=True), found)
 
 
 # --- random linkages ---------------------------------------------------------------------------------
