@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from typing import Any
 
 import numpy as np
 
 from gruebler.cli.machine_pictures import angle_of, write_picture
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
@@ -62,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         if table is not None:
             keys = ("driver_deg", "wheel_deg", *_TABLE["en"][2:])
             document["motion"] = records(keys, table)
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
         return 0
     german = arguments.lang == "de"
     rows = [(_ROWS[key][german], f"{value:.10g}{_ROWS[key][2]}") for key, value in figures.items()]

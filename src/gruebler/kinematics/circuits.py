@@ -22,6 +22,7 @@ from gruebler.kinematics.moving import move
 from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.zeros import Samples, zeros
 from gruebler.linkages import Linkage, Named, with_lower_pairs
+from gruebler.views import Brief
 
 __all__ = ["ChangePoint", "Circuit", "Extreme", "Stretch", "circuit"]
 
@@ -67,8 +68,8 @@ class Stretch(NamedTuple):
     """The drive values at both."""
 
 
-@dataclass(frozen=True, eq=False)
-class Circuit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Circuit(Brief):
     """All positions of a linkage on one curve.
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle

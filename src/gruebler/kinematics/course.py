@@ -20,9 +20,10 @@ from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Reals, Stop
 from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.runs import run_rows
+from gruebler.kinematics.runs import follow_path, run_rows
 from gruebler.kinematics.zeros import Samples
 from gruebler.linkages import Linkage
+from gruebler.views import Brief
 
 __all__ = ["Course", "Span", "follow"]
 
@@ -78,8 +79,8 @@ class Span(NamedTuple):
         return 0.0 if self.period - value < _ROUND else value
 
 
-@dataclass(frozen=True)
-class Course:
+@dataclass(frozen=True, repr=False)
+class Course(Brief):
     """A linkage on one branch over the whole range of its drive."""
 
     plan: Plan
@@ -159,6 +160,10 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
         )
     start = _begun(plan, branch)
     span = _span(plan, start)
+    for stop in span.stops:
+        if stop is not None and stop.reason == "open":
+            found = replace(start, stop=stop)
+            raise LinkageError(found.message(), found.message("de"))
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
@@ -183,7 +188,10 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
+    if plan.released:  # its independent part may have change points where it has none
+        motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
+    else:
+        motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
     if order:
         mend_rates(plan, motion, path, speeds, signs)
     return motion, rows

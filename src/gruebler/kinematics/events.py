@@ -19,6 +19,7 @@ from gruebler.kinematics.motion import Reals
 from gruebler.kinematics.outputs import Output
 from gruebler.kinematics.plan import Dyad
 from gruebler.kinematics.poses import Poses
+from gruebler.kinematics.redundancy import regular
 from gruebler.kinematics.zeros import Zero, bracketed, vanishing, zeros
 
 __all__ = [
@@ -334,6 +335,8 @@ def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
         mine = roots[:, dyad.number]
         for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
             found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
+    if course.plan.released and found:  # one of the independent part may be none of the linkage
+        found = [point for point in found if not regular(course.at(np.array([point.drive]), 0), 0)]
     return tuple(sorted(found))
 
 

@@ -48,6 +48,7 @@ from gruebler.kinematics.transmission import NoTransmissionAngleError, Transmiss
 from gruebler.kinematics.zeros import sampled
 from gruebler.linkages import Linkage
 from gruebler.linkages.extremes import StrokeTimes
+from gruebler.views import Brief
 
 __all__ = ["Measures", "Transfer", "measures"]
 
@@ -76,8 +77,8 @@ class Transfer(NamedTuple):
     """Extremes of psi'': zeros of psi'''."""
 
 
-@dataclass(frozen=True)
-class Measures:
+@dataclass(frozen=True, repr=False)
+class Measures(Brief):
     """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
 
     linkage: Linkage
