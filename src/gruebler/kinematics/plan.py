@@ -210,7 +210,8 @@ def plan(linkage: Linkage) -> Plan:
         raise LinkageError(
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )
-    parts, released = decompose(lower.mechanism), ()
+    parts = decompose(lower.mechanism)
+    released: tuple[int, ...] = ()
     if parts.overconstrained:
         try:
             part, released = independent_part(linkage)
