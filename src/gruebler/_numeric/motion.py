@@ -30,7 +30,6 @@ from gruebler._numeric.program import (
     NEAREST,
     PUSH,
     RPR,
-    RRR,
     SINGULAR,
     START,
     TURN,
@@ -320,13 +319,13 @@ def _walk_to(
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
-    """The number of a dyad near a change point whose first body a step has turned by more than a right angle, or -1.
+    """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
 
-    Where the outer joints meet, their line reverses; the body goes straight on, and it is the assembly mode that
+    Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
     changes. Steps are too short for any other turn like that.
     """
     for operation in program.operations:
-        if operation[0] == RRR or operation[0] == RPR:
+        if operation[0] == RPR:
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast
