@@ -78,6 +78,7 @@ def _add_check(commands: argparse._SubParsersAction[_Parser]) -> None:
     check.add_argument("--b", type=int, metavar="B", help="motions of a free link for the count (2 for a screw group)")
     check.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
     check.add_argument("--explain", action="store_true", help="say in words, step by step")
+    check.add_argument("--yes", action="store_true", help="begin even if it will be long or take much memory")
     check.add_argument("--json", action="store_true", help="a list of objects, one for each chain")
     _add_language(check)
     check.set_defaults(run="gruebler.cli.check")

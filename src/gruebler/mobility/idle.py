@@ -9,10 +9,11 @@ the same. The condition is therefore reported with the freedom, only where the c
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from gruebler._numeric.prime_field import Row, echelon
+from gruebler._numeric.prime_field import P, inverse
 from gruebler.mobility.rank import Generic
 
 __all__ = ["IdleFreedom", "When", "idle_freedoms"]
@@ -44,18 +45,37 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
     (IdleFreedom(link='rod', freedoms=1, when=<When.ALWAYS: 'always'>),)
     """
     chain = rank.chain
+    joints: dict[str, list[int]] = {link: [] for link in chain.links}
+    for k, joint in enumerate(chain.joints):
+        for link in joint.links:
+            joints[link].append(k)
     found = []
-    for link in chain.links:
-        mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+    for link, mine in joints.items():
         if len(mine) < 2:
             continue
-        rows: list[Row] = [dict(enumerate(f)) for k in mine for f in rank.placement.functionals[k]]
-        left = chain.space.b - echelon(rows, chain.space.b).rank
+        left = chain.space.b - _rank((f for k in mine for f in rank.placement.functionals[k]), chain.space.b)
         if left:
             found.append(IdleFreedom(link, left, When.ALWAYS))
         elif rank.mobility >= 2 and _may_be_roller(rank, mine, frame):
             found.append(IdleFreedom(link, 1, When.ROUND))
     return tuple(found)
+
+
+def _rank(rows: Iterable[tuple[int, ...]], most: int) -> int:
+    """The rank of short rows; what follows once it has reached ``most`` is not looked at."""
+    basis: list[tuple[int, list[int]]] = []
+    for row in rows:
+        rest = list(row)
+        for pivot, known in basis:
+            if factor := rest[pivot]:
+                rest = [(a - factor * b) % P for a, b in zip(rest, known, strict=True)]
+        if any(rest):
+            pivot = next(k for k, value in enumerate(rest) if value)
+            scale = inverse(rest[pivot])
+            basis.append((pivot, [value * scale % P for value in rest]))
+            if len(basis) == most:
+                break
+    return len(basis)
 
 
 def _may_be_roller(rank: Generic, joints: list[int], frame: str) -> bool:
