@@ -156,6 +156,6 @@ def test_what_is_long_or_large_is_refused_unless_it_is_wanted(monkeypatch):
     random = np.random.default_rng(2)
     matrix = random.integers(0, P, (60, 70))
     monkeypatch.setattr(prime_field, "_LARGE", 1000)
-    with pytest.raises(CoreTooLarge, match=r"60 equations .* large=True"):
+    with pytest.raises(CoreTooLarge, match=r"60 equations"):
         echelon(sparse(matrix), 70)
     assert echelon(sparse(matrix), 70, large=True).rank == 60

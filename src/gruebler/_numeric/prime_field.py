@@ -14,8 +14,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.errors import GrueblerError
-
 __all__ = [
     "CoreTooLarge",
     "Echelon",
@@ -54,8 +52,12 @@ _CHUNK = 1_000_000  # entries of the matrices that are eliminated side by side
 _SPARSE_STEPS = 20_000_000  # products of entries spent on a larger one: about ten seconds
 
 
-class CoreTooLarge(GrueblerError):
-    """An elimination that takes long or much memory, refused before it is begun."""
+class CoreTooLarge(Exception):
+    """An elimination that takes long or much memory, refused before it is begun: equations, seconds, bytes."""
+
+    def __init__(self, rows: int, seconds: float, size: float) -> None:
+        super().__init__(f"{rows} equations, {seconds:.0f} s, {size:.0f} bytes")
+        self.rows, self.seconds, self.size = rows, seconds, size
 
 
 class Echelon(NamedTuple):
@@ -156,13 +158,7 @@ def _refuse_too_large(rows: int, columns: int) -> None:
     seconds = _SECONDS * rows * columns * min(rows, columns)
     size = 16 * rows * columns + 64 * _STRIPE * columns  # the matrix and its result; the parts of a product
     if seconds > _LONG or size > _LARGE:
-        raise CoreTooLarge(
-            f"so many loops cross that {rows:,} equations are left to be solved at once: about {seconds / 60:.0f} min, "
-            f"{size / 1e9:.1f} GB; `gruebler check --yes` and mobility_report(..., large=True) begin it nevertheless",
-            f"so viele Maschen greifen ineinander, dass {rows:,} Gleichungen auf einmal zu lösen bleiben: etwa "
-            f"{seconds / 60:.0f} min, {size / 1e9:.1f} GB; `gruebler check --yes` und mobility_report(..., large=True) "
-            "beginnen trotzdem",
-        )
+        raise CoreTooLarge(rows, seconds, size)
 
 
 def _arrays(items: list[tuple[int, int]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

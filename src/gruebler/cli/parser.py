@@ -175,6 +175,7 @@ def _add_variants(commands: argparse._SubParsersAction[_Parser]) -> None:
         "--output-at-drive", choices=("yes", "no"), help="whether the output is a driven link's neighbour"
     )
     variants.add_argument("--count", action="store_true", help="only how many")
+    variants.add_argument("--yes", action="store_true", help="begin even if it will be long")
     variants.add_argument("--json", action="store_true", help="an object with count and items")
     _add_language(variants)
     variants.set_defaults(run="gruebler.cli.variants")
@@ -199,6 +200,7 @@ def _add_assur(commands: argparse._SubParsersAction[_Parser]) -> None:
     assur.add_argument("--anywhere", action="store_true", help="without a drive: drives between moving links too")
     assur.add_argument("--list", type=int, metavar="N", help="all groups with N links instead")
     assur.add_argument("--count", action="store_true", help="only how many")
+    assur.add_argument("--yes", action="store_true", help="with --list: begin even if it will be long")
     assur.add_argument("--json", action="store_true", help="an object with count and items")
     _add_language(assur)
     assur.set_defaults(run="gruebler.cli.assur")

@@ -15,16 +15,21 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.prime_field import Echelon, echelon, null_space, random_solutions, transposed
+from gruebler._numeric.prime_field import CoreTooLarge, Echelon, Row, echelon, null_space, random_solutions, transposed
 from gruebler.chain import Chain
+from gruebler.errors import GrueblerError
 from gruebler.mobility.placement import Lock, Placement, place
 from gruebler.mobility.sparsity import pebble_mobility, theorem
 
-__all__ = ["Generic", "generic", "generic_mobility"]
+__all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
 
 _FIRST_SEED = 20_261_121
 _SAMPLES = 3  # random motions or stresses that stand for all
 _TRIES = 4  # placements tried before a rank below the theorem's is called impossible
+
+
+class TooLargeError(GrueblerError):
+    """A chain whose rank takes more than about a minute or 1 GB, refused before it is begun."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +85,7 @@ class Generic:
     def stress_form(self) -> Echelon:
         """The equations of the self-stresses, the dependencies among the constraints, in echelon form."""
         rows = transposed(self.placement.rows, self.placement.columns)
-        return echelon(rows, len(self.placement.rows), large=self.large)
+        return _eliminated(rows, len(self.placement.rows), large=self.large)
 
     @cached_property
     def some_stresses(self) -> NDArray[np.int64]:
@@ -92,7 +97,7 @@ def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) ->
     """The generic rank of a chain, with its certificate, some freedoms locked if wanted.
 
     Cost: about linear for chains that grow dyad by dyad, cubic in the dense core of others; see
-    benchmarks/README.md. Raises `CoreTooLarge` where that core takes more than about a minute or 1 GB, unless
+    benchmarks/README.md. Raises `TooLargeError` where that core takes more than about a minute or 1 GB, unless
     ``large``.
     """
     licensed = bool(theorem(chain)) and not locks
@@ -100,7 +105,7 @@ def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) ->
     best: tuple[Placement, Echelon] | None = None
     for attempt in range(_TRIES):
         placement = place(chain, _FIRST_SEED + attempt, locks)
-        form = echelon(placement.rows, placement.columns, large=large)
+        form = _eliminated(placement.rows, placement.columns, large=large)
         if form.rank == min(len(placement.rows), placement.columns):
             return Generic(chain, placement, form, True, 0.0, large)
         if licensed:
@@ -113,6 +118,19 @@ def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) ->
             placement, form = max(best, (placement, form), key=lambda pair: pair[1].rank)
             return Generic(chain, placement, form, False, placement.error_bound(form.rank) ** 2, large)
     raise AssertionError(f"{_TRIES} random placements stay below the rank that theory gives for {chain!r}")
+
+
+def _eliminated(rows: list[Row], columns: int, *, large: bool) -> Echelon:
+    try:
+        return echelon(rows, columns, large=large)
+    except CoreTooLarge as core:
+        numbers = f"{core.seconds / 60:.0f} min, {core.size / 1e9:.1f} GB"
+        raise TooLargeError(
+            f"so many loops cross that {core.rows:,} equations are left to be solved at once: about {numbers}; "
+            "`gruebler check --yes` and mobility_report(..., large=True) begin it nevertheless",
+            f"so viele Maschen greifen ineinander, dass {core.rows:,} Gleichungen auf einmal zu lösen bleiben: etwa "
+            f"{numbers}; `gruebler check --yes` und mobility_report(..., large=True) beginnen trotzdem",
+        ) from None
 
 
 def generic_mobility(chain: Chain) -> int:

@@ -112,7 +112,7 @@ def mobility_report(
         b: the motions of a free link for the count, if the chain moves in a smaller group than its space.
         frame: the link that stands still; the first one if left out. It matters only for rollers
             (`gruebler.mobility.idle`): mobility does not depend on it.
-        large: begin even what takes more than about a minute or 1 GB, instead of raising `CoreTooLarge`.
+        large: begin even what takes more than about a minute or 1 GB, instead of raising `TooLargeError`.
 
     Cost: see `gruebler.mobility.rank.generic`.
 
