@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics import degrees, move
+from gruebler.kinematics.moving import planned
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
 
@@ -347,3 +348,15 @@ def test_unknown_names_are_answered_with_the_nearest():
         motion.point("K", 2)
     with pytest.raises(LinkageError, match="no sliding joint"):
         motion.slide("R(frame-crank)")
+
+
+def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
+    random = np.random.default_rng(20_261_122)
+    made = planned(FourBar(20, 80.62257748298549, 20, 80.62257748298549).linkage())
+    for _ in range(400):
+        before = -np.sort(10 ** random.uniform(-3, 0.7, 3))[::-1]
+        after = np.sort(10 ** random.uniform(-3, 0.7, 2))
+        path = np.radians(np.concatenate([[-20, -15, -10, -6], before, after, [10, 15]]))
+        motion = move(made, path, branch="-")
+        assert motion.complete
+        assert np.abs(np.exp(1j * (motion.angle("rocker") - path)) - 1).max() < 1e-6

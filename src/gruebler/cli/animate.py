@@ -6,6 +6,7 @@ import argparse
 import sys
 
 from gruebler.cli.draw import entry_of, picture_suffix, sized, written
+from gruebler.cli.drive_rows import driven_path
 from gruebler.drawing.animation import Options, animated_svg
 from gruebler.drawing.animation_page import animated_page
 from gruebler.linkages import Linkage
@@ -24,6 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     options = Options(
         branch=arguments.branch,
         between=between,
+        drives=driven_path(arguments.drive, linkage),
         curves=arguments.curve,
         seconds=arguments.seconds,
         lang=arguments.lang,

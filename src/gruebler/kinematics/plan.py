@@ -206,13 +206,16 @@ def plan(linkage: Linkage) -> Plan:
         raise LinkageError(
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )
-    parts, released = decompose(lower.mechanism), ()
+    parts = decompose(lower.mechanism)
+    released: tuple[int, ...] = ()
     if parts.overconstrained:
         try:
             part, released = independent_part(linkage)
         except LinkageError as error:
+            assert parts.report is not None
             raise LinkageError(
-                f"the linkage cannot be moved by its drives: constraints or drives work against one another. {error}"
+                "the linkage cannot be moved by its drives: constraints or drives work against one another. "
+                f"Mobility {parts.report.mobility}, drives {parts.report.drives}, at almost all sizes. {error}"
             ) from None
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)
