@@ -14,6 +14,7 @@ from gruebler.kinematics.batch import move_many
 from gruebler.kinematics.moving import planned
 from gruebler.linkages import Linkage, Named
 from gruebler.mechanism import Drive, Mechanism
+from gruebler.statics import Loads, statics
 
 LOCOMOTIVE = Mechanism.parse(
     "R(frame-crank) R(crank-rod) R(rod-second) R(frame-second) R(rod-third) R(frame-third); "
@@ -167,5 +168,7 @@ def test_what_is_missing_is_said():
     drives = Mechanism(LOCOMOTIVE.chain, "frame", [0, 3])
     with pytest.raises(LinkageError, match=r"leave 1 freedoms, fewer than are driven \(2\)"):
         move(locomotive(mechanism=drives), [(1.0, 1.0)])
+    with pytest.raises(LinkageError, match="depends on how they yield"):
+        statics(move(locomotive(), [1.0]), Loads(moments={"third": 1.0}))
     with pytest.raises(LinkageError, match="one by one"):
         move_many([locomotive(), locomotive()], [1.0])
