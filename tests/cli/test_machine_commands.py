@@ -162,7 +162,7 @@ def test_pictures_besides_the_table(capsys, tmp_path, name):
         path = tmp_path / f"x.{kind}"
         moving = ["--animate", "--seconds", "2"] if kind == "html" else []
         status, out, err = run(capsys, *MACHINES[name], "-o", str(path), *moving, "--lang", "en")
-        assert (status, out, err) == (0, table, "")
+        assert (status, out, err) == (0, table, f"Written: {path}\n")
         text = path.read_text(encoding="utf-8")
         assert text.startswith("<svg" if kind == "svg" else "<!doctype html>")
         assert ("<animateTransform" in text) == (kind == "html")

@@ -20,7 +20,9 @@ from gruebler.gears import (
     read_train,
     speeds,
 )
-from tests.gears.oracles import fits, rolling
+from gruebler.gears.prose import number
+from gruebler.gears.rational import Elimination, echelon
+from tests.gears.oracles import fits, rolling, slow_echelon, slow_reduced
 
 PLANETARY = "sun:24 planet:18 ring:-60 on arm"
 teeth = st.integers(8, 90)
@@ -309,3 +311,41 @@ def test_questions_without_an_answer():
         train.relation("sun", "ring", "arm", "planet")
     with pytest.raises(GearError, match="did you mean 'planet'"):
         assembly(train, "plant", 3)
+
+
+ROWS = st.lists(
+    st.dictionaries(st.integers(0, 7), st.builds(Q, st.integers(-3, 3), st.integers(1, 3)), max_size=4), max_size=9
+)
+
+
+@given(ROWS, st.permutations(range(8)))
+def test_elimination_gives_the_form_and_the_order_of_gauss_and_jordan(rows, columns):
+    slow = slow_echelon(rows, columns)
+    form = echelon(rows, columns)
+    assert list(form.items()) == list(slow.items())
+    growing = Elimination(columns)
+    for k, row in enumerate(rows):
+        before = slow_echelon(rows[:k], columns)
+        assert growing.left(row) == slow_reduced(row, before)
+        assert growing.add(row) == bool(slow_reduced(row, before))
+
+
+@pytest.mark.parametrize("driven", [0, 1999])
+def test_a_row_of_two_thousand_wheels(driven):
+    """w_k z_k = (-1)^(k - j) w_j z_j for wheels in a row, whichever is driven."""
+    teeth = [17 + k % 40 for k in range(2000)]
+    reading = read_train(" ".join(f"w{k}:{z}" for k, z in enumerate(teeth)) + f"; drive w{driven}=1")
+    found = speeds(reading.train, reading.drives)
+    assert found.values == {f"w{k}": Q((-1) ** abs(k - driven) * teeth[driven], z) for k, z in enumerate(teeth)}
+    assert reading.train.redundant == ()
+    assert explain(reading).startswith("2000 moving links, 1999 independent meshes: mobility 1.")
+
+
+def test_ratios_with_thousands_of_digits_are_said_in_six():
+    """5,000 stages of 100:10, whose ratio 10^5000 has more digits than Python writes."""
+    reading = read_train("; ".join(f"w{k}:100 w{k + 1}:10" for k in range(5000)) + "; drive w0=1")
+    found = speeds(reading.train, reading.drives).values["w5000"]
+    assert found == Q(10) ** 5000
+    assert number(found) == "1e+5000"
+    assert number(1 / found) == "1e-5000"
+    assert "Speeds: 1e+5000 w0 - w5000 = 0" in explain(reading)

@@ -15,6 +15,7 @@ from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
 from gruebler.cams.lift import Lift
+from gruebler.views import Brief
 
 __all__ = ["Cam", "Extreme", "Findings"]
 
@@ -64,8 +65,8 @@ class Findings:
         return self.room.value <= 0
 
 
-@dataclass(frozen=True, slots=True)
-class Cam:
+@dataclass(frozen=True, slots=True, repr=False)
+class Cam(Brief):
     """A disc cam that gives a follower its lift; the lift is a length, or radians for a swinging follower.
 
     >>> from gruebler.cams import read_lift

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.cams.contour import Touch, angle_of, face_coordinate
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
+from gruebler.views import Brief
 
 __all__ = ["SmoothContour"]
 
@@ -23,8 +24,8 @@ _BISECTIONS = 52
 _CHUNK = 1 << 20
 
 
-@dataclass(frozen=True, slots=True)
-class SmoothContour:
+@dataclass(frozen=True, slots=True, repr=False)
+class SmoothContour(Brief):
     """A closed smooth curve, counter-clockwise about the cam's axis; it may be hollow.
 
     Contacts are bracketed on ``resolution`` places of the curve and bisected to the last bit; a wave of the contour

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from itertools import islice
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
@@ -38,7 +38,6 @@ Reals = NDArray[np.float64]
 _MOST_BRANCHES = 16
 _WORDS = {
     "en": {
-        "written": "Written: {path}",
         "roles": "Roles: {roles}.",
         "pairs": "Neighbours against each other: {pairs}.",
         "full": "full turns",
@@ -48,7 +47,6 @@ _WORDS = {
         "mu": "transmission angle",
     },
     "de": {
-        "written": "Geschrieben: {path}",
         "roles": "Rollen: {roles}.",
         "pairs": "Nachbarn gegeneinander: {pairs}.",
         "full": "volle Umläufe",
@@ -195,17 +193,9 @@ def _tell(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], arguments: argparse.Namespace
 ) -> int:
     if arguments.csv is not None:
-        from gruebler.cli.draw import written
-
-        written(arguments.csv, as_csv(made).encode("utf-8"))
-        if not arguments.json:
-            print(_WORDS[arguments.lang]["written"].format(path=arguments.csv))
+        write_file(arguments.csv, as_csv(made).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print(
-            json.dumps(
-                _document(linkage, found, motion, made, arguments.lang), ensure_ascii=False, indent=2, allow_nan=False
-            )
-        )
+        print_json(_document(linkage, found, motion, made, arguments.lang))
     else:
         if found is not None:
             _say(linkage, found, _WORDS[arguments.lang], arguments.lang)

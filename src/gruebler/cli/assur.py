@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
 
 from gruebler.assur import AssurGroup, Decomposition, Group, assur_groups, decompose, drive_choices
 from gruebler.assur.forms import roman
 from gruebler.cli.inputs import mechanism_of
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Mechanism
@@ -51,7 +51,7 @@ def _print(
         document = {**(about or {}), "count": len(items)}
         if not arguments.count:
             document["items"] = items
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     elif arguments.count:
         print(len(items))
     else:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.cli.analysis_table import Column, as_csv
+from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
@@ -71,6 +71,7 @@ _WORDS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
+    check_csv(arguments.csv)
     linkage, _ = linkage_of(arguments.linkage)
     path = driven_path(arguments.drive, linkage)
     if path is not None and arguments.contact:
@@ -83,11 +84,9 @@ def run(arguments: argparse.Namespace) -> int:
     contacts = [found.contact(drive) for drive in drives]
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
     if arguments.csv is not None:
-        from gruebler.cli.draw import written
-
-        written(arguments.csv, as_csv(_polygon(found)).encode("utf-8"))
+        write_file(arguments.csv, as_csv(_polygon(found)).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print(json.dumps(_document(found, contacts, directions), ensure_ascii=False, indent=2))
+        print_json(_document(found, contacts, directions))
     else:
         _say(found, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
     return 0

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 
 from gruebler.cli.inputs import chain_of
+from gruebler.cli.output import print_json
 from gruebler.isomorphism import code
 from gruebler.transformation import derive
 
@@ -29,5 +29,5 @@ def run(arguments: argparse.Namespace) -> int:
         ],
         "derivation": growth.derivation.to_json(),
     }
-    print(json.dumps(document, ensure_ascii=False, indent=2))
+    print_json(document)
     return 0

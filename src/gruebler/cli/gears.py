@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from gruebler.cli.machine_pictures import is_few, write_picture
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
-from gruebler.gears.prose import number
+from gruebler.gears.prose import number, writable
 
 __all__ = ["run"]
 
@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
     _picture(arguments, reading)
     if arguments.json:
-        print(json.dumps(_document(reading, found, forces), ensure_ascii=False, indent=2))
+        print_json(_document(reading, found, forces))
     else:
         print(explain(reading, arguments.lang))
         if reading.drives:
@@ -128,7 +128,11 @@ def _document(reading: Reading, found: Speeds, forces: Balance | None) -> dict[s
 
 
 def _value(value: Fraction | float | None) -> dict[str, Any] | None:
-    """Both the exact text and a number."""
+    """Both the exact text and a number; neither where there are too many digits for it."""
     if value is None:
         return None
-    return {"exact": str(value) if isinstance(value, Fraction) else None, "value": float(value)}
+    try:
+        plain: float | None = float(value)
+    except OverflowError:
+        plain = None
+    return {"exact": str(value) if isinstance(value, Fraction) and writable(value) else None, "value": plain}

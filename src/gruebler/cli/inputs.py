@@ -12,7 +12,7 @@ from gruebler.errors import GrueblerError
 from gruebler.isomorphism import decode
 from gruebler.mechanism import Mechanism
 
-__all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of"]
+__all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of", "outputs_of"]
 
 
 def is_text(word: str) -> bool:
@@ -27,8 +27,10 @@ def _is_code(word: str) -> bool:
 def _of_file(word: str) -> Mechanism | None:
     """The mechanism of a file with the dimensions of a linkage, if the word is one."""
     path = Path(word)
-    if is_text(word) or path.suffix.lower() not in (".toml", ".json") or not path.is_file():
+    if is_text(word) or not path.suffix or not path.is_file():
         return None
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise GrueblerError(f"{path}: expected a .toml or .json file of a linkage, not {path.suffix}")
     from gruebler.linkages.files import read_linkage
 
     return read_linkage(path).mechanism
@@ -59,6 +61,20 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
         chain = chain_of(word)
         found = Mechanism(chain, chain.links[0])
     return Mechanism(found.chain, found.frame if frame is None else frame, drives or found.drives)
+
+
+def outputs_of(word: str) -> tuple[str, ...]:
+    """The output links that a text's mark, a linkage file or a catalog entry names."""
+    if _of_file(word) is not None:
+        from gruebler.linkages.files import read_linkage
+
+        return read_linkage(Path(word)).outputs
+    if not is_text(word):
+        return entry(word).outputs
+    if _is_code(word) or ";" not in word:
+        return ()
+    output = Mechanism.parse_with_output(word)[1]
+    return () if output is None else (output,)
 
 
 def assortment_of(text: str | None) -> tuple[int, ...] | None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -14,6 +13,7 @@ from numpy.typing import ArrayLike
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion, move
@@ -72,15 +72,9 @@ def run(arguments: argparse.Namespace) -> int:
     held = statics(motion, loads)
     made = _columns(held, arguments.friction, words)
     if arguments.csv is not None:
-        from gruebler.cli.draw import written
-
-        written(arguments.csv, as_csv([*made, *_components(held, words)]).encode("utf-8"))
+        write_file(arguments.csv, as_csv([*made, *_components(held, words)]).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print(
-            json.dumps(
-                _document(held, [*made, *_components(held, words)], arguments.lang), ensure_ascii=False, indent=2
-            )
-        )
+        print_json(_document(held, [*made, *_components(held, words)], arguments.lang))
     elif arguments.csv is None:
         _say(held, made, words, arguments.lang)
     return 0 if motion.complete and not held.singular.any() else 1

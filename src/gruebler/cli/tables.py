@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
-__all__ = ["print_table"]
+__all__ = ["print_long_table", "print_table"]
 
 
 def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> None:
@@ -26,6 +26,20 @@ def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: 
             for k, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
         print("  ".join(cells).rstrip())
+
+
+def print_long_table(headers: Sequence[str], rows: Iterable[Sequence[int]], largest: int) -> None:
+    """Print rows of numbers as they come, none of them above ``largest``, which sets the widths beforehand.
+
+    >>> print_long_table(["binary", "ternary"], [(4, 2), (5, 0)], 6)
+    binary  ternary
+         4        2
+         5        0
+    """
+    widths = [max(len(header), len(str(largest))) for header in headers]
+    print("  ".join(header.rjust(width) for header, width in zip(headers, widths, strict=True)))
+    for row in rows:
+        print("  ".join(str(number).rjust(width) for number, width in zip(row, widths, strict=True)))
 
 
 def _print_rich(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int]) -> None:

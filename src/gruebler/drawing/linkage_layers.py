@@ -26,7 +26,7 @@ from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
 from gruebler.kinematics.course import PathCourse
-from gruebler.kinematics.events import dead_centres
+from gruebler.kinematics.events import stops
 from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.transmission import Leg, driving_legs
 from gruebler.linkages import Line, Named
@@ -130,10 +130,11 @@ def _free_direction(stage: Stage, joint: int, at: Point) -> float:
 
 
 def _dead_centres(sheet: Sheet) -> list[Shape]:
-    """The links as thin lines where the output stops."""
+    """The links as thin lines where the output stops or rests."""
     stage = sheet.stage
     course = stage.driven()
-    found = [centre.drive for centre in dead_centres(course, find_output(stage.linkage, sheet.output))]
+    centres, dwells = stops(course, find_output(stage.linkage, sheet.output))
+    found = [centre.drive for centre in centres] + [drive for dwell in dwells for drive in (dwell.begin, dwell.end)]
     if not stage.goes_round:
         low, high = stage.path.drives[0, 0], stage.path.drives[-1, 0]
         found = [drive for drive in found if low <= drive <= high]

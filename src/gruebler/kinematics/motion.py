@@ -13,6 +13,7 @@ from gruebler import views
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import Linkage, Named, Place
+from gruebler.views import Brief
 
 __all__ = ["Motion", "Stop"]
 
@@ -37,8 +38,8 @@ class Stop:
     ``open`` (the redundant conditions of a joint are not met)."""
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, repr=False)
+class Motion(Brief):
     """Poses of a linkage along a path of its drives, with derivatives.
 
     Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows behind a `stop` are not there:

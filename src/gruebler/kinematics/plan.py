@@ -18,6 +18,7 @@ from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
+from gruebler.views import Brief
 
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
 
@@ -62,8 +63,8 @@ class Larger:
     """Whether wheels or circles are in it: then its modes are not searched for, and it is followed from the home."""
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, repr=False)
+class Plan(Brief):
     """The order of solving, in names and as arrays for the kernel."""
 
     linkage: Linkage

@@ -311,7 +311,7 @@ def _stationary(course: Course, leg: Leg) -> tuple[Reals, list[tuple[float, floa
     places = [
         zero.at
         for jet, floor in ((turning, slow), (sine, least), (cosine, least))
-        for zero in zeros(jet, course.grid, floor)
+        for zero in zeros(jet, course.samples(2), floor)
     ]
     if course.span.full:
         return np.array(places or [course.span.low]), []

@@ -14,6 +14,7 @@ from gruebler.kinematics.course import Span, follow
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation.trial import range_path
+from gruebler.views import Brief
 
 __all__ = ["Realisation"]
 
@@ -48,8 +49,8 @@ _TEXT = {
 }
 
 
-@dataclass(frozen=True)
-class Realisation:
+@dataclass(frozen=True, repr=False)
+class Realisation(Brief):
     """Dimensions of a mechanism and how its drives move it, or why there are none."""
 
     mechanism: Mechanism
