@@ -204,3 +204,11 @@ def test_pictures_that_cannot_be(capsys, tmp_path, monkeypatch, arguments, words
     assert (status, out) == (2, "")
     assert words in err
     assert list(tmp_path.iterdir()) == []
+
+
+def test_nothing_is_written_of_a_train_that_is_refused(capsys, tmp_path):
+    train = "sun:-40 planet:18 ring:-45.001 on arm planets=3; hold ring; sun=1"
+    status, out, err = run(capsys, "gears", train, "-o", str(tmp_path / "out.svg"))
+    assert (status, out) == (2, "")
+    assert err.startswith("gruebler gears: the conditions of assembly need whole tooth numbers")
+    assert list(tmp_path.iterdir()) == []

@@ -106,3 +106,10 @@ def test_too_little_memory_is_one_sentence(monkeypatch, capsys):
     monkeypatch.setattr("gruebler.cli.table.run", exhausted)
     assert main(["table", "grashof"]) == 2
     assert capsys.readouterr().err == "gruebler table: this needs more memory than there is\n"
+
+
+def test_json_of_what_cannot_be_assembled(capsys):
+    assert main(["analyse", "four-bar:25,70,40,150", "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert (found["complete"], found["rows"]) == (False, [])
+    assert "cannot be assembled" in found["message"]

@@ -84,6 +84,33 @@ def test_a_lost_worker_changes_nothing(processes, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["3", "7"]
 
 
+class DiesWriting:
+    """Writes pieces; the first worker is killed in the middle of one."""
+
+    def __init__(self, files):
+        self.files = files
+
+    def __call__(self, number):
+        mark = self.files.directory.with_name("dead")
+        if number == 2 and not mark.exists():
+            mark.touch()
+            with atomic_file(self.files._path(number)) as file:
+                file.write(b"half")
+                file.flush()
+                os.kill(os.getpid(), signal.SIGKILL)
+        self.files.save(number, {"square": number * number})
+        return number * number
+
+
+def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
+    store = Checkpoint(tmp_path / "kept", {}, "1")
+    assert list(perform(DiesWriting(store), range(5), processes)) == [0, 1, 4, 9, 16]
+    assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)]
+    store.tidy()
+    assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)] == []
+    assert store.head(2) == {"square": 4}
+
+
 def test_a_broken_executor_that_was_given_is_replaced(tmp_path):
     with ProcessPoolExecutor(2) as pool:
         found = list(perform(partial(dies_once, tmp_path), range(12), pool))

@@ -22,6 +22,7 @@ ComplexArray = NDArray[np.complex128]
 
 _BISECTIONS = 52
 _CHUNK = 1 << 20
+_MOST = 1e70  # of lengths, as for followers: their powers stay finite
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -49,6 +50,8 @@ class SmoothContour(Brief):
         table = finite(points, "points of a contour")
         if table.ndim != 2 or table.shape[1] != 2:
             raise CamError("a contour is given by rows of two finite numbers, x and y")
+        if (np.abs(table) >= _MOST).any():
+            raise CamError(f"a contour has coordinates below {_MOST:g}")
         if len(table) > 1 and (table[0] == table[-1]).all():
             table = table[:-1]
         closed = np.vstack([table, table[:1]])

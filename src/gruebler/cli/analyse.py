@@ -16,7 +16,7 @@ from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, motion_roles, move, rotatability
 from gruebler.kinematics.branches import all_branches, read_branch
@@ -102,7 +102,12 @@ def run(arguments: argparse.Namespace) -> int:
         found = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
         text = error.said(arguments.lang)
-        print(text[:1].upper() + text[1:] + "." * (not text.endswith(".")))
+        message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
+        if arguments.json:
+            none = {"columns": [], "rows": [], "complete": False, "message": message}
+            print_json({"linkage": to_json(linkage), **none})
+        else:
+            print(message)
         return 1
     rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, found, rows, arguments.branch, order)
@@ -213,7 +218,7 @@ def _tell(
 
 
 def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
-    print(found.explain(lang))
+    print_text(found.explain(lang))
     made = _circuit(linkage, found)
     if isinstance(made, LinkageError):
         print(words["unknown"].format(why=made.said(lang)))
@@ -248,6 +253,15 @@ def _extent(row: Rotatability, unit: str, words: dict[str, str]) -> str:
     return f"{row.range:.6g} {unit}"
 
 
+def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
+    """A row of the rotatability; the keys of angles end in ``_deg``."""
+    out = row._asdict()
+    angles = {key: out.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
+    if row.freedom == "turn":
+        return out | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
+    return out | angles | {"unit": unit}
+
+
 def _document(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], lang: str
 ) -> dict[str, Any]:
@@ -259,7 +273,7 @@ def _document(
             document |= {"roles": None, "rotatability": None}
         else:
             document["roles"] = {link: str(role) for link, role in motion_roles(around).items()}
-            document["rotatability"] = [row._asdict() | {"range": row.range} for row in rotatability(around)]
+            document["rotatability"] = [_plain_row(row, linkage.unit) for row in rotatability(around)]
     rows = zip(*(column.values for column in made), strict=True)
     return document | {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],

@@ -68,6 +68,10 @@ class PieceFiles:
         """Forget a piece."""
         self._path(number).unlink()
 
+    def tidy(self) -> None:
+        """Remove what killed processes left incomplete."""
+        remove_abandoned_files(self.directory)
+
     def _path(self, number: int) -> Path:
         return self.directory / f"{number:07d}.piece"
 
@@ -99,7 +103,7 @@ class Checkpoint(PieceFiles):
         path = directory / _MANIFEST
         try:
             directory.mkdir(parents=True, exist_ok=True)
-            remove_abandoned_files(directory)
+            self.tidy()
             if path.exists():
                 _compare(directory, json.loads(path.read_text(encoding="utf-8")), manifest)
             elif any(not entry.name.endswith(PARTIAL) for entry in directory.iterdir()):

@@ -63,7 +63,10 @@ def run_count(
 
     size = _COUNTED_LONG if (loop_number(request.links, request.mobility) or 0) > 7 else _COUNTED
     results = perform(Counter(request, orbits), work_of(request, size=size), executor, known=known, finished=finished)
-    return add_tallies(request, orbits, results)
+    found = add_tallies(request, orbits, results)
+    if store is not None:
+        store.tidy()
+    return found
 
 
 def run_list(
@@ -85,6 +88,7 @@ def run_list(
     work = work_of(request, size=_LISTED[form])
     if store is not None:
         yield from _filed(lister, work, executor, store, watch)
+        store.tidy()
     elif executor is not None:
         with temporary_directory() as directory:
             yield from _filed(lister, work, executor, PieceFiles(directory, durable=False), watch)
