@@ -100,6 +100,10 @@ class Lift:
         if abs(left) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
             raise CamError(f"the lift ends where it began; {left:+.6g} is left over")
 
+    def scaled(self, factor: float) -> Lift:
+        """Every lift times a factor, as from degrees to radians."""
+        return Lift(one._replace(scale=one.scale * factor) for one in self.segments)
+
     @property
     def starts(self) -> tuple[float, ...]:
         """The angle at which each part begins."""
