@@ -102,8 +102,8 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     """The kernel in the tier that pays for a call that would take so many seconds if it were interpreted.
 
     The seconds of earlier calls count too: once a kernel has been interpreted for as long as it takes to load or to
-    compile (a fifth of that, since the result is kept), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`,
-    `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
+    compile (a fifth of that, since the result is kept), it is compiled. The environment variable GRUEBLER_KERNELS
+    (`auto`, `interpreted`, `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
 
     Raises:
         ValueError: GRUEBLER_KERNELS has another value.
