@@ -185,7 +185,7 @@ def test_dwells_are_those_of_the_lift(angles, name, flat):
     linkage = flat_follower(lift, 400.0) if flat else roller_follower(lift, 200.0)
     found, centres, rests = turning_point(linkage)
     assert centres == []
-    edges = np.cumsum([a, b, c, d, e])
+    edges = np.cumsum([a, b, c, d, e]).tolist()
     near(
         rests,
         [

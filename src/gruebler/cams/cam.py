@@ -85,6 +85,8 @@ class Cam(Brief):
             raise CamError(f"the base circle has a positive radius below 1e70, not {self.base!r}")
         lowest = min(value for _, value in self.lift.extremes(0))
         highest = max(value for _, value in self.lift.extremes(0))
+        if not self.follower.swings and highest - lowest > 1e9 * self.base:
+            raise CamError(f"a lift of {highest - lowest:g} is more than 1e9 times the base circle's {self.base:g}")
         low, high = self.start + lowest, self.start + highest
         if not self.follower.swings and low <= 0:
             raise CamError(f"the lift goes down to {lowest:g}, beyond the cam's axis")

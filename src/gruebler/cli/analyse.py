@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
-from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
+from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, motion_roles, move, rotatability
 from gruebler.kinematics.branches import all_branches, read_branch
@@ -67,7 +67,6 @@ def run(arguments: argparse.Namespace) -> int:
     }
     linkage = linkage.with_points(added) if added else linkage
     turning = turning_drives(linkage)
-    tell_compiling(arguments.lang)
     plan = planned(linkage)
     speeds = _speeds(arguments.speed, turning)
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
@@ -190,7 +189,7 @@ def _tell(
 
 
 def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
-    print(found.explain(lang))
+    print_text(found.explain(lang))
     made = _circuit(linkage, found)
     if isinstance(made, LinkageError):
         print(words["unknown"].format(why=made.said(lang)))
@@ -225,6 +224,15 @@ def _extent(row: Rotatability, unit: str, words: dict[str, str]) -> str:
     return f"{row.range:.6g} {unit}"
 
 
+def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
+    """A row of the rotatability; the keys of angles end in ``_deg``."""
+    out = row._asdict()
+    angles = {key: out.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
+    if row.freedom == "turn":
+        return out | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
+    return out | angles | {"unit": unit}
+
+
 def _document(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], lang: str
 ) -> dict[str, Any]:
@@ -236,7 +244,7 @@ def _document(
             document |= {"roles": None, "rotatability": None}
         else:
             document["roles"] = {link: str(role) for link, role in motion_roles(around).items()}
-            document["rotatability"] = [row._asdict() | {"range": row.range} for row in rotatability(around)]
+            document["rotatability"] = [_plain_row(row, linkage.unit) for row in rotatability(around)]
     rows = zip(*(column.values for column in made), strict=True)
     return document | {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],

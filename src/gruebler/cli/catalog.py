@@ -9,7 +9,7 @@ import msgspec
 
 from gruebler.catalog import Entry, Exercise, entries, entry, exercises
 from gruebler.cli.output import print_json
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.linkages.documents import infinities_as_words
 from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
@@ -46,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
             if arguments.json:
                 print_json([_plain(record, arguments.full) for record in records])
             else:
-                print("\n\n".join(_told(record, arguments) for record in records))
+                print_text("\n\n".join(_told(record, arguments) for record in records))
     return 0
 
 

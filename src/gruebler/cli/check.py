@@ -25,9 +25,9 @@ from gruebler.catalog.records import entry_of_data
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
 from gruebler.cli.output import print_json
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import CatalogError, GrueblerError, NotationError
-from gruebler.freedoms.files import spatial_from_json
+from gruebler.freedoms.files import read_any_linkage, spatial_from_json
 from gruebler.linkages.documents import load
 from gruebler.linkages.files import linkage_from_json
 from gruebler.mobility import mobility_report
@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json([to_json(one) for one in found])
     elif arguments.explain:
-        print("\n\n".join(explanation(one, arguments.lang) for one in found))
+        print_text("\n\n".join(explanation(one, arguments.lang) for one in found))
     else:
         print_checked(found, arguments.lang)
     _complain(found)
@@ -172,7 +172,7 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
         raise CatalogError(f"{path}: expected a file that ends with {', '.join(_ENDINGS)}, not with {path.suffix}")
     if ending == ".toml":
         if _is_linkage(path):
-            yield _plain(chain_of(str(path)), path.stem, arguments)
+            yield _plain(read_any_linkage(path).mechanism.chain, path.stem, arguments)
         else:
             yield check_entry(read_entry(path), origin=str(path))
         return
@@ -193,7 +193,7 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
 def _is_linkage(path: Path) -> bool:
     """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
     document = load(path, lambda text: CatalogError(f"{path}: {text}"))
-    return isinstance(document, dict) and "id" not in document and "unit" in document
+    return isinstance(document, dict) and "id" not in document and ("unit" in document or "screws" in document)
 
 
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:

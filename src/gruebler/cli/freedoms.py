@@ -9,6 +9,7 @@ from pathlib import Path
 from gruebler.catalog import entries, read_entry
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_text
 from gruebler.errors import GrueblerError
 from gruebler.freedoms import freedoms
 from gruebler.linkages import Linkage
@@ -24,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json({"linkage": arguments.linkage, **found.to_json()})
     else:
-        print(found.explain(arguments.lang))
+        print_text(found.explain(arguments.lang))
     return int(found.mobility == 0)
 
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 
 from gruebler.cli.output import print_json
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.linkages.extremes import Arc
 from gruebler.linkages.four_bar import FourBar
@@ -124,7 +124,7 @@ def _range_item(part: LengthRange) -> dict[str, object]:
 
 def _say(four_bar: FourBar, lang: str) -> None:
     words = _WORDS[lang]
-    print(four_bar.grashof.explain(lang))
+    print_text(four_bar.grashof.explain(lang))
     if not four_bar.limits:
         return
     arcs = words["or"].join(_arc(arc, words["full"]) for arc in four_bar.limits)

@@ -10,6 +10,7 @@ from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import decode
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 __all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of", "outputs_of"]
@@ -25,15 +26,15 @@ def _is_code(word: str) -> bool:
 
 
 def _of_file(word: str) -> Mechanism | None:
-    """The mechanism of a file with the dimensions of a linkage, if the word is one."""
+    """The mechanism of a file with the dimensions of a linkage or the screws of its joints, if the word is one."""
     path = Path(word)
     if is_text(word) or not path.suffix or not path.is_file():
         return None
     if path.suffix.lower() not in (".toml", ".json"):
         raise GrueblerError(f"{path}: expected a .toml or .json file of a linkage, not {path.suffix}")
-    from gruebler.linkages.files import read_linkage
+    from gruebler.freedoms.files import read_any_linkage
 
-    return read_linkage(path).mechanism
+    return read_any_linkage(path).mechanism
 
 
 def chain_of(word: str, space: str | None = None) -> Chain:
@@ -66,9 +67,10 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
 def outputs_of(word: str) -> tuple[str, ...]:
     """The output links that a text's mark, a linkage file or a catalog entry names."""
     if _of_file(word) is not None:
-        from gruebler.linkages.files import read_linkage
+        from gruebler.freedoms.files import read_any_linkage
 
-        return read_linkage(Path(word)).outputs
+        linkage = read_any_linkage(Path(word))
+        return linkage.outputs if isinstance(linkage, Linkage) else ()
     if not is_text(word):
         return entry(word).outputs
     if _is_code(word) or ";" not in word:

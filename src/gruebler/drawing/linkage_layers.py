@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.instant_centres import pole_marks
 from gruebler.drawing.labels import noted
 from gruebler.drawing.linkage_arrows import acceleration_arrows, velocity_arrows
 from gruebler.drawing.linkage_bodies import Part, at_pose, corners_of, in_link, slides
 from gruebler.drawing.linkage_dimensions import dimension_lines
-from gruebler.drawing.linkage_poles import centrode_lines, inflection_lines, pole_crosses
+from gruebler.drawing.linkage_poles import centrode_lines, inflection_lines
 from gruebler.drawing.prose import in_language
 from gruebler.drawing.sheet import Layer, Sheet
 from gruebler.drawing.stage import Stage
@@ -239,7 +240,7 @@ LAYERS: Mapping[str, Layer] = {
     "transmission": _transmission,
     "velocities": velocity_arrows,
     "accelerations": acceleration_arrows,
-    "poles": pole_crosses,
+    "poles": pole_marks,
     "dimensions": dimension_lines,
     "scale": _later,
 }

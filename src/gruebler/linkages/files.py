@@ -44,6 +44,11 @@ def read_linkage(path: Path | str) -> Linkage:
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError(f"{path}: a linkage is in a .toml or .json file")
     data = load(path, lambda text: LinkageError(f"{path}: {text}"))
+    if isinstance(data, Mapping) and "screws" in data:
+        raise LinkageError(
+            f"{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler freedoms "
+            f"{path}` says how it moves"
+        )
     try:
         return linkage_from_json(data)
     except LinkageError as error:
