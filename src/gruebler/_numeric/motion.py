@@ -30,7 +30,6 @@ from gruebler._numeric.program import (
     NEAREST,
     PUSH,
     RPR,
-    RRR,
     SINGULAR,
     START,
     TURN,
@@ -101,8 +100,10 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + ratio * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    if least == np.inf or at >= reach - 1e-6 * (reach - memory.at[0]):
-        return reach, False  # still falling: nothing is decided yet
+    interior = reach - at > 1e-3 * (reach - memory.at[0])
+    end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
+    if least == np.inf or not (interior if least < FLAT else not end <= 1.5 * least):  # risen by more than rounding
+        return memory.at[0] + 0.9 * (reach - memory.at[0]), False  # still falling up to there: nothing is decided yet
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
     return at, False
@@ -320,13 +321,13 @@ def _walk_to(
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
-    """The number of a dyad near a change point whose first body a step has turned by more than a right angle, or -1.
+    """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
 
-    Where the outer joints meet, their line reverses; the body goes straight on, and it is the assembly mode that
+    Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
     changes. Steps are too short for any other turn like that.
     """
     for operation in program.operations:
-        if operation[0] == RRR or operation[0] == RPR:
+        if operation[0] == RPR:
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast
@@ -460,12 +461,13 @@ def _approach(
     at, now, past = memory.at[0], memory.roots[0, number], memory.roots[1, number]
     slope = (now - past) / (at - memory.at[1])
     ahead = abs(now / slope) if slope != 0 else step
+    memory.change[number] = np.nan
     reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), float(len(path) - 1))
     place, negative = _look_for_change(program, path, speeds, reach, number, memory, s)
     if negative:
         return place - at, place
     if not np.isnan(memory.change[number]):
         return max(2 * (place - at), 1e-12), np.inf
-    memory.change[number] = place  # falling all the way: as it was, up to there
-    memory.after[number] = memory.signs[number]
+    memory.change[number] = place  # falling all the way: as it was, up to there and no further
+    memory.after[number] = 0
     return place - at, np.inf

@@ -47,7 +47,9 @@ def _document(found: Realisation, lang: str) -> dict[str, object]:
             "full": found.full,
             "quality": found.quality,
             "drives": [
-                {"joint": name, ("range_deg" if turns else "range"): [math.degrees(v) for v in ends] if turns else ends}
+                {"joint": name}
+                | _range("range", found.span and found.span[:2], turns)
+                | _range("well_conditioned", ends, turns)
                 for name, ends, turns in zip(
                     found.mechanism.drive_names(),
                     found.ranges,
@@ -58,3 +60,8 @@ def _document(found: Realisation, lang: str) -> dict[str, object]:
             "linkage": to_json(found.linkage),
         }
     return out
+
+
+def _range(key: str, ends: tuple[float, float] | None, turns: bool) -> dict[str, object]:
+    """A range under its key; angles in degrees, None if it is not known."""
+    return {f"{key}_deg" if turns else key: ends and [math.degrees(v) if turns else v for v in ends]}

@@ -56,6 +56,8 @@ class ChangePoint(NamedTuple):
     """The drive value there; NaN without a drive."""
     pose: Poses
     """The position, exactly."""
+    several: bool = False
+    """Whether more than two curves meet there, or two that touch one another."""
 
 
 class Stretch(NamedTuple):
@@ -248,7 +250,7 @@ class Circuit(Brief):
 
     def _change_points(self) -> Iterator[ChangePoint]:
         traced = self.traced
-        for pose, k in traced.changes:
+        for pose, k, several in traced.changes:
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
             arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
@@ -256,7 +258,7 @@ class Circuit(Brief):
             slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
             found = self._poses(np.array([arc]), pose[None], slopes)
             driven = bool(self.system.lower.mechanism.drives)
-            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found)
+            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found, several)
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
