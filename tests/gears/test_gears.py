@@ -1,5 +1,6 @@
 """Gear trains: Willis, differentials, torques, assembly; exact everywhere."""
 
+import itertools
 import math
 from fractions import Fraction as Q
 
@@ -20,6 +21,7 @@ from gruebler.gears import (
     read_train,
     speeds,
 )
+from gruebler.gears.assembly import axes
 from gruebler.gears.prose import number
 from gruebler.gears.rational import Elimination, echelon
 from tests.gears.oracles import fits, rolling, slow_echelon, slow_reduced
@@ -311,6 +313,45 @@ def test_questions_without_an_answer():
         train.relation("sun", "ring", "arm", "planet")
     with pytest.raises(GearError, match="did you mean 'planet'"):
         assembly(train, "plant", 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "closed"),
+    [
+        ("sun:24 planet:18 ring:-60 on arm", {"planet": True}),
+        ("sun:24 planet:17 ring:-60 on arm", {"planet": False}),
+        ("frame:-60 planet:17 sun:24 on arm", {"planet": False}),
+        ("a:20 p:30 on c; p:25 b:25 on c", {"p": True}),  # stepped, both central wheels outside
+        ("a:20 p:30 on c; p:25 b:24 on c", {"p": False}),
+        ("s:30 p:15 r:-60 on c; s:30 q:15 r:-60 on c", {"p": True, "q": True, "s": True, "r": True}),
+        ("s:30 p:15 r:-60 on c; s:30 q:14 r:-60 on c", {"s": False, "r": False, "p": True, "q": False}),
+        ("sun:24 p1:10 p2:9 ring:-60 on arm", {}),  # two planets in a row: no condition on the tooth numbers alone
+        ("sun:24 planet:18 ring:-60", {}),  # no carrier moves
+    ],
+)
+def test_whether_central_wheels_have_one_axis(text, closed):
+    """Against the places of the axes: with half modules as lengths, each partner stands at its distance."""
+    reading = read_train(text)
+    assert {one.planet: one.coaxial for one in axes(reading.train)} == closed
+    for lang, words in (("en", "do not have one axis"), ("de", "haben keine gemeinsame Achse")):
+        assert (words in explain(reading, lang)) == (not all(closed.values()))
+
+
+def test_the_condition_of_the_textbook():
+    """z_ring = z_sun + 2 z_planet, for all small tooth numbers."""
+    for sun, planet, ring in itertools.product(range(18, 24), range(12, 18), range(48, 60)):
+        if ring > planet:
+            (one,) = axes(read_train(f"sun:{sun} planet:{planet} ring:-{ring} on arm").train)
+            assert one.coaxial == (ring == sun + 2 * planet)
+
+
+def test_numbers_of_planets():
+    assert "Equal planets (planet) that fit at equal angles: 2, 3, 4, 6." in explain(
+        read_train("sun:24 planet:18 ring:-60 on arm")
+    )
+    for many in range(2, 13):
+        fits = assembly(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet", many).possible
+        assert fits == (84 % many == 0 and 42 * math.sin(math.pi / many) > 20)
 
 
 ROWS = st.lists(

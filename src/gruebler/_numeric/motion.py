@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.dyads import dyad_square
 from gruebler._numeric.placing import attempt, commit, forget, set_drives, zero_ahead
 from gruebler._numeric.program import (
@@ -29,6 +29,7 @@ from gruebler._numeric.program import (
     NEAR,
     NEAREST,
     PUSH,
+    RPR,
     SINGULAR,
     START,
     TURN,
@@ -41,6 +42,7 @@ from gruebler._numeric.program import (
 )
 from gruebler._numeric.registers import REGISTERS
 from gruebler._numeric.sweep import steady, sweep, swept_links
+from gruebler._numeric.work import walking
 
 __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
 
@@ -78,7 +80,12 @@ def _look_for_change(
     inner, outer = high - ratio * (high - low), low + ratio * (high - low)
     at_inner = _square_at(program, path, speeds, inner, number, memory, s)
     at_outer = _square_at(program, path, speeds, outer, number, memory, s)
+    at, least = reach, np.inf  # the best so far: next to the zero dyads before this one may not be placed at all
     for _ in range(200):
+        if at_inner < least:
+            at, least = inner, at_inner
+        if at_outer < least:
+            at, least = outer, at_outer
         if at_inner < -FLAT:
             return inner, True
         if at_outer < -FLAT:
@@ -93,9 +100,10 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + ratio * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    at, least = (inner, at_inner) if at_inner <= at_outer else (outer, at_outer)
-    if np.isnan(least) or at >= reach - 1e-6 * (reach - memory.at[0]):
-        return reach, False  # still falling: nothing is decided yet
+    interior = reach - at > 1e-3 * (reach - memory.at[0])
+    end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
+    if least == np.inf or not (interior if least < FLAT else not end <= 1.5 * least):  # risen by more than rounding
+        return memory.at[0] + 0.9 * (reach - memory.at[0]), False  # still falling up to there: nothing is decided yet
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
     return at, False
@@ -189,7 +197,8 @@ def run(
     """
     memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
     s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
-    return walk(program, path, speeds, signs, start, poses, memory, s, np.empty(REGISTERS))
+    move = for_work(walk, walking(program, len(path), len(poses.rates)))
+    return move(program, path, speeds, signs, start, poses, memory, s, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
@@ -274,6 +283,12 @@ def _walk_to(
         set_drives(path, speeds, trial, s)
         verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
         if verdict == GOOD:
+            number = _reversed(program, memory, s)
+            if number >= 0:
+                memory.change[number], memory.after[number] = at, -1.0 if memory.roots[3, number] > 0 else 1.0
+                verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
+                if verdict != GOOD or _reversed(program, memory, s) >= 0:
+                    return SINGULAR, at, step, fault, number
             commit(trial, memory)
             _record(row if full else -1, poses, memory, s)
             at = trial
@@ -302,6 +317,24 @@ def _walk_to(
                 return SINGULAR, at, step, fault, -1 - number
             return LIMIT, at, step, fault, number
     return DONE, at, step, fault, 0
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
+    """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
+
+    Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
+    changes. Steps are too short for any other turn like that.
+    """
+    for operation in program.operations:
+        if operation[0] == RPR:
+            number, body = operation[9], operation[7]
+            if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
+                continue  # it has only passed near a change point, and may turn fast
+            turn, last = s.turns[body], s.before[body]
+            if abs(memory.roots[3, number]) < NEAR and turn.real * last.real + turn.imag * last.imag < 0:
+                return int(number)
+    return -1
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -428,12 +461,13 @@ def _approach(
     at, now, past = memory.at[0], memory.roots[0, number], memory.roots[1, number]
     slope = (now - past) / (at - memory.at[1])
     ahead = abs(now / slope) if slope != 0 else step
+    memory.change[number] = np.nan
     reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), float(len(path) - 1))
     place, negative = _look_for_change(program, path, speeds, reach, number, memory, s)
     if negative:
         return place - at, place
     if not np.isnan(memory.change[number]):
         return max(2 * (place - at), 1e-12), np.inf
-    memory.change[number] = place  # falling all the way: as it was, up to there
-    memory.after[number] = memory.signs[number]
+    memory.change[number] = place  # falling all the way: as it was, up to there and no further
+    memory.after[number] = 0
     return place - at, np.inf

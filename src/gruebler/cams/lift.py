@@ -19,6 +19,8 @@ __all__ = ["Jump", "Lift", "Segment", "Span", "dwell", "motion", "read_lift"]
 
 FloatArray = NDArray[np.float64]
 
+_LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
+
 
 class Segment(NamedTuple):
     """A part of the turn: the lift goes on by ``scale`` times the law; angle in radians. A dwell has no law."""
@@ -55,16 +57,21 @@ def dwell(angle: float) -> Segment:
     return Segment(_angle(angle))
 
 
+_LARGEST = 1e70  # of lengths, as everywhere: their squares and quotients by the square of an angle stay finite
+
+
 def motion(change: float, angle: float, name: str | Law = "3-4-5") -> Segment:
     """A rise (or fall, if negative) by a law."""
     if not isinstance(change, int | float) or not math.isfinite(change) or change == 0:
         raise CamError(f"a rise or fall has a finite lift that is not zero, not {change!r}")
+    if not 1 / _LARGEST < abs(change) < _LARGEST:
+        raise CamError(f"a lift lies between {1 / _LARGEST:g} and {_LARGEST:g}, not {change!r}: choose another unit")
     return Segment(_angle(angle), float(change), name if isinstance(name, Law) else law(name))
 
 
 def _angle(angle: float) -> float:
-    if not isinstance(angle, int | float) or not 0 < angle <= math.tau * (1 + 1e-12):
-        raise CamError(f"a part of the turn has an angle above 0 and up to 2 pi, not {angle!r} rad")
+    if not isinstance(angle, int | float) or not _LEAST <= angle <= math.tau * (1 + 1e-12):
+        raise CamError(f"a part of the turn has an angle from {_LEAST:g} to 2 pi, not {angle!r} rad")
     return float(angle)
 
 
@@ -87,11 +94,15 @@ class Lift:
         if not self.segments:
             raise CamError("a lift has at least one part")
         turn = sum(segment.angle for segment in self.segments)
-        if abs(turn - math.tau) > 1e-9:
+        if abs(turn - math.tau) > _LEAST:
             raise CamError(f"the parts of a lift fill 360 degrees, not {math.degrees(turn):.6g}")
         left = sum(segment.change for segment in self.segments)
         if abs(left) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
             raise CamError(f"the lift ends where it began; {left:+.6g} is left over")
+
+    def scaled(self, factor: float) -> Lift:
+        """Every lift times a factor, as from degrees to radians."""
+        return Lift(one._replace(scale=one.scale * factor) for one in self.segments)
 
     @property
     def starts(self) -> tuple[float, ...]:
@@ -219,4 +230,6 @@ def _number(text: str, statement: str) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise CamError(f"'{statement}': expected a finite number, not {text!r}")
+    if abs(value) >= _LARGEST:
+        raise CamError(f"'{statement}': expected a number below {_LARGEST:g}, not {text!r}")
     return value

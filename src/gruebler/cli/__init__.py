@@ -24,11 +24,17 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = build_parser().parse_args(argv)
     from importlib import import_module
 
+    from gruebler.cli.compiling_progress import show_compiling
+
     try:
+        show_compiling(getattr(arguments, "lang", "en"))
         status = int(import_module(arguments.run).run(arguments))
         sys.stdout.flush()
     except GrueblerError as error:
         print(f"gruebler {arguments.command}: {error.said(getattr(arguments, 'lang', 'en'))}", file=sys.stderr)
+        return 2
+    except MemoryError:
+        print(f"gruebler {arguments.command}: this needs more memory than there is", file=sys.stderr)
         return 2
     except BrokenPipeError:
         # The reader has gone (| head): what is still buffered has nowhere to go.

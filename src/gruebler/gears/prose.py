@@ -6,7 +6,7 @@ from collections import Counter
 from decimal import Decimal
 from fractions import Fraction
 
-from gruebler.gears.assembly import Assembly, assembly
+from gruebler.gears.assembly import Assembly, assembly, axes, even_numbers
 from gruebler.gears.motion import speeds
 from gruebler.gears.reading import Reading
 from gruebler.gears.train import FRAME, Train, comparable
@@ -42,6 +42,16 @@ SENTENCES = {
     "impossible": (
         "{number} planets ({planet}) at equal angles cannot be put in: {reasons}.",
         "{number} Planeten ({planet}) lassen sich nicht gleichmäßig verteilt einbauen: {reasons}.",
+    ),
+    "axes": (
+        "{links} do not have one axis: with {planet} the tooth numbers give different distances of the axes, {sums} "
+        "half modules (one module, no profile shift).",
+        "{links} haben keine gemeinsame Achse: Mit {planet} ergeben die Zähnezahlen verschiedene Achsabstände, {sums} "
+        "halbe Moduln (gleicher Modul, keine Profilverschiebung).",
+    ),
+    "numbers": (
+        "Equal planets ({planet}) that fit at equal angles: {numbers}.",
+        "Gleiche Planeten ({planet}), die sich gleichmäßig verteilt einbauen lassen: {numbers}.",
     ),
     "coaxial": (
         "the central wheels are not coaxial (wheels of one module without profile shift)",
@@ -126,6 +136,16 @@ def explain(reading: Reading, lang: str = "en") -> str:
         reasons = _reasons(one, column)
         key = "impossible" if reasons else "possible"
         lines.append(say(key, number=count, planet=planet, reasons="; ".join(reasons)))
+    for found_axes in axes(train):
+        wheels = found_axes.meshes
+        if not found_axes.coaxial:
+            sums = (f"|{mesh.size_b} {'-' if mesh.size_a < 0 else '+'} {abs(mesh.size_a)}|" for mesh in wheels)
+            shown = (f"{total} = {value}" for total, value in zip(sums, found_axes.distances, strict=True))
+            lines.append(
+                say("axes", links=", ".join(m.b for m in wheels), planet=found_axes.planet, sums="; ".join(shown))
+            )
+        elif found_axes.planet not in reading.planets and (fits := even_numbers(train, found_axes.planet)):
+            lines.append(say("numbers", planet=found_axes.planet, numbers=", ".join(map(str, fits))))
     return "\n".join(lines)
 
 

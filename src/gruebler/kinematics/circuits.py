@@ -20,8 +20,9 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics.curve import System, Traced, on_curve, system, trace_circuit
 from gruebler.kinematics.moving import move
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.zeros import zeros
+from gruebler.kinematics.zeros import Samples, zeros
 from gruebler.linkages import Linkage, Named, with_lower_pairs
+from gruebler.views import Brief
 
 __all__ = ["ChangePoint", "Circuit", "Extreme", "Stretch", "circuit"]
 
@@ -29,7 +30,9 @@ Reals = NDArray[np.float64]
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
 
-_CONSTANT = 1e-11  # a derivative that is nowhere larger is none
+_CONSTANT = 1e-11  # of the natural size: a derivative that is nowhere larger is none
+_AGAIN = 1e-9  # of the natural size: a value after a lap that differs by less is the same
+_ROUND = 1e-12  # of the length: a place so near the end of a closed circuit is its beginning
 _SINGULAR = 1e-3  # a start with a smaller gauge is taken only if there is no better one
 _SHAKY = 1e-4  # a shaky linkage moves less, within what counts as closed joints
 _TRIALS = 1024  # values of the drive that are tried for a start
@@ -53,6 +56,8 @@ class ChangePoint(NamedTuple):
     """The drive value there; NaN without a drive."""
     pose: Poses
     """The position, exactly."""
+    several: bool = False
+    """Whether more than two curves meet there, or two that touch one another."""
 
 
 class Stretch(NamedTuple):
@@ -65,8 +70,8 @@ class Stretch(NamedTuple):
     """The drive values at both."""
 
 
-@dataclass(frozen=True, eq=False)
-class Circuit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Circuit(Brief):
     """All positions of a linkage on one curve.
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle
@@ -112,7 +117,9 @@ class Circuit:
 
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import Curve, evaluate
+        from gruebler._numeric.work import sampling
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
@@ -124,13 +131,19 @@ class Circuit:
         if len(place) and not (place.min() >= 0 and place.max() <= self.length):
             raise LinkageError(f"this circuit goes from 0 to {self.length:.9g} and is not closed, so no {arcs!r} on it")
         segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
-        x, t = np.empty((2, len(place), self.system.unknowns))
-        curve = Curve(*traced[:3], np.zeros(0))
-        found = evaluate(self.system.conditions, curve, place, segments, x, t, self.system.room)
-        if found < len(place):
-            raise LinkageError(
-                f"the position at {place[found]:.9g} of the circuit cannot be found: it is singular there"
+        x, t = traced.poses[segments], traced.tangents[segments]
+        between = np.flatnonzero(traced.arcs[segments] != place)
+        if len(between):
+            curve, n = Curve(*traced[:3], np.zeros(0)), self.system.unknowns
+            near, slopes = np.empty((2, len(between), n))
+            evaluated = for_work(evaluate, sampling(n, len(between)))
+            found = evaluated(
+                self.system.conditions, curve, place[between], segments[between], near, slopes, self.system.room
             )
+            if found < len(between):
+                where = place[between[found]]
+                raise LinkageError(f"the position at {where:.9g} of the circuit cannot be found: it is singular there")
+            x[between], t[between] = near, slopes
         x += laps[:, None] * (traced.poses[-1] - traced.poses[0])
         return self._poses(given, x, t)
 
@@ -182,25 +195,39 @@ class Circuit:
         >>> np.degrees(made.at(upright).angle("crank")).round(9).tolist()
         [90.0]
         """
-        found = zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), self.arcs)
-        return tuple(zero.at for zero in found)
+        ends = quantity(self.samples, 0)[[0, -1]]
+        again = self.closed and abs(ends[1] - ends[0]) <= _AGAIN * np.abs(quantity(self.samples, 0)).max()
+        samples = Samples(self.arcs, period=self.length if again else None, ends=True)
+        found = zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
+        return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in found))
 
-    def extremes(self, quantity: Quantity) -> tuple[Extreme, ...]:
-        """All extremes of something along the curve, in order; values to rounding."""
-        found = zeros(lambda s: quantity(self.at(s), 1)[None], self.arcs, least=_CONSTANT)
-        values = quantity(self.at([zero.at for zero in found]), 0)
-        return tuple(Extreme(z.at, float(v), not z.rises) for z, v in zip(found, values, strict=True))
+    def extremes(self, quantity: Quantity, natural: float = 1.0) -> tuple[Extreme, ...]:
+        """All extremes of something along the curve, in order; values to rounding.
 
-    def range(self, quantity: Quantity) -> tuple[float, float]:
-        """The smallest and the largest value of something along the curve."""
-        values = [extreme.value for extreme in self.extremes(quantity)]
+        ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
+        """
+        samples = Samples(self.arcs, period=self.length if self.closed else None)
+        found = zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
+        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in found]
+        values = quantity(self.at(arcs), 0)
+        return tuple(sorted(Extreme(at, float(v), not z.rises) for at, z, v in zip(arcs, found, values, strict=True)))
+
+    def _wrapped(self, arc: float) -> float:
+        """The same place of a closed circuit, from 0 to its length."""
+        place = arc % self.length
+        return 0.0 if self.length - place < _ROUND * self.length else place
+
+    def range(self, quantity: Quantity, natural: float = 1.0) -> tuple[float, float]:
+        """The smallest and the largest value of something along the curve; ``natural`` as for `extremes`."""
+        values = [extreme.value for extreme in self.extremes(quantity, natural)]
         values += quantity(self.samples, 0).tolist()
         return min(values), max(values)
 
     @cached_property
     def drive_limits(self) -> tuple[Extreme, ...]:
         """Where the drive turns back: dead centres of the linkage for this drive."""
-        return self.extremes(lambda poses, order: poses.drive(order))
+        turns = all(drive.direction.startswith("R") for drive in self.system.lower.mechanism.drives)
+        return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
 
     @property
     def stretches(self) -> tuple[Stretch, ...]:
@@ -223,7 +250,7 @@ class Circuit:
 
     def _change_points(self) -> Iterator[ChangePoint]:
         traced = self.traced
-        for pose, k in traced.changes:
+        for pose, k, several in traced.changes:
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
             arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
@@ -231,7 +258,7 @@ class Circuit:
             slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
             found = self._poses(np.array([arc]), pose[None], slopes)
             driven = bool(self.system.lower.mechanism.drives)
-            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found)
+            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found, several)
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""

@@ -7,24 +7,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import degrees, pi
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
+from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.home import at_home
+from gruebler.kinematics.law_joints import law_joints
 from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Reals, Stop
 from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.runs import run_rows
+from gruebler.kinematics.runs import follow_path, run_rows
+from gruebler.kinematics.zeros import Samples
 from gruebler.linkages import Linkage
+from gruebler.views import Brief
 
-__all__ = ["Course", "Span", "follow"]
+__all__ = ["Course", "PathCourse", "Span", "follow", "follow_path_of"]
 
 _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
+_STILL = 1e-12  # of the natural size: a rate (of a turn, by the drive) below it is a rounding
 _BEND = 1e-3  # by how much a rate may differ from its cubic, of the usual rate
 _MOST_TURNS = 8  # after which a linkage must be back where it was
 _MOST_WITH_WHEELS = 720  # the same with wheels, whose tooth numbers make long cycles
@@ -35,6 +42,12 @@ _END = 0.3  # how far from an end (of pi for the range) the nodes for values at 
 _NODES = 10
 _NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
 _ROUND = 1e-11  # radians: a full turn less than that is none
+_LAW_NOISE = (
+    1e-11,
+    1e-9,
+    1e-6,
+    1e-3,
+)  # of the usual size: errors of the pieces of laws and their derivatives, and room
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
@@ -68,8 +81,8 @@ class Span(NamedTuple):
         return 0.0 if self.period - value < _ROUND else value
 
 
-@dataclass(frozen=True)
-class Course:
+@dataclass(frozen=True, repr=False)
+class Course(Brief):
     """A linkage on one branch over the whole range of its drive."""
 
     plan: Plan
@@ -88,6 +101,16 @@ class Course:
     def turning_drive(self) -> bool:
         """Whether the drive turns; else it slides."""
         return _turns(self.plan)
+
+    def samples(self, order: int = 1) -> Samples:
+        """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""
+        noise = _LAW_NOISE[order:] if self.joints else ()
+        return Samples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
+
+    @cached_property
+    def joints(self) -> tuple[float, ...]:
+        """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
+        return law_joints(self)
 
     def at(self, drives: Reals, order: int = 3) -> Motion:
         """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
@@ -139,6 +162,10 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
         )
     start = _begun(plan, branch)
     span = _span(plan, start)
+    for stop in span.stops:
+        if stop is not None and stop.reason == "open":
+            found = replace(start, stop=stop)
+            raise LinkageError(found.message(), found.message("de"))
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
@@ -148,6 +175,59 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
             f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
         )
     course = Course(plan, start, span, np.array([span.low, span.high]))
+    return replace(course, grid=_grid(course))
+
+
+@dataclass(frozen=True, repr=False)
+class PathCourse(Course):
+    """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
+
+    ends: Reals
+    """(2, drives): where the path begins and ends."""
+
+    @property
+    def turning_drive(self) -> bool:
+        """The part of a path is no angle."""
+        return False
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """None are sought along a path of several drives."""
+        return ()
+
+    def values(self, parts: Reals) -> Reals:
+        """The drive values at parts of the path; (n, drives)."""
+        return np.asarray(self.ends[0] + np.asarray(parts, np.float64)[:, None] * (self.ends[1] - self.ends[0]))
+
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at parts of the path, in any order; rates by the part."""
+        order_of = np.argsort(drives, kind="stable")
+        parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
+        found = move(
+            self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
+        )
+        if not found.complete:
+            raise LinkageError(found.message(), found.message("de"))
+        return _rows(found, 1 + np.argsort(order_of, kind="stable"))
+
+
+def follow_path_of(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCourse:
+    """The course of a linkage along a straight path of its drives, (rows, drives), from the first row to the last.
+
+    Raises `LinkageError` if the drives do not move, or if the linkage cannot be moved to the end of the path.
+    """
+    plan = planned(linkage)
+    rows = drive_path(plan, path)
+    ends = np.array([rows[0], rows[-1]])
+    if (ends[0] == ends[1]).all():
+        raise LinkageError(
+            "the path of the drives has no length: its first row is its last",
+            "der Weg der Antriebe hat keine Länge: seine erste Zeile ist seine letzte",
+        )
+    start = move(plan, ends[:1], branch=branch)
+    if not start.complete:
+        raise LinkageError(start.message(), start.message("de"))
+    course = PathCourse(plan, start, Span(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
     return replace(course, grid=_grid(course))
 
 
@@ -163,7 +243,10 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
+    if plan.released:  # its independent part may have change points where it has none
+        motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
+    else:
+        motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
     if order:
         mend_rates(plan, motion, path, speeds, signs)
     return motion, rows
@@ -248,6 +331,7 @@ def _grid(course: Course) -> Reals:
     def drive(s: Reals) -> Reals:
         return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
 
+    least = _STILL / (1 if course.turning_drive else course.plan.lower.size)
     suspect = np.ones(len(s) - 1, bool)
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
@@ -256,7 +340,7 @@ def _grid(course: Course) -> Reals:
         usual = np.quantile(np.abs(speed), 0.9, axis=0)
         width = np.diff(drive(s))[:, None]
         cubic = (speed[:-1] + speed[1:]) / 2 + width / 8 * (change[:-1] - change[1:])
-        off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + 1e-12
+        off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + least
         bent = np.zeros(len(s) - 1, bool)
         bent[suspect] = off.any(axis=1)
         order = np.argsort(np.concatenate([s, middles]), kind="stable")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import radians
 
@@ -14,9 +14,11 @@ from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RR
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
+from gruebler.views import Brief
 
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
 
@@ -26,6 +28,7 @@ _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
 _LONGEST_TURN = radians(5)
 _LONGEST_PUSH = 0.03  # of the linkage's size
+_ONE = 1e-9  # of the linkage's size: shortest ways of a slide that differ by less are one
 
 
 @dataclass(frozen=True)
@@ -61,14 +64,14 @@ class Larger:
     """Whether wheels or circles are in it: then its modes are not searched for, and it is followed from the home."""
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, repr=False)
+class Plan(Brief):
     """The order of solving, in names and as arrays for the kernel."""
 
     linkage: Linkage
     """The linkage as it was given."""
     lower: Linkage
-    """The same with turning and sliding joints only."""
+    """The same with turning and sliding joints only, and without redundant conditions."""
     decomposition: Decomposition
     parts: tuple[Dyad | Larger, ...]
     """Dyads and larger groups in solving order."""
@@ -77,6 +80,8 @@ class Plan:
     """For each larger group its closing conditions."""
     keys: tuple[tuple[int, str], ...]
     """The joint and link of each element by number."""
+    released: tuple[int, ...] = ()
+    """The joints, by number in `linkage`, that are closed only if its sizes are right: redundant conditions."""
 
     @property
     def dyads(self) -> tuple[Dyad, ...]:
@@ -158,7 +163,7 @@ class Plan:
         There a dyad may be impossible for so short a way that steps would pass it unseen.
         """
         program = self.program
-        out = []
+        out: list[tuple[int, float]] = []
         for _, k, near, far, sign in (o for o in self.operations if o[0] == PUSH):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
@@ -173,7 +178,9 @@ class Plan:
                         + turn * (program.points[other] - program.points[far])
                         - program.points[one]
                     )
-                    out.append((k, float(-sign * (np.conj(line) * gap).real)))
+                    value = float(-sign * (np.conj(line) * gap).real)
+                    if not any(k == number and abs(value - known) <= _ONE * self.lower.size for number, known in out):
+                        out.append((k, value))
         return tuple(out)
 
     def element_arrays(self, lower: Linkage) -> tuple[np.ndarray, np.ndarray]:
@@ -204,9 +211,21 @@ def plan(linkage: Linkage) -> Plan:
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )
     parts = decompose(lower.mechanism)
+    released: tuple[int, ...] = ()
+    if parts.overconstrained:
+        try:
+            part, released = independent_part(linkage)
+        except LinkageError as error:
+            assert parts.report is not None
+            raise LinkageError(
+                "the linkage cannot be moved by its drives: constraints or drives work against one another. "
+                f"Mobility {parts.report.mobility}, drives {parts.report.drives}, at almost all sizes. {error}"
+            ) from None
+        lower = with_lower_pairs(part)
+        parts = decompose(lower.mechanism)
     if not parts.complete:
         raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
-    return _Planner(linkage, lower, parts).made()
+    return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
 class _Planner:

@@ -13,6 +13,7 @@ from gruebler.linkages.model import joint_number
 from gruebler.statics.equilibrium import Contact, Reactions, contacts, reactions
 from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, placed
 from gruebler.statics.rates import again, drive_speed
+from gruebler.views import Brief
 
 __all__ = ["Statics", "statics"]
 
@@ -32,8 +33,8 @@ _UNKNOWN = {
 _MOST_SAID = 6
 
 
-@dataclass(frozen=True)
-class Statics:
+@dataclass(frozen=True, repr=False)
+class Statics(Brief):
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 
     Torques are in force times the linkage's unit. Without friction and without inertia.
@@ -166,6 +167,12 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     """
     if not motion.plan.lower.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
+    if motion.plan.released:
+        raise LinkageError(
+            "the linkage is overconstrained: how its joints share the loads depends on how they yield",
+            "das Getriebe ist übergeschlossen: Wie sich die Lasten auf die Gelenke verteilen, hängt von ihrer "
+            "Nachgiebigkeit ab",
+        )
     wrenches = placed(motion, loads)
     if not len(motion):
         raise LinkageError(f"the motion has no rows. {motion.message()}".strip())

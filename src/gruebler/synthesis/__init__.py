@@ -1,0 +1,39 @@
+"""Dimensional synthesis: linkages for a wanted motion.
+
+Tasks are positions of a body, points of a path, a function, dead centres; every answer is a `SynthesisResult`: all
+designs with their verdicts, and how many solutions there are by theorem, found and real. docs/theory/synthesis.md has
+the definitions, theorems and methods.
+"""
+
+from gruebler.synthesis.dead_centres import synthesise_dead_centres
+from gruebler.synthesis.formulas import FunctionLaw
+from gruebler.synthesis.functions import function_task, minimax, structural_error, synthesise_function
+from gruebler.synthesis.judging import Demands
+from gruebler.synthesis.positions import synthesise_positions
+from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
+from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
+from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+
+__all__ = [
+    "Count",
+    "DeadCentreTask",
+    "Demands",
+    "Design",
+    "FunctionLaw",
+    "FunctionTask",
+    "PathTask",
+    "PositionTask",
+    "SynthesisResult",
+    "Task",
+    "Verdict",
+    "function_task",
+    "minimax",
+    "read_task",
+    "structural_error",
+    "synthesise_dead_centres",
+    "synthesise_function",
+    "synthesise_positions",
+    "task_from_json",
+    "task_to_json",
+    "write_task",
+]

@@ -1,0 +1,250 @@
+"""Burmester's curves: the pivots of all dyads that guide a body through four positions, traced completely.
+
+The circle-point curve (pivots on the body) and the centre-point curve (on the frame) are cubics. Each is seen from a
+point of itself: a line through that point meets the cubic in two others, the roots of a quadratic, and the directions
+in which they are real end at the roots of a quartic. So no part of the curve is missed. See
+docs/theory/synthesis-positions.md.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import SynthesisError
+from gruebler.synthesis.dyads import Displacements, GuidingDyad, circle_point_cubics, misfit, sliding_dyads
+from gruebler.synthesis.tasks import PositionTask
+
+__all__ = ["BurmesterCurves", "Piece", "burmester_curves"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition
+
+
+class Piece(NamedTuple):
+    """A connected piece of both curves, point by point: pivots that belong together."""
+
+    moving: Complexes
+    """(points,) pivots on the body, where they lie in the first position."""
+    fixed: Complexes
+    """(points,) pivots on the frame; far away where the dyad is nearly a slide."""
+
+
+@dataclass(frozen=True)
+class BurmesterCurves:
+    """The dyads of four positions: a one-parameter family of RR dyads, and single PR and RP dyads."""
+
+    task: PositionTask
+    pieces: tuple[Piece, ...]
+    sliding: tuple[GuidingDyad, ...]
+
+    def dyads(self, number: int) -> tuple[GuidingDyad, ...]:
+        """So many RR dyads spread over the pieces, and the sliding ones.
+
+        Those are left out whose pivots lie further away than 30 sizes of the task.
+        """
+        origin, size = complex(*self.task.positions[0][:2]), self.task.size
+        moving = np.concatenate([piece.moving for piece in self.pieces])
+        fixed = np.concatenate([piece.fixed for piece in self.pieces])
+        near = (np.abs(moving - origin) < 30 * size) & (np.abs(fixed - origin) < 30 * size)
+        apart = np.abs(moving - fixed) > 1e-6 * size
+        chosen = np.flatnonzero(near & apart)
+        chosen = chosen[np.unique(np.linspace(0, len(chosen) - 1, min(number, len(chosen))).astype(int))]
+        return (*(self.nearest(complex(moving[k])) for k in chosen), *self.sliding)
+
+    def nearest(self, pivot: complex) -> GuidingDyad:
+        """The dyad whose pivot on the body is nearest to a place, exact."""
+        given, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        moving = np.concatenate([piece.moving for piece in self.pieces])
+        fixed = np.concatenate([piece.fixed for piece in self.pieces])
+        k = int(np.argmin(np.abs(moving - pivot)))
+        x, m = (moving[k] - origin) / size, (fixed[k] - origin) / size
+        return _sharpened(given, x, m).moved(size, origin)
+
+
+def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
+    """Both curves of four positions, with about so many points. Cost: about 3 ms.
+
+    Raises `SynthesisError` for another number of positions, and where every point of the body is a pivot.
+    """
+    if len(task) != 4:
+        raise SynthesisError(f"Burmester's curves belong to four positions, not to {len(task)}")
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    cubic = circle_point_cubics(given)[0]
+    if np.abs(cubic).max() < _NOTHING:
+        raise SynthesisError(
+            "every point of the body can be a pivot: the four positions belong to a rotation, a translation or "
+            "repeat one another"
+        )
+    real = _real_cubic(cubic)
+    pieces = []
+    for curve in _traced(real, _known_point(given, real), points):
+        fixed, good = _centres(given, curve)
+        for part in _runs(good):
+            moving = curve[part]
+            if len(moving) > 1:
+                pieces.append(Piece(moving * size + origin, fixed[part] * size + origin))
+    sliding = tuple(dyad.moved(size, origin) for dyad in sliding_dyads(given))
+    return BurmesterCurves(task, tuple(pieces), sliding)
+
+
+def _real_cubic(cubic: Complexes) -> Reals:
+    """The coefficients of x^i y^j in Cartesian coordinates: (4, 4)."""
+    from math import comb
+
+    from gruebler.synthesis.dyads import _CUBIC
+
+    out = np.zeros((4, 4), np.complex128)
+    for value, (m, n) in zip(cubic, _CUBIC, strict=True):
+        for a in range(m + 1):
+            for b in range(n + 1):
+                i, j = m + n - a - b, a + b
+                out[i, j] += value * comb(m, a) * comb(n, b) * (1j) ** a * (-1j) ** b
+    # Real up to a common factor of modulus one.
+    largest = out.ravel()[np.argmax(np.abs(out))]
+    return np.asarray((out / largest).real)
+
+
+def _value(cubic: Reals, z: Complexes) -> Reals:
+    return np.asarray(np.polynomial.polynomial.polyval2d(z.real, z.imag, cubic))
+
+
+def _known_point(given: Displacements, cubic: Reals) -> complex:
+    """A finite point of the circle-point curve: a pole of the body, else any."""
+    poles = [complex(t / (1 - q)) for q, t in zip(*given, strict=True) if abs(q - 1) > 1e-6]
+    if poles:
+        return min(poles, key=abs)
+    for angle in (0.3, 1.1, 1.9, 2.7):  # a line through the origin meets a cubic at least once
+        line = np.exp(1j * angle)
+        along = [sum(cubic[i, n - i] * line.real**i * line.imag ** (n - i) for i in range(n + 1)) for n in range(4)]
+        roots = np.polynomial.polynomial.polyroots(np.trim_zeros(along, "b"))
+        real = roots[np.abs(roots.imag) < 1e-9 * (1 + np.abs(roots))].real
+        if len(real):
+            return complex(line * real[np.argmin(np.abs(real))])
+    raise SynthesisError("the circle-point curve has no finite point")
+
+
+def _traced(cubic: Reals, start: complex, points: int) -> list[Complexes]:
+    """The curve as connected pieces; a piece that runs to infinity is open."""
+    # About the start: along the direction (c, s) the cubic is r (A2 r^2 + A1 r + A0), A0 = 0 up to rounding.
+    moved = _shifted(cubic, start)
+
+    def forms(angle: Reals) -> tuple[Reals, Reals, Reals]:
+        c, s = np.cos(angle), np.sin(angle)
+        parts = [sum(moved[i, n - i] * c**i * s ** (n - i) for i in range(n + 1)) for n in (1, 2, 3)]
+        return parts[0], parts[1], parts[2]
+
+    def discriminant(angle: Reals) -> Reals:
+        linear, square, cube = forms(angle)
+        return np.asarray(square**2 - 4 * cube * linear)
+
+    cuts = _zeros_of_form(discriminant)
+    out: list[Complexes] = []
+    spans = [(0.0, np.pi)] if not len(cuts) else list(zip(cuts, [*cuts[1:], cuts[0] + np.pi], strict=True))
+    for low, high in spans:
+        if discriminant(np.array([(low + high) / 2]))[0] <= 0:
+            continue
+        # Dense where the two roots meet at the ends.
+        share = (1 - np.cos(np.linspace(0, np.pi, points))) / 2
+        angle = low + (high - low) * share
+        linear, square, _ = forms(angle)
+        root = np.sqrt(np.maximum(discriminant(angle), 0.0))
+        direction = np.exp(1j * angle)
+        # The quadratic's roots without cancellation, as 2 A0 / (-A1 -+ root).
+        with np.errstate(divide="ignore", invalid="ignore"):
+            first, second = 2 * linear / (-square + root), 2 * linear / (-square - root)
+        loop = np.concatenate([start + direction * first, (start + direction * second)[::-1]])
+        if not len(cuts):
+            out += [start + direction * first, start + direction * second]
+        else:
+            out.append(loop)
+    return [piece for loop in out for piece in _finite(loop)]
+
+
+def _shifted(cubic: Reals, start: complex) -> Reals:
+    """The coefficients about another origin."""
+    from math import comb
+
+    out = np.zeros((4, 4))
+    for i in range(4):
+        for j in range(4 - i):
+            for a in range(i + 1):
+                for b in range(j + 1):
+                    out[a, b] += cubic[i, j] * comb(i, a) * comb(j, b) * start.real ** (i - a) * start.imag ** (j - b)
+    return out
+
+
+def _zeros_of_form(form: object) -> Reals:
+    """The zeros of a quartic form in cosine and sine, in [0, pi): from nine values by its Fourier coefficients."""
+    count = 9
+    angles = np.pi * np.arange(count) / count
+    values = form(angles)  # type: ignore[operator]
+    # A form of degree four is a trigonometric polynomial of degree two in the doubled angle.
+    coefficients = np.fft.fft(values) / count
+    polynomial = np.concatenate([coefficients[-2:], coefficients[:3]])
+    largest = np.abs(polynomial).max()
+    if largest == 0:
+        return np.zeros(0)
+    roots = np.polynomial.polynomial.polyroots(polynomial)
+    on_circle = roots[np.abs(np.abs(roots) - 1) < 1e-6]
+    return np.sort(np.angle(on_circle) / 2 % np.pi)
+
+
+def _finite(loop: Complexes) -> list[Complexes]:
+    """The loop cut where it goes through infinity; pieces that meet at its ends are joined."""
+    jump = np.abs(np.diff(np.append(loop, loop[0])))
+    far = np.abs(loop)
+    limit = 1e4
+    good = np.isfinite(loop.real) & (far < limit)
+    cut = jump > 0.5 * limit
+    good &= ~cut
+    if good.all():
+        return [np.append(loop, loop[0])]
+    first = int(np.argmin(good))
+    rolled, ok = np.roll(loop, -first), np.roll(good, -first)
+    return [rolled[part] for part in _runs(ok)]
+
+
+def _runs(good: NDArray[np.bool_]) -> list[slice]:
+    """Slices of consecutive true values."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
+    return [slice(int(a), int(b)) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _centres(given: Displacements, x: Complexes) -> tuple[Complexes, NDArray[np.bool_]]:
+    """The pivots on the frame, and where they are finite."""
+    q, t = given
+    places = q * x[:, None] + t
+    gaps = places - x[:, None]
+    right = (np.abs(places) ** 2 - np.abs(x[:, None]) ** 2) / 2
+    gram = np.einsum("ni,ni->n", gaps.real, gaps.real), np.einsum("ni,ni->n", gaps.imag, gaps.imag)
+    mixed = np.einsum("ni,ni->n", gaps.real, gaps.imag)
+    one, two = np.einsum("ni,ni->n", gaps.real, right), np.einsum("ni,ni->n", gaps.imag, right)
+    det = gram[0] * gram[1] - mixed**2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        m = ((gram[1] * one - mixed * two) + 1j * (gram[0] * two - mixed * one)) / det
+    good = (det > 1e-14 * (gram[0] + gram[1]) ** 2) & (np.abs(m) < 1e4)
+    return m, good
+
+
+def _sharpened(given: Displacements, x: complex, m: complex) -> GuidingDyad:
+    """The nearest exact dyad of three displacements, by Gauss and Newton."""
+    q, t = given
+    for _ in range(20):
+        gap = q * x + t - m
+        residual = np.abs(gap) ** 2 - abs(x - m) ** 2
+        by_x, by_m = 2 * (np.conj(q) * gap - (x - m)), -2 * (gap - (x - m))
+        matrix = np.stack([by_x.real, by_x.imag, by_m.real, by_m.imag], axis=1)
+        step, *_ = np.linalg.lstsq(matrix, -residual, rcond=1e-13)
+        x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
+        if np.abs(step).max() < 1e-15 * (1 + abs(x) + abs(m)):
+            break
+    dyad = GuidingDyad("RR", x, m)
+    if misfit(given, dyad) > 1e-10 * (1 + abs(x) + abs(m)):
+        raise SynthesisError("no dyad of the four positions lies near this place")
+    return dyad

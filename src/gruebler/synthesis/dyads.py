@@ -1,0 +1,295 @@
+"""Dyads that guide a body through positions: two links and a joint between body and frame.
+
+All in the coordinates of the frame, points of the body as they lie in the first position. Displacement j carries the
+point x to q_j x + t_j. docs/theory/synthesis-positions.md has the equations and the counts.
+"""
+
+from __future__ import annotations
+
+from itertools import combinations, product
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import SynthesisError
+
+__all__ = [
+    "Displacements",
+    "GuidingDyad",
+    "all_dyads",
+    "dyad_of_fixed_pivot",
+    "dyad_of_moving_pivot",
+    "misfit",
+    "sliding_dyads",
+]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_REAL = 1e-7
+"""Two conjugate numbers nearer to real than this are looked at as real: a double root has half the digits of 1e-16."""
+_FAR = 1e-9
+"""A homogeneous coordinate smaller than this part of the others is at infinity: pivots 1e9 sizes away are no pivots."""
+_EXACT = 1e-11
+"""A polished dyad misses its condition by less, relative to its size."""
+
+
+class GuidingDyad(NamedTuple):
+    """A connection of body and frame with two joints, the first on the frame: RR, PR or RP."""
+
+    form: str
+    moving: complex
+    """RR and PR: the pivot on the body, as it lies in the first position. RP: the fixed pivot again."""
+    fixed: complex
+    """RR and RP: the pivot on the frame. PR: the pivot on the body."""
+    direction: complex = 0j
+    """PR: of the slide on the frame. RP: of the slide on the body, in the first position."""
+
+    @property
+    def length(self) -> float:
+        """The distance of the pivots of an RR dyad; 0 for the others."""
+        return abs(self.moving - self.fixed)
+
+    def moved(self, turn: complex, shift: complex) -> GuidingDyad:
+        """The dyad turned, scaled (``turn``) and shifted."""
+        direction = self.direction * turn / abs(turn)
+        return GuidingDyad(self.form, turn * self.moving + shift, turn * self.fixed + shift, direction)
+
+
+class Displacements(NamedTuple):
+    """From the first position to each of the others, in units of the task's size about the first origin."""
+
+    q: Complexes
+    """(positions - 1,) cosine + i sine of the rotation."""
+    t: Complexes
+    """(positions - 1,) where the origin goes."""
+
+    @classmethod
+    def of(cls, origins: Complexes, turns: Complexes) -> tuple[Displacements, complex, float]:
+        """The displacements, with the first origin and the size by which they are reduced."""
+        size = float(np.abs(origins - origins[0]).max()) or 1.0
+        q = turns[1:] / turns[0]
+        return cls(q, (origins[1:] - origins[0]) / size), complex(origins[0]), size
+
+    @property
+    def inverse(self) -> Displacements:
+        """The displacements of the frame as seen from the body."""
+        return Displacements(np.conj(self.q), -np.conj(self.q) * self.t)
+
+    def images(self, x: complex) -> Complexes:
+        """The point in all positions, the first included."""
+        return np.concatenate([[x], self.q * x + self.t])
+
+
+def _rows(given: Displacements) -> Complexes:
+    """Conditions of RR dyads, bilinear: (displacements, 3, 3) by (x, x*, 1) and (m, m*, 1)."""
+    q, t = given
+    qc, tc = np.conj(q), np.conj(t)
+    out = np.zeros((len(q), 3, 3), np.complex128)
+    out[:, 0, 1], out[:, 0, 2] = 1 - q, q * tc
+    out[:, 1, 0], out[:, 1, 2] = 1 - qc, qc * t
+    out[:, 2, 0], out[:, 2, 1], out[:, 2, 2] = -tc, -t, t * tc
+    return out
+
+
+def misfit(given: Displacements, dyad: GuidingDyad) -> float:
+    """How far the dyad is from guiding the body: the largest deviation of its constant length or line."""
+    if dyad.form == "RR":
+        gaps = np.abs(given.images(dyad.moving) - dyad.fixed)
+    elif dyad.form == "PR":
+        gaps = np.imag(np.conj(dyad.direction) * given.images(dyad.moving))
+    else:
+        gaps = np.imag(np.conj(dyad.direction) * given.inverse.images(dyad.fixed))
+    return float(gaps.max() - gaps.min())
+
+
+def dyad_of_moving_pivot(given: Displacements, x: complex, /) -> GuidingDyad:
+    """The dyad of two displacements whose pivot on the body is given: RR, or PR where its three places are in line.
+
+    Raises `SynthesisError` if two of the places coincide, so that any centre will do.
+    """
+    places = given.images(x)
+    gaps = np.diff(places)
+    if np.abs(gaps).min() < _FAR:
+        raise SynthesisError("the chosen pivot lies in the same place in two positions: every fixed pivot serves it")
+    area = float(np.imag(np.conj(gaps[0]) * gaps[1])) / float(np.abs(gaps[0]) * np.abs(gaps[1]))
+    if abs(area) < _FAR:
+        direction = (places[-1] - places[0]) if abs(places[-1] - places[0]) > _FAR else gaps[0]
+        return GuidingDyad("PR", x, x, complex(direction / abs(direction)))
+    return GuidingDyad("RR", x, _centre(places))
+
+
+def dyad_of_fixed_pivot(given: Displacements, m: complex, /) -> GuidingDyad:
+    """The dyad of two displacements whose pivot on the frame is given: RR, or RP; errors as above."""
+    found = dyad_of_moving_pivot(given.inverse, m)
+    if found.form == "PR":
+        return GuidingDyad("RP", m, m, found.direction)
+    return GuidingDyad("RR", found.fixed, m)
+
+
+def _centre(places: Complexes) -> complex:
+    """The centre of the circle through three places."""
+    u, v = places[1] - places[0], places[2] - places[0]
+    cross = 2 * float(np.imag(np.conj(u) * v))
+    return complex(places[0] + 1j * (abs(v) ** 2 * u - abs(u) ** 2 * v) / -cross)
+
+
+def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
+    """The PR and RP dyads of three displacements: one of each in general.
+
+    Raises `SynthesisError` for displacements that have infinitely many.
+    """
+    out = []
+    for form, seen in (("PR", given), ("RP", given.inverse)):
+        q, t = (v[:3] for v in seen)
+        alpha = np.linalg.det(np.stack([q - 1, np.conj(q) - 1, t], axis=1))
+        if abs(alpha) < _FAR:
+            if np.abs(q - 1).max() < _FAR:
+                raise SynthesisError("the body does not turn: every one of its points moves alike (a translation)")
+            continue
+        normal = alpha / abs(alpha)
+        rows = np.stack([np.conj(normal) * (q - 1), normal * (np.conj(q) - 1)], axis=1)
+        right = -2 * np.real(np.conj(normal) * t)
+        matrix = np.stack([2 * rows[:, 0].real, -2 * rows[:, 0].imag], axis=1)
+        (x, y), *_ = np.linalg.lstsq(matrix, right, rcond=None)
+        point, direction = complex(x, y), complex(1j * normal)
+        if np.hypot(x, y) > 1 / _FAR:
+            continue
+        dyad = GuidingDyad(form, point, point, direction)
+        if misfit(given, dyad) <= 1e-9 * (1 + abs(point)):
+            out.append(dyad)
+    return tuple(out)
+
+
+# Of the ten monomials of a cubic in x, x*, w two are missing, the pure powers of x and x*, since the cubics of four
+# positions pass through the circular points: eight are left, by exponents of x and x*.
+_CUBIC = ((2, 1), (1, 2), (2, 0), (1, 1), (0, 2), (1, 0), (0, 1), (0, 0))
+_BASE = ((1, 1), (1, 0), (0, 1), (0, 0))
+"""Monomials of degree two whose products with x, x* and w are all among `_CUBIC`."""
+_FORMS = np.array([[0.61, 0.37 + 0.29j, 0.53], [0.23 - 0.41j, 0.47, -0.67]])
+"""Two linear forms in x, x*, w in general position; their ratio tells the solutions apart."""
+
+
+def circle_point_cubics(given: Displacements) -> Complexes:
+    """The cubics on which the pivots on the body lie, for each three displacements: (choices, 8) by `_CUBIC`.
+
+    A pivot on the body has a centre for three displacements if three conditions, linear in the centre, are dependent:
+    their determinant is zero.
+    """
+    rows = _rows(given)
+    chosen = rows[np.array(list(combinations(range(len(rows)), 3)))]  # (choices, 3 conditions, 3 by x, 3 by m)
+    a, b, c = (chosen[:, k] for k in range(3))
+    crossed = np.cross(b[:, :, None, :], c[:, None, :, :])
+    products = np.einsum("nil,njkl->nijk", a, crossed).reshape(len(chosen), 27)
+    return np.asarray(products @ _COLLECTED)
+
+
+def _collected() -> Reals:
+    """(27, 8): to which monomial of `_CUBIC` each product of three coordinates belongs; the pure powers vanish."""
+    out = np.zeros((27, len(_CUBIC)))
+    for row, numbers in enumerate(product(range(3), repeat=3)):
+        exponents = numbers.count(0), numbers.count(1)
+        if exponents in _CUBIC:
+            out[row, _CUBIC.index(exponents)] = 1.0
+    return out
+
+
+_COLLECTED = _collected()
+
+
+class Dyads(NamedTuple):
+    """The dyads of four displacements (five positions)."""
+
+    real: tuple[GuidingDyad, ...]
+    found: int
+    """How many complex ones, of four."""
+
+
+def all_dyads(given: Displacements) -> Dyads:
+    """All dyads of four displacements: RR, PR and RP, from the four roots of one polynomial.
+
+    Cost: about 0.4 ms. Raises `SynthesisError` where there are infinitely many.
+    """
+    cubics = circle_point_cubics(given)
+    scale = np.abs(cubics).max(initial=0.0)
+    # The rank is decided far above rounding and far below what a general task has.
+    _, values, basis = np.linalg.svd(cubics / scale if scale > 0 else cubics)
+    if scale < 1e-13 or values[3] < 1e-12 * max(values[0], 1e-300):
+        raise SynthesisError(_FAMILY)
+    kernel = np.conj(basis[4:].T)  # (8, 4): evaluations at the four solutions span it
+    products = np.stack([_times(kernel, shift) for shift in ((1, 0), (0, 1), (0, 0))])
+    one, other = np.tensordot(_FORMS, products, axes=1)
+    vectors = np.linalg.eig(np.linalg.solve(other, one))[1]
+    found = [_point(products @ vectors[:, k]) for k in range(4)]
+    real = tuple(dyad for x in found if (dyad := _real_dyad(given, x)) is not None)
+    return Dyads(_different(real), len(found))
+
+
+_FAMILY = (
+    "there are infinitely many dyads: some of the positions are repeated, or they belong to a motion that "
+    "infinitely many dyads guide (such as a rotation or a translation)"
+)
+
+
+def _times(kernel: Complexes, shift: tuple[int, int]) -> Complexes:
+    return kernel[[_CUBIC.index((i + shift[0], j + shift[1])) for i, j in _BASE]]
+
+
+def _point(products: Complexes) -> Complexes:
+    """Homogeneous x, x*, w from the products of the base with each of them: (3, 4) of rank one."""
+    u, *_ = np.linalg.svd(products)
+    return np.asarray(u[:, 0])
+
+
+def _real_dyad(given: Displacements, x: Complexes) -> GuidingDyad | None:
+    """The dyad of a solution in homogeneous isotropic coordinates, if it is real."""
+    # Real points: the conjugate of the point, its first two coordinates exchanged, is the same point.
+    mirrored = np.conj(x[[1, 0, 2]])
+    phase = np.vdot(x, mirrored)
+    if abs(abs(phase) - 1) > _REAL:
+        return None
+    x = x * np.sqrt(phase / abs(phase))
+    if abs(x[2]) < _FAR:
+        return _sliding(given, "RP")
+    centre = np.conj(np.linalg.svd(np.einsum("i,jik->jk", x, _rows(given)))[2][-1])
+    if abs(centre[2]) < _FAR:
+        return _sliding(given, "PR")
+    return _polished(given, complex(x[0] / x[2]), complex(centre[0] / centre[2]))
+
+
+def _sliding(given: Displacements, form: str) -> GuidingDyad | None:
+    for dyad in sliding_dyads(given):
+        if dyad.form == form and misfit(given, dyad) <= 1e-8 * (1 + abs(dyad.moving)):
+            return dyad
+    return None
+
+
+def _polished(given: Displacements, x: complex, m: complex) -> GuidingDyad | None:
+    """The real RR dyad near a solution, by Newton's method; None if there is none."""
+    scale = max(abs(x), abs(m), 1.0)
+    q, t = given
+    for _ in range(12):
+        gap = q * x + t - m
+        residual = (np.abs(gap) ** 2 - abs(x - m) ** 2) / scale
+        by_x, by_m = 2 * (np.conj(q) * gap - (x - m)) / scale, -2 * (gap - (x - m)) / scale
+        matrix = np.stack([by_x.real, by_x.imag, by_m.real, by_m.imag], axis=1)
+        step, *_ = np.linalg.lstsq(matrix, -residual, rcond=1e-15)
+        x, m = x + complex(step[0], step[1]), m + complex(step[2], step[3])
+        if np.abs(step).max() < 1e-15 * scale:
+            break
+    dyad = GuidingDyad("RR", x, m)
+    return dyad if misfit(given, dyad) <= _EXACT * scale and dyad.length > _FAR else None
+
+
+def _different(dyads: tuple[GuidingDyad, ...]) -> tuple[GuidingDyad, ...]:
+    out: list[GuidingDyad] = []
+    for dyad in dyads:
+        near = [
+            abs(dyad.moving - o.moving) + abs(dyad.fixed - o.fixed) < 1e-9 * (1 + abs(o.moving) + abs(o.fixed))
+            for o in out
+            if o.form == dyad.form
+        ]
+        if not any(near):
+            out.append(dyad)
+    return tuple(sorted(out, key=lambda d: (d.form != "RR", d.length, d.moving.real)))

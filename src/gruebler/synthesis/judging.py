@@ -1,0 +1,391 @@
+"""Whether a design does what was wanted: one judgement for every kind of task, by following the whole circuit.
+
+docs/theory/synthesis.md defines the criteria. What a synthesis computed is not believed: the circuit is followed from
+the linkage's home without regard to the drive, the places where it meets each target are sought on it, and `move`
+carries the linkage through them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics import Circuit, Poses, circuit, move, transmission_angle
+from gruebler.kinematics.motion import Motion
+from gruebler.linkages import Linkage, Pin
+from gruebler.linkages.elements import Line
+from gruebler.synthesis.results import Design, Verdict
+
+__all__ = ["Demands", "Probe", "Targets", "best_of", "judged", "point_targets", "position_targets"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+EXACT = 1e-9
+"""A target is met if it is missed by less than this part of the task's size."""
+_ROUNDING = 1e-13  # of the linkage's size: what the poses of a large linkage for a small task cannot promise
+_REFINEMENTS = 8
+
+
+@dataclass(frozen=True)
+class Demands:
+    """What an accepted design has to do besides meeting its targets on one branch and in order.
+
+    >>> Demands(transmission=0.7).crank
+    False
+    """
+
+    crank: bool = False
+    """The drive turns fully."""
+    transmission: float = 0.0
+    """The transmission angle does not fall below, in radians."""
+    size_ratio: float = 1e4
+    """The longest length of a link is at most so many times the shortest."""
+    region: tuple[float, float, float, float] | None = None
+    """The fixed pivots lie in this rectangle: least x, least y, greatest x, greatest y."""
+    tolerance: float = EXACT
+    """How far a target may be missed, relative to the size of the task."""
+    one_branch: bool = True
+    """The drive never turns back on the way."""
+    in_order: bool = True
+    """The targets are met in the order of the task."""
+
+
+class Probe(NamedTuple):
+    """A complex quantity of a pose: a point, or the direction of a link times a length."""
+
+    point: str = ""
+    """The named point; empty for a direction."""
+    link: str = ""
+    joint: int = -1
+    """A sliding joint whose travel is looked at."""
+    length: float = 1.0
+
+    def value(self, poses: Poses, order: int) -> Complexes:
+        """It or its derivative by the arc; (rows,)."""
+        if self.point:
+            return poses.complex_point(self.point, order)
+        if self.joint >= 0:
+            return poses.slide(self.joint, order).astype(np.complex128)
+        out: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
+        return out
+
+    def of_motion(self, motion: Motion) -> Complexes:
+        """Its value in each row of a motion."""
+        if self.point:
+            return motion.complex_point(self.point)
+        if self.joint >= 0:
+            return motion.slide(self.joint).astype(np.complex128)
+        out: Complexes = self.length * np.exp(1j * motion.angle(self.link))
+        return out
+
+
+class Targets(NamedTuple):
+    """What is to be met: for each probe its value at each target; NaN where it is free."""
+
+    probes: tuple[Probe, ...]
+    values: Complexes
+    """(targets, probes)"""
+    size: float
+    """The size of the task: errors are relative to it."""
+
+    def gaps(self, poses: Poses, which: NDArray[np.int64]) -> tuple[Complexes, Complexes]:
+        """How far each row is from its target, and the derivatives by the arc; (rows, probes)."""
+        values = np.stack([probe.value(poses, 0) for probe in self.probes], axis=1) - self.values[which]
+        rates = np.stack([probe.value(poses, 1) for probe in self.probes], axis=1)
+        free = np.isnan(values)
+        return np.where(free, 0, values), np.where(free, 0, rates)
+
+
+def position_targets(point: str, link: str, origins: Complexes, angles: Iterable[float | None], size: float) -> Targets:
+    """Positions of a link: the places of one of its points, and its angles where they are given."""
+    turned = np.array([np.nan if a is None else size * np.exp(1j * a) for a in angles], np.complex128)
+    return Targets((Probe(point), Probe(link=link, length=size)), np.stack([origins, turned], axis=1), size)
+
+
+def point_targets(point: str, z: Complexes, size: float) -> Targets:
+    """Places of a point."""
+    return Targets((Probe(point),), z[:, None], size)
+
+
+def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], demands: Demands, form: str) -> Design:
+    """The first accepted one of linkages that differ in their drive, else the one with the fewest faults."""
+    best: Design | None = None
+    for linkage in linkages:
+        design = judged(linkage, targets(linkage), demands, form)
+        if design.verdict.accepted:
+            return design
+        if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
+            best = design
+    assert best is not None
+    return best
+
+
+def judged(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
+    """The design of a linkage with a home, and its verdict. Cost: 3 to 30 ms, most for the circuit.
+
+    >>> from gruebler.linkages import FourBar
+    >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
+    >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
+    >>> bar = bar.with_home(motion.home(0))
+    >>> judged(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
+    True
+    """
+    ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
+    reasons = []
+    if not inside:
+        reasons.append("a fixed pivot lies outside the region")
+    if ratio > demands.size_ratio:
+        reasons.append(f"its lengths differ too much (ratio {ratio:.3g})")
+    try:
+        course = circuit(linkage, step=0.05)
+        met = _met(course, targets, demands.tolerance)
+    except LinkageError as error:
+        reasons.append(f"it cannot be followed from its first position: {error}")
+        return Design(linkage, Verdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
+    missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
+    if missed:
+        named = ", ".join(map(str, missed))
+        what = f"target{'s' if len(missed) > 1 else ''} {named}"
+        nearest = f"the circuit comes no nearer than {met.error:.3g} of the size"
+        reasons.append(f"{what} cannot be reached without taking the linkage apart: {nearest}")
+        verdict = Verdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
+        return Design(linkage, verdict, form)
+    path = _path(course, met.arcs)
+    full = _turns_fully(course)
+    drives: tuple[float, ...] = ()
+    missed_by, transmission = met.error, np.nan
+    if path.one_branch:
+        drives, missed_by, transmission = _carried(linkage, course, path, targets)
+    limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
+    if not path.in_order and demands.in_order:
+        reasons.append("the targets are met in another order")
+    if not path.one_branch and demands.one_branch:
+        reasons.append("the drive has to turn back between the targets (two branches)")
+    if path.one_branch and not missed_by <= limit:
+        reasons.append(f"a target is missed by {missed_by:.3g} of the size")
+    if demands.crank and not full:
+        reasons.append("the drive does not turn fully")
+    if demands.transmission > 0 and not transmission >= demands.transmission:
+        reasons.append(f"the transmission angle falls to {np.degrees(transmission):.1f} degrees")
+    verdict = Verdict(
+        True,
+        True,
+        path.one_branch,
+        path.in_order,
+        full,
+        float(transmission),
+        ratio,
+        inside,
+        float(missed_by),
+        tuple(reasons),
+    )
+    return Design(linkage, verdict, form, drives)
+
+
+def size_ratio(linkage: Linkage) -> float:
+    """The longest distance of two pins of a link by the shortest; points on slides do not count."""
+    lengths = []
+    for link in linkage.mechanism.chain.links:
+        pins = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link and isinstance(e, Pin)]
+        lengths += [abs(p - q) for k, p in enumerate(pins) for q in pins[:k]]
+    return max(lengths) / min(lengths) if lengths else 1.0
+
+
+def pivots_inside(linkage: Linkage, region: tuple[float, float, float, float] | None) -> bool:
+    """Whether all pins of the frame lie in a rectangle; the boundary belongs to it."""
+    if region is None:
+        return True
+    frame = linkage.mechanism.frame
+    pins = [e for (_, owner), e in linkage.elements.items() if owner == frame and not isinstance(e, Line)]
+    return all(region[0] <= e.x <= region[2] and region[1] <= e.y <= region[3] for e in pins)
+
+
+class _Met(NamedTuple):
+    arcs: list[Reals]
+    """For each target the arcs where the circuit meets it."""
+    error: float
+    """The largest over the targets of the smallest deviation, relative to the size."""
+
+
+def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
+    """Where the circuit meets each target: zeros of the derivative of the squared distance, refined."""
+    samples, count = course.samples, len(targets.values)
+    gaps, rates = _against_all(samples, targets)
+    square = np.sum(np.abs(gaps) ** 2, axis=2)
+    slope = np.sum(np.real(np.conj(gaps) * rates), axis=2)
+    target, segment = np.nonzero((slope[:, :-1] <= 0) & (slope[:, 1:] >= 0))
+    arcs = course.arcs
+    low, high = arcs[segment], arcs[segment + 1]
+    falls, rises = -slope[target, segment], slope[target, segment + 1]
+    speed = np.sqrt(np.sum(np.abs(rates[target, segment]) ** 2, axis=1))
+    near = np.sqrt(np.minimum(square[target, segment], square[target, segment + 1]))
+    keep = near <= 2 * (high - low) * speed + 1e-3 * targets.size
+    target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
+    for _ in range(_REFINEMENTS):
+        if not len(at):
+            break
+        gap, rate = targets.gaps(course.at(at), target)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = np.sum(np.real(np.conj(gap) * rate), axis=1) / np.sum(np.abs(rate) ** 2, axis=1)
+        at = np.clip(at - np.nan_to_num(step), low, high)
+    limit = tolerance + _ROUNDING * course.linkage.size / targets.size
+    ends = np.full(len(at), np.inf)
+    if len(at):
+        gap, _ = targets.gaps(course.at(at), target)
+        ends = np.sqrt(np.sum(np.abs(gap) ** 2, axis=1)) / targets.size
+    found, error = [], 0.0
+    for k in range(count):
+        mine = target == k
+        # Where an open or closed circuit begins exactly at a target, both ends of it are looked at too.
+        border = np.sqrt(square[k, [0, -1]]) / targets.size
+        all_arcs = np.concatenate([at[mine], arcs[[0, -1]]])
+        misses = np.concatenate([ends[mine], border])
+        error = max(error, float(misses.min()))
+        found.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
+    return _Met(found, error)
+
+
+def _against_all(samples: Poses, targets: Targets) -> tuple[Complexes, Complexes]:
+    """(targets, samples, probes): the distance of every sample from every target, and the derivatives by the arc."""
+    values = np.stack([probe.value(samples, 0) for probe in targets.probes], axis=1)
+    rates = np.stack([probe.value(samples, 1) for probe in targets.probes], axis=1)
+    gaps = values[None] - targets.values[:, None, :]
+    free = np.isnan(gaps)
+    return np.where(free, 0, gaps), np.where(free, 0, np.broadcast_to(rates, gaps.shape))
+
+
+def _distinct(arcs: Reals, course: Circuit) -> Reals:
+    """Arcs without those that stand for one place: neighbours by rounding, and both ends of a closed circuit."""
+    out: list[float] = []
+    for arc in arcs % course.length if course.closed else arcs:
+        gaps = [abs(arc - other) for other in out]
+        if course.closed:
+            gaps += [course.length - gap for gap in gaps]
+        if not gaps or min(gaps) > 1e-6 * course.length:
+            out.append(float(arc))
+    return np.sort(np.array(out))
+
+
+class _Path(NamedTuple):
+    """A way along the circuit through all targets."""
+
+    arcs: Reals
+    """The arc of each target, monotonic if ``in_order``."""
+    in_order: bool
+    one_branch: bool
+
+
+def _path(course: Circuit, met: list[Reals]) -> _Path:
+    """The shortest way through the targets, in order and without a limit of the drive if there is one."""
+    limits = np.array([extreme.arc for extreme in course.drive_limits])
+    best: tuple[tuple[bool, bool, float], _Path] | None = None
+    for start in met[0]:
+        for sense in (1.0, -1.0):
+            arcs = _forward(course, met, float(start), sense)
+            ordered = arcs is not None
+            if arcs is None:
+                arcs = _nearest(course, met, float(start), limits)
+            low, high = arcs.min(), arcs.max()
+            laps = (-1, 0, 1) if course.closed else (0,)
+            free = all(
+                not ((limits + k * course.length > low) & (limits + k * course.length < high)).any() for k in laps
+            )
+            key = (not ordered, not free, float(high - low))
+            if best is None or key < best[0]:
+                best = key, _Path(arcs, ordered, free)
+    assert best is not None
+    return best[1]
+
+
+def _forward(course: Circuit, met: list[Reals], start: float, sense: float) -> Reals | None:
+    """The next arc of each target in turn, within one lap; None if there is none."""
+    out = [start]
+    for arcs in met[1:]:
+        ahead = sense * (arcs - out[-1])
+        if course.closed:
+            ahead = ahead % course.length
+        ahead = ahead[ahead > 0]
+        if not len(ahead):
+            return None
+        out.append(out[-1] + sense * float(ahead.min()))
+    if course.closed and abs(out[-1] - start) >= course.length * (1 - 1e-9):
+        return None
+    return np.array(out)
+
+
+def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> Reals:
+    """An arc of each target without order: on the branch of the start if possible."""
+    low, high = -np.inf, np.inf
+    shifted = np.concatenate([limits + k * course.length for k in ((-1, 0, 1) if course.closed else (0,))])
+    if len(shifted):
+        low = max([v for v in shifted if v <= start], default=-np.inf)
+        high = min([v for v in shifted if v > start], default=np.inf)
+    out = [start]
+    for arcs in met[1:]:
+        laps = (-1, 0, 1) if course.closed else (0,)
+        all_arcs = np.concatenate([arcs + k * course.length for k in laps])
+        mine = all_arcs[(all_arcs >= low) & (all_arcs <= high)]
+        chosen = mine if len(mine) else all_arcs
+        out.append(float(chosen[np.argmin(np.abs(chosen - start))]))
+    return np.array(out)
+
+
+def _turns_fully(course: Circuit) -> bool:
+    drives = course.linkage.mechanism.drives
+    if not drives or not drives[0].direction.startswith("R") or course.drive_limits or not course.closed:
+        return False
+    ends = course.drive[[0, -1]]
+    return round(float(ends[1] - ends[0]) / (2 * np.pi)) != 0
+
+
+def _carried(
+    linkage: Linkage, course: Circuit, path: _Path, targets: Targets
+) -> tuple[tuple[float, ...], float, float]:
+    """`move` through the targets: drive values, the largest error, the smallest transmission angle."""
+    order = np.argsort(path.arcs, kind="stable")
+    low, high = path.arcs[order[0]], path.arcs[order[-1]]
+    laps = (-1, 0, 1) if course.closed else (0,)
+    between = np.concatenate([course.arcs + k * course.length for k in laps])
+    between = between[(between > low) & (between < high)]
+    arcs = np.concatenate([path.arcs, between])
+    ranks = np.argsort(arcs, kind="stable")
+    drive = course.at(arcs[ranks]).drive()
+    rows = np.empty(len(arcs), np.int64)
+    rows[ranks] = np.arange(len(arcs))
+    begin = int(rows[0])
+    worst, least = 0.0, np.inf
+    values = tuple(float(drive[rows[k]]) for k in range(len(path.arcs)))
+    # From target 1, where the home is, to both ends.
+    for part, forward in ((drive[begin:], True), (drive[: begin + 1][::-1], False)):
+        motion = move(linkage, part, order=2)
+        if not motion.complete:
+            return values, float("inf"), float("nan")
+        least = min(least, _least_transmission(motion))
+        worst = max(worst, _error(motion, targets, rows, begin, forward=forward))
+    return values, worst, least
+
+
+def _error(motion: Motion, targets: Targets, rows: NDArray[np.int64], begin: int, *, forward: bool) -> float:
+    """The largest deviation of the targets that lie on this part of the way, relative to the size."""
+    mine = [k for k in range(len(targets.values)) if (rows[k] >= begin if forward else rows[k] <= begin)]
+    at = [int(rows[k]) - begin if forward else begin - int(rows[k]) for k in mine]
+    if not mine:
+        return 0.0
+    found = np.stack([probe.of_motion(motion)[at] for probe in targets.probes], axis=1) - targets.values[mine]
+    return float(np.sqrt(np.nansum(np.abs(found) ** 2, axis=1)).max() / targets.size)
+
+
+def _least_transmission(motion: Motion) -> float:
+    try:
+        mu = transmission_angle(motion)
+    except LinkageError:
+        return float("nan")
+    return float(np.nanmin(mu)) if np.isfinite(mu).any() else float("nan")

@@ -1,0 +1,280 @@
+"""A body carried through positions: all four-bars, slider-cranks and inverted slider-cranks that do it.
+
+docs/theory/synthesis-positions.md has the counts: two and three positions leave pivots to be chosen, four leave curves,
+five leave four dyads, and more are met by least squares.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from itertools import combinations
+from math import atan2, isnan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError, SynthesisError
+from gruebler.linkages import Linkage, grashof
+from gruebler.mechanism import Mechanism
+from gruebler.synthesis.burmester import burmester_curves
+from gruebler.synthesis.dyads import (
+    Displacements,
+    GuidingDyad,
+    all_dyads,
+    dyad_of_fixed_pivot,
+    dyad_of_moving_pivot,
+    misfit,
+    sliding_dyads,
+)
+from gruebler.synthesis.judging import Demands, Targets, best_of, position_targets
+from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.tasks import PositionTask
+
+__all__ = ["four_bar_linkages", "guiding_dyads", "ranked", "synthesise_positions"]
+
+Complexes = NDArray[np.complex128]
+
+_SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
+"""What the link between frame and coupler is called: the first of its kind, the second."""
+
+THEOREM = {2: None, 3: None, 4: None, 5: 4}
+"""How many complex dyads a general task has, by the number of positions."""
+
+
+def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ...]:
+    """The dyads that guide the body: all four of five positions, else those chosen or so many of infinitely many.
+
+    Raises `SynthesisError` where a chosen pivot serves no dyad or any.
+    """
+    given, origin, size = Displacements.of(task.origins, task.turns)
+    count = len(task)
+    if count == 5:
+        return tuple(dyad.moved(size, origin) for dyad in all_dyads(given).real)
+    if count == 4:
+        curves = burmester_curves(task)
+        return curves.dyads(number) if curves.pieces else curves.sliding
+    if count > 5:
+        return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(given))
+    chosen: list[tuple[Callable[[Displacements, complex], GuidingDyad], complex]]
+    chosen = [(dyad_of_moving_pivot, complex(*p)) for p in task.moving_pivots]
+    chosen += [(dyad_of_fixed_pivot, complex(*p)) for p in task.fixed_pivots]
+    if not chosen:
+        centre, reach = task.origins.mean(), 1.5 * size
+        side = max(2, round(number**0.5))
+        steps = np.linspace(-1, 1, side)
+        chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
+    out = []
+    if count == 2:
+        given = Displacements(np.append(given.q, _halfway(given.q[0])), np.append(given.t, _halved(given)))
+    for made, pivot in chosen:
+        try:
+            out.append(made(given, (pivot - origin) / size).moved(size, origin))
+        except SynthesisError:
+            if task.moving_pivots or task.fixed_pivots:
+                raise
+    return tuple(out)
+
+
+def _halfway(q: complex) -> complex:
+    """Half the rotation: with it two positions become three of the rotation about their pole, or of the shift."""
+    return complex(np.exp(0.5j * np.angle(q)))
+
+
+def _halved(given: Displacements) -> complex:
+    """The shift of a third position that bulges a little, so that the centres lie at hand."""
+    q, t = complex(given.q[0]), complex(given.t[0])
+    return t * 0.5 + 0.25j * t if abs(t) > 0 else 0.25 + 0j * q
+
+
+def synthesise_positions(
+    task: PositionTask, demands: Demands | None = None, *, number: int = 16, lang: str = "en"
+) -> SynthesisResult:
+    """All linkages of two dyads that carry a body through positions.
+
+    Args:
+        task: the positions.
+        demands: what a design has to do besides; by default one branch and the order of the task.
+        number: of dyads that are taken from each infinite family (two to four positions).
+        lang: unused as yet.
+
+    Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
+    of five positions and about 10 ms for the verdict on each design.
+
+    >>> task = PositionTask([(0, 0, 0), (-2, 3.8, np.radians(81)), (-0.1, 3.4, np.radians(-16)),
+    ...                      (1.5, 0.8, np.radians(-32)), (-1.8, 2.2, np.radians(55))])
+    >>> found = synthesise_positions(task)
+    >>> found.count.found, found.count.real, len(found.designs) + len(found.rejected)
+    (4, 4, 6)
+    """
+    del lang
+    wanted = demands or Demands()
+    dyads = guiding_dyads(task, number)
+    if len(task) > 5:
+        return _approximate(task, wanted, dyads)
+    made = _judged_pairs(task, wanted, dyads)
+    notes = []
+    found = len(dyads)
+    if len(task) == 5:
+        given, *_ = Displacements.of(task.origins, task.turns)
+        found = all_dyads(given).found
+    else:
+        family = {
+            2: "every point of the body and every point of the frame is a pivot of infinitely many dyads",
+            3: "every point of the body is the pivot of one dyad, likewise every point of the frame",
+            4: "the pivots lie on Burmester's cubics: one dyad for each point of them",
+        }[len(task)]
+        notes.append(f"There are infinitely many solutions: {family}; {len(dyads)} dyads were taken.")
+    if len(dyads) < 2:
+        notes.append("A linkage needs two dyads.")
+    designs, rejected = ranked(made)
+    return SynthesisResult(task, designs, rejected, Count("dyads", THEOREM[len(task)], found, len(dyads)), tuple(notes))
+
+
+def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+    """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
+
+    def worth(design: Design) -> tuple[bool, float, float]:
+        verdict = design.verdict
+        mu = verdict.transmission
+        return not verdict.turns_fully, 0.0 if isnan(mu) else -mu, verdict.size_ratio
+
+    made = list(made)
+    accepted = sorted((d for d in made if d.verdict.accepted), key=worth)
+    rejected = sorted((d for d in made if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d)))
+    return tuple(accepted), tuple(rejected)
+
+
+def _judged_pairs(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> list[Design]:
+    out = []
+    for one, two in combinations(dyads, 2):
+        form = f"{one.form}-{two.form}"
+        try:
+            linkages = four_bar_linkages(one, two, complex(task.origins[0]), unit=task.unit)
+        except LinkageError:
+            continue  # two dyads with a common pivot are no linkage
+        out.append(best_of(linkages, partial(_targets, task), demands, form))
+    return out
+
+
+def _targets(task: PositionTask, linkage: Linkage) -> Targets:
+    assert linkage.home is not None
+    first = linkage.home["coupler"].angle
+    return position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
+
+
+def four_bar_linkages(one: GuidingDyad, two: GuidingDyad, point: complex, *, unit: str = "mm") -> list[Linkage]:
+    """The linkage of two dyads in its first position with a coupler point P, driven at each side: the better first.
+
+    The side that turns fully drives; of two that do not, each is tried. Raises `LinkageError` if pivots coincide.
+    """
+    orders = [(one, two), (two, one)]
+    if one.form == two.form == "RR":
+        turning = grashof(one.length, abs(one.moving - two.moving), two.length, abs(one.fixed - two.fixed)).turning
+        if "c" in turning and "a" not in turning:
+            orders.reverse()
+        if turning and "b" not in turning:
+            orders = orders[:1]
+    elif one.form == "PR" and two.form != "PR":
+        orders.reverse()
+    return [_linkage(first, second, point, unit) for first, second in orders]
+
+
+def _linkage(one: GuidingDyad, two: GuidingDyad, point: complex, unit: str) -> Linkage:
+    first = _SIDES[one.form][0]
+    second = _SIDES[two.form][1 if one.form == two.form else int(two.form == "RR")]
+    if one.form == two.form and one.form != "RR":
+        second = second.replace(" ", "_")
+    parts: list[str] = []
+    places: dict[str | int, object] = {}
+    for side, dyad in ((first, one), (second, two)):
+        for kind, a, b, at in (
+            (dyad.form[0], "frame", side, dyad.moving if dyad.form == "PR" else dyad.fixed),
+            (dyad.form[1], side, "coupler", dyad.fixed if dyad.form == "RP" else dyad.moving),
+        ):
+            name = f"{kind}({a}-{b})"
+            parts.append(name)
+            angle = (atan2(dyad.direction.imag, dyad.direction.real),) if kind == "P" else ()
+            places[name] = (at.real, at.imag, *angle)
+    mechanism = Mechanism.parse(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
+    points = {"P": ("coupler", point.real, point.imag)}
+    return Linkage.drawn(mechanism, places, points, unit=unit, outputs=[second])
+
+
+def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
+    """Dyads of more than four displacements by least squares, the best first: RR, PR, RP."""
+    from scipy.optimize import least_squares
+
+    count = len(given.q)
+    starts: list[GuidingDyad] = []
+    for chosen in list(combinations(range(count), 4))[:35]:
+        part = Displacements(given.q[list(chosen)], given.t[list(chosen)])
+        try:
+            starts += all_dyads(part).real
+            starts += sliding_dyads(Displacements(part.q[:3], part.t[:3]))
+        except SynthesisError:
+            continue
+    steps = np.linspace(-2, 2, 4)
+    starts += [
+        GuidingDyad("RR", complex(a, b), complex(c, d))
+        for a in steps
+        for b in steps
+        for c in steps[1:3]
+        for d in steps[1:3]
+    ]
+    best: list[tuple[float, GuidingDyad]] = []
+    for dyad in starts:
+        if dyad.form == "RR":
+            if max(abs(dyad.moving), abs(dyad.fixed)) > 50:
+                continue
+
+            def gaps(p: NDArray[np.float64]) -> NDArray[np.float64]:
+                lengths = np.abs(given.images(complex(p[0], p[1])) - complex(p[2], p[3]))
+                return np.asarray(lengths - lengths.mean())
+
+            start = [dyad.moving.real, dyad.moving.imag, dyad.fixed.real, dyad.fixed.imag]
+            p = least_squares(gaps, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
+            fitted = GuidingDyad("RR", complex(p[0], p[1]), complex(p[2], p[3]))
+            if fitted.length < 1e-6:
+                continue
+        else:
+            seen = given if dyad.form == "PR" else given.inverse
+
+            def offsets(p: NDArray[np.float64], seen: Displacements = seen) -> NDArray[np.float64]:
+                across = np.imag(np.exp(-1j * p[2]) * seen.images(complex(p[0], p[1])))
+                return np.asarray(across - across.mean())
+
+            start = [dyad.moving.real, dyad.moving.imag, float(np.angle(dyad.direction))]
+            p = least_squares(offsets, start, method="lm", xtol=1e-15, ftol=1e-15, max_nfev=200).x
+            point = complex(p[0], p[1])
+            fitted = GuidingDyad(dyad.form, point, point, complex(np.exp(1j * p[2])))
+        best.append((misfit(given, fitted), fitted))
+    best.sort(key=lambda row: row[0])
+    out: list[GuidingDyad] = []
+    for _, dyad in best:
+        if all(_apart(dyad, other) for other in out):
+            out.append(dyad)
+        if len(out) == 8:
+            break
+    return out
+
+
+def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
+    gap = abs(one.moving - other.moving) + abs(one.fixed - other.fixed)
+    return one.form != other.form or gap > 1e-3 * (1 + abs(one.moving) + abs(one.fixed))
+
+
+def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> SynthesisResult:
+    """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
+    from dataclasses import replace
+
+    made = []
+    tolerance = demands.tolerance if demands.tolerance > 1e-6 else 0.05
+    for design in _judged_pairs(task, replace(demands, tolerance=tolerance), dyads):
+        made.append(design)
+    accepted, rejected = ranked(made)
+    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    note = (
+        f"More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted."
+    )
+    return SynthesisResult(task, accepted, rejected, Count("dyads", 0, len(dyads), len(dyads)), (note,))

@@ -1,0 +1,135 @@
+"""What a synthesis returns: designs with their verdicts, and how complete the list is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import degrees, isnan
+from typing import Any
+
+from gruebler.linkages import Linkage
+from gruebler.synthesis.tasks import Task
+
+__all__ = ["Count", "Design", "SynthesisResult", "Verdict"]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a design does when it moves. ``reasons`` is empty for an accepted design."""
+
+    assembles: bool = False
+    """Whether it reaches every target of the task on some circuit of its own."""
+    one_circuit: bool = False
+    """Whether it reaches all targets without being taken apart."""
+    one_branch: bool = False
+    """Whether the drive carries it through all targets without turning back."""
+    in_order: bool = False
+    """Whether it meets the targets in the order of the task."""
+    turns_fully: bool = False
+    """Whether the drive turns fully."""
+    transmission: float = float("nan")
+    """The minimum transmission angle on the way through the targets, in radians; NaN where there is none."""
+    size_ratio: float = float("nan")
+    """The longest length of a link by the shortest."""
+    inside: bool = True
+    """Whether the fixed pivots lie in the region."""
+    error: float = float("nan")
+    """The largest deviation from a target, relative to the size of the task."""
+    reasons: tuple[str, ...] = ()
+
+    @property
+    def accepted(self) -> bool:
+        """Whether nothing speaks against it."""
+        return not self.reasons
+
+
+@dataclass(frozen=True)
+class Design:
+    """A linkage made for a task, with what it really does."""
+
+    linkage: Linkage
+    verdict: Verdict
+    form: str
+    """The two connections of coupler and frame, such as ``RR-RR``, or the name of the linkage."""
+    drives: tuple[float, ...] = ()
+    """The drive value at each target."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage."""
+        from gruebler.linkages import to_json
+
+        turning = bool(self.linkage.mechanism.drives) and self.linkage.mechanism.drives[0].direction.startswith("R")
+        verdict = self.verdict
+        return {
+            "accepted": verdict.accepted,
+            "reasons": list(verdict.reasons),
+            "form": self.form,
+            "assembles": verdict.assembles,
+            "one_circuit": verdict.one_circuit,
+            "one_branch": verdict.one_branch,
+            "in_order": verdict.in_order,
+            "turns_fully": verdict.turns_fully,
+            "transmission": _or_none(degrees(verdict.transmission)),
+            "size_ratio": _or_none(verdict.size_ratio),
+            "inside": verdict.inside,
+            "error": _or_none(verdict.error),
+            "drives": [degrees(value) if turning else value for value in self.drives],
+            "linkage": to_json(self.linkage),
+        }
+
+
+def _or_none(value: float) -> float | None:
+    return None if isnan(value) else value
+
+
+@dataclass(frozen=True)
+class Count:
+    """How many solutions there are."""
+
+    what: str
+    """What is counted, such as ``dyads`` or ``cognate triples``."""
+    theorem: int | None
+    """How many complex solutions a general task has; None where there are infinitely many."""
+    found: int
+    """How many of them were found."""
+    real: int
+    """How many of those are real."""
+
+    @property
+    def complete(self) -> bool:
+        """Whether none is missing."""
+        return self.theorem is not None and self.found >= self.theorem
+
+
+@dataclass(frozen=True)
+class SynthesisResult:
+    """All designs for a task: accepted ones, best first, and rejected ones with their reasons."""
+
+    task: Task
+    designs: tuple[Design, ...]
+    rejected: tuple[Design, ...]
+    count: Count
+    notes: tuple[str, ...] = field(default=())
+    """What else has to be known: solutions at infinity, missing ones, families of infinitely many."""
+
+    def __len__(self) -> int:
+        return len(self.designs)
+
+    def __getitem__(self, number: int) -> Design:
+        return self.designs[number]
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for `json.dumps`."""
+        from gruebler.synthesis.task_files import task_to_json
+
+        return {
+            "task": task_to_json(self.task),
+            "count": {
+                "what": self.count.what,
+                "theorem": self.count.theorem,
+                "found": self.count.found,
+                "real": self.count.real,
+            },
+            "notes": list(self.notes),
+            "designs": [design.to_json() for design in self.designs],
+            "rejected": [design.to_json() for design in self.rejected],
+        }

@@ -1,0 +1,276 @@
+"""What a designer asks for: positions of a body, points of a path, a function, dead centres.
+
+Every task is a value, checked when it is constructed; lengths are in the task's unit, angles in radians.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import isfinite, pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import SynthesisError
+
+__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Pair = tuple[float, float]
+
+SAME = 1e-9
+"""Two points nearer than this part of the task's size are one: designs are held to the same bound."""
+LARGEST = 1e100
+
+
+def _number(value: object, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+        raise SynthesisError(f"{where}: expected a number, but found {str(value)[:40]!r}")
+    number = float(value)
+    if not (isfinite(number) and abs(number) < LARGEST):
+        raise SynthesisError(f"{where}: expected a number below 1e100, but found {value!r}")
+    return number
+
+
+def _row(row: object, where: str, count: int) -> tuple[float, ...]:
+    if isinstance(row, str) or not isinstance(row, Sequence | np.ndarray) or len(row) != count:
+        raise SynthesisError(f"{where}: expected {count} numbers, but found {str(row)[:40]!r}")
+    return tuple(_number(value, where) for value in row)
+
+
+def _size(z: Complexes) -> float:
+    """The largest distance from the first point."""
+    return float(np.abs(z - z[0]).max(initial=0.0))
+
+
+@dataclass(frozen=True)
+class PositionTask:
+    """A body that is to be carried through positions: each ``(x, y, angle)``, the angle in radians.
+
+    With three positions pivots may be chosen: ``moving_pivots`` where they lie on the body in its first position,
+    ``fixed_pivots`` on the frame.
+
+    Raises `SynthesisError` for fewer than two positions and for two equal ones, naming them.
+
+    >>> task = PositionTask([(0, 0, 0), (2, 1, 0.4), (3, 1, 0.9)])
+    >>> len(task), task.size
+    (3, 3.1622776601683795)
+    """
+
+    positions: tuple[tuple[float, float, float], ...]
+    moving_pivots: tuple[Pair, ...] = ()
+    fixed_pivots: tuple[Pair, ...] = ()
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        rows = tuple(_row(row, f"position {k + 1}", 3) for k, row in enumerate(self.positions))
+        object.__setattr__(self, "positions", rows)
+        for name in ("moving_pivots", "fixed_pivots"):
+            pairs = tuple(_row(row, f"{name} {k + 1}", 2) for k, row in enumerate(getattr(self, name)))
+            object.__setattr__(self, name, pairs)
+        if len(rows) < 2:
+            raise SynthesisError(f"positions: expected at least two, but found {len(rows)}")
+        if (self.moving_pivots or self.fixed_pivots) and len(rows) > 3:
+            raise SynthesisError(f"pivots can be chosen for two or three positions, not for {len(rows)}")
+        size = self.size
+        for k, (z, turn) in enumerate(zip(self.origins, self.turns, strict=True)):
+            for m in range(k):
+                if abs(z - self.origins[m]) <= SAME * size and abs(turn - self.turns[m]) <= SAME:
+                    raise SynthesisError(f"positions {m + 1} and {k + 1} are equal")
+
+    def __len__(self) -> int:
+        return len(self.positions)
+
+    @property
+    def origins(self) -> Complexes:
+        """(positions,) the body's origin as x + iy."""
+        return np.array([complex(x, y) for x, y, _ in self.positions])
+
+    @property
+    def angles(self) -> Reals:
+        """(positions,) the body's angle."""
+        return np.array([angle for *_, angle in self.positions])
+
+    @property
+    def turns(self) -> Complexes:
+        """(positions,) cosine + i sine of the angle."""
+        return np.asarray(np.exp(1j * self.angles))
+
+    @property
+    def size(self) -> float:
+        """The largest distance of an origin from the first; 1 if they all coincide."""
+        return _size(self.origins) or 1.0
+
+
+@dataclass(frozen=True)
+class PathTask:
+    """Points through which a point of the coupler is to pass, in this order.
+
+    Args of the constructor, all but the first optional: ``angles`` of the coupler, one for each point or None where it
+    is free (mixed tasks); ``crank_angles`` for prescribed timing, one for each point, only their differences count;
+    ``fixed_pivots``, two of them; ``closed`` for a whole curve of many points.
+
+    Raises `SynthesisError` for two equal points and for angles or pivots that do not fit.
+
+    >>> len(PathTask([(0, 0), (1, 2), (3, 3)]))
+    3
+    """
+
+    points: tuple[Pair, ...]
+    angles: tuple[float | None, ...] = ()
+    crank_angles: tuple[float, ...] = ()
+    fixed_pivots: tuple[Pair, ...] = ()
+    closed: bool = False
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        rows = tuple(_row(row, f"point {k + 1}", 2) for k, row in enumerate(self.points))
+        object.__setattr__(self, "points", rows)
+        pivots = tuple(_row(row, f"fixed_pivots {k + 1}", 2) for k, row in enumerate(self.fixed_pivots))
+        object.__setattr__(self, "fixed_pivots", pivots)
+        angles = tuple(None if a is None else _number(a, f"angle {k + 1}") for k, a in enumerate(self.angles))
+        object.__setattr__(self, "angles", angles)
+        timing = tuple(_number(a, f"crank_angle {k + 1}") for k, a in enumerate(self.crank_angles))
+        object.__setattr__(self, "crank_angles", timing)
+        if len(rows) < 2:
+            raise SynthesisError(f"points: expected at least two, but found {len(rows)}")
+        for name, given in (("angles", angles), ("crank_angles", timing)):
+            if given and len(given) != len(rows):
+                raise SynthesisError(f"{name}: expected one for each of the {len(rows)} points, but found {len(given)}")
+        if len(pivots) not in (0, 2):
+            raise SynthesisError(f"fixed_pivots: expected two, but found {len(pivots)}")
+        if pivots and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
+            raise SynthesisError("fixed_pivots: the two pivots coincide")
+        self._check_distinct()
+        self._check_timing()
+
+    def _check_distinct(self) -> None:
+        z = self.z
+        limit = SAME * self.size
+        for k in range(len(z)):
+            near = np.flatnonzero(np.abs(z[:k] - z[k]) <= limit)
+            same = [m for m in near if not self._turned(int(m), k)]
+            if same:
+                raise SynthesisError(f"points {same[0] + 1} and {k + 1} are equal")
+
+    def _turned(self, m: int, k: int) -> bool:
+        """Whether the coupler has different angles at two points, so that these may coincide."""
+        if not self.angles:
+            return False
+        one, two = self.angles[m], self.angles[k]
+        return one is not None and two is not None and abs(np.exp(1j * one) - np.exp(1j * two)) > SAME
+
+    def _check_timing(self) -> None:
+        steps = np.diff(self.crank_angles)
+        if len(steps) and not ((steps > 0).all() or (steps < 0).all()):
+            raise SynthesisError("crank_angles: the timing is contradictory, the crank has to turn one way throughout")
+        if len(steps) and abs(self.crank_angles[-1] - self.crank_angles[0]) >= 2 * pi:
+            raise SynthesisError("crank_angles: the timing is contradictory, all points lie within one turn")
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    @property
+    def z(self) -> Complexes:
+        """(points,) as x + iy."""
+        return np.array([complex(*point) for point in self.points])
+
+    @property
+    def size(self) -> float:
+        """The largest distance of a point from the first."""
+        return _size(self.z) or 1.0
+
+
+@dataclass(frozen=True)
+class FunctionTask:
+    """Two quantities to be coordinated: pairs of an input (crank angle) and an output (angle, or travel of a slider).
+
+    ``inputs`` and ``outputs`` are precision pairs. ``start_input`` and ``start_output`` say whether the values are
+    absolute (True) or counted from a start that is free (False). ``output`` is ``angle`` or ``travel``.
+
+    Raises `SynthesisError` for fewer than two pairs, for equal inputs, and for more than the four-bar can answer.
+
+    >>> FunctionTask([0.1, 0.5, 0.9], [0.2, 0.4, 1.0]).output
+    'angle'
+    """
+
+    inputs: tuple[float, ...]
+    outputs: tuple[float, ...]
+    output: str = "angle"
+    start_input: bool = True
+    start_output: bool = True
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        for name in ("inputs", "outputs"):
+            values = tuple(_number(v, f"{name} {k + 1}") for k, v in enumerate(getattr(self, name)))
+            object.__setattr__(self, name, values)
+        if len(self.inputs) != len(self.outputs):
+            found = f"{len(self.inputs)} inputs and {len(self.outputs)} outputs"
+            raise SynthesisError(f"a function task needs as many inputs as outputs, but found {found}")
+        if len(self.inputs) < 2:
+            raise SynthesisError(f"inputs: expected at least two, but found {len(self.inputs)}")
+        if self.output not in ("angle", "travel"):
+            raise SynthesisError(f"output: expected 'angle' or 'travel', but found {self.output!r}")
+        for k, value in enumerate(self.inputs):
+            for m in range(k):
+                if abs(value - self.inputs[m]) <= SAME:
+                    raise SynthesisError(f"inputs {m + 1} and {k + 1} are equal")
+
+    def __len__(self) -> int:
+        return len(self.inputs)
+
+
+@dataclass(frozen=True)
+class DeadCentreTask:
+    """A crank that drives a rocker or slider to and fro: its swing or stroke, and the crank angle between dead centres.
+
+    Exactly one of ``swing`` (of a rocker) and ``stroke`` (of a slider), exactly one of ``crank_angle`` and
+    ``time_ratio`` (slow to quick travel, at least 1). The crank angle of a rocker is that in which rocker and crank
+    turn the same way; with a time ratio this is the slower travel.
+
+    >>> DeadCentreTask(swing=1.0, time_ratio=1.2).angle
+    3.4271...
+    """
+
+    swing: float | None = None
+    stroke: float | None = None
+    crank_angle: float | None = None
+    time_ratio: float | None = None
+    unit: str = "mm"
+
+    def __post_init__(self) -> None:
+        for names in (("swing", "stroke"), ("crank_angle", "time_ratio")):
+            given = [name for name in names if getattr(self, name) is not None]
+            if len(given) != 1:
+                raise SynthesisError(
+                    f"expected one of {' and '.join(names)}, but found {' and '.join(given) or 'none'}"
+                )
+            object.__setattr__(self, given[0], _number(getattr(self, given[0]), given[0]))
+        if self.swing is not None and not 0 < self.swing < pi:
+            raise SynthesisError(f"swing: expected an angle between 0 and 180 degrees, but found {_deg(self.swing)}")
+        if self.stroke is not None and not self.stroke > 0:
+            raise SynthesisError(f"stroke: expected a positive length, but found {self.stroke!r}")
+        if self.time_ratio is not None and not self.time_ratio >= 1:
+            raise SynthesisError(f"time_ratio: expected slow to quick, at least 1, but found {self.time_ratio!r}")
+        if self.crank_angle is not None and not 0 < self.crank_angle < 2 * pi:
+            raise SynthesisError(
+                f"crank_angle: expected an angle between 0 and 360 degrees, but found {_deg(self.crank_angle)}"
+            )
+
+    @property
+    def angle(self) -> float:
+        """The crank angle between the dead centres, in radians."""
+        if self.crank_angle is not None:
+            return self.crank_angle
+        assert self.time_ratio is not None
+        return 2 * pi * self.time_ratio / (1 + self.time_ratio)
+
+
+def _deg(angle: float) -> str:
+    return f"{np.degrees(angle):g} degrees"
+
+
+Task = PositionTask | PathTask | FunctionTask | DeadCentreTask

@@ -1,0 +1,175 @@
+"""Function generation: exact solutions, structural error, minimax."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gruebler.errors import SynthesisError
+from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.synthesis import FunctionTask, synthesise_function
+from gruebler.synthesis.formulas import Formula, FunctionLaw, chebyshev_spacing
+from gruebler.synthesis.functions import Coordination, _errors, _moved, function_task, minimax, structural_error
+
+lengths = st.floats(0.5, 3.0)
+
+
+@st.composite
+def coordinated(draw, count):
+    """A linkage that moves, and pairs of it."""
+    kind = draw(st.sampled_from([FourBar, SliderCrank, InvertedSliderCrank]))
+    if kind is FourBar:
+        linkage = FourBar(draw(lengths), draw(lengths), draw(lengths), 1.0)
+    elif kind is SliderCrank:
+        linkage = SliderCrank(draw(lengths), draw(st.floats(3.6, 6)), draw(st.floats(-0.5, 0.5)))
+    else:
+        linkage = InvertedSliderCrank(draw(st.floats(1.5, 4)), 1.0, draw(st.floats(-0.4, 0.4)))
+    phi = draw(st.floats(0, 6)) + np.cumsum([0, *(draw(st.floats(0.2, 0.5)) for _ in range(count - 1))])
+    motion = linkage.motion(phi)
+    out = np.asarray(motion.coupler.value if kind is InvertedSliderCrank else motion.output.value)
+    if kind is not SliderCrank:
+        out = np.unwrap(out)
+    return linkage, phi, out
+
+
+def solve(case, starts):
+    linkage, phi, out = case
+    assume(np.isfinite(out).all() and np.ptp(out) > 0.05 and np.ptp(phi) < 2 * np.pi)
+    output = "travel" if isinstance(linkage, SliderCrank) else "angle"
+    free = [0.0 if start else 0.37 for start in starts]
+    task = FunctionTask(tuple(phi - free[0]), tuple(out - free[1]), output, *starts)
+    try:
+        return synthesise_function(task, number=4), phi
+    except SynthesisError:
+        assume(False)
+
+
+def comes_back(found, linkage, phi):
+    """Whether a design has the crank length of the linkage and begins at its crank angle."""
+    a = linkage.a
+    for design in (*found.designs, *found.rejected):
+        home = design.linkage.home["crank"].angle
+        length = design.linkage.length("crank", 0, 1)
+        if abs(length - a) < 1e-4 * a and abs(np.exp(1j * home) - np.exp(1j * phi[0])) < 1e-4:
+            return True
+    return False
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.data(), st.sampled_from([(True, True), (True, False), (False, True)]))
+def test_pairs_of_a_linkage_give_it_back(data, starts):
+    free = starts.count(False)
+    case = data.draw(coordinated(3 + free))
+    if isinstance(case[0], InvertedSliderCrank):
+        case = case[0], case[1][: 2 + free], case[2][: 2 + free]
+    found, phi = solve(case, starts)
+    assert comes_back(found, case[0], phi)
+    for design in found.designs:
+        assert design.verdict.error < 1e-9
+
+
+@settings(max_examples=10, deadline=None)
+@given(coordinated(5))
+def test_five_pairs_with_free_starts_have_at_most_three_solutions(case):
+    assume(not isinstance(case[0], InvertedSliderCrank))
+    found, phi = solve(case, (False, False))
+    assert (found.count.theorem, found.count.found) == (3, 3)
+    assert found.count.real in (1, 3)
+    assert comes_back(found, case[0], phi)
+
+
+def test_three_pairs_against_freudensteins_equation():
+    """Second method: the lengths fulfil Freudenstein's equation as printed, with R1 = d/c, R2 = d/a, R3."""
+    phi, psi = np.radians([40.0, 45, 50]), np.radians([70.0, 76, 83])
+    found = synthesise_function(FunctionTask(tuple(phi), tuple(psi)))
+    linkage = (*found.designs, *found.rejected)[0].linkage
+    a, b, c, d = (linkage.length(*row) for row in _ROWS)
+    sign_a = 1 if abs(np.exp(1j * linkage.home["crank"].angle) - np.exp(1j * phi[0])) < 1e-6 else -1
+    frame = linkage.home["rocker"].angle
+    sign_c = 1 if np.real(np.exp(1j * (frame - psi[0]))) > 0 else -1
+    # Rockers are drawn from the coupler's pin to the frame: their x axis points backwards.
+    a, c = sign_a * a, -sign_c * c
+    left = d / a * np.cos(psi) - d / c * np.cos(phi) + (a**2 - b**2 + c**2 + d**2) / (2 * a * c)
+    assert left == pytest.approx(np.cos(phi - psi), abs=1e-9)
+
+
+_ROWS = (("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3))
+
+
+@pytest.mark.parametrize("kind", ["four-bar", "slider-crank"])
+def test_slopes_of_the_structural_error_against_differences(kind):
+    lengths = (0.8, 1.1, 0.9, 1.0) if kind == "four-bar" else (0.8, 2.1, 0.2)
+    law = FunctionLaw("x**2", (0, 1), 1.2, 0.7)
+    solution = Coordination(kind, lengths, 0.6, 1.0, 1)
+    x = np.linspace(0, 1, 7)
+    _, slopes = _errors(solution, law, x)
+    for k in range(5):
+        step = np.zeros(5)
+        step[k] = 1e-6
+        ends = [structural_error(_moved(solution, sign * step), law, x) for sign in (1, -1)]
+        assert slopes[:, k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-7)
+
+
+def test_the_minimax_optimum_alternates():
+    """Chebyshev: with five parameters the largest error is taken at six places, with alternating signs."""
+    law = FunctionLaw("log10(x)", (1, 2), np.radians(60), np.radians(60))
+    found = synthesise_function(function_task(law, 5))
+    assert found.count.real >= 1
+    best = None
+    for design in (*found.designs, *found.rejected):
+        linkage = design.linkage
+        if design.form != "RR" or not design.verdict.one_branch:
+            continue
+        a, b, c, d = (linkage.length(*row) for row in _ROWS)
+        home = linkage.home
+        start = home["crank"].angle - law.inputs(chebyshev_spacing(1, 2, 5))[0]
+        rocker = home["rocker"].angle + np.pi - law.outputs(chebyshev_spacing(1, 2, 5))[0]
+        for branch in (1, -1):
+            solution = Coordination("four-bar", (a, b, c, d), start, rocker, branch)
+            error = structural_error(solution, law, chebyshev_spacing(1, 2, 5))
+            if np.isfinite(error).all() and np.abs(error).max() < 1e-9:
+                best = solution
+    assert best is not None
+    optimum = minimax(best, law)
+    assert optimum.error < 0.9 * optimum.start_error
+    x = np.linspace(1, 2, 4001)
+    error = structural_error(optimum.solution, law, x)
+    peaks = [error[0], *(e for p, e, n in zip(error, error[1:], error[2:], strict=False) if (e - p) * (n - e) <= 0)]
+    peaks.append(error[-1])
+    tall = [p for p in peaks if abs(p) > 0.98 * np.abs(error).max()]
+    assert len(tall) >= 6
+    assert all(one * two < 0 for one, two in pairwise(tall))
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("__import__('os')", "unknown name '__import__'"),
+        ("x.real", "none of numbers"),
+        ("sine(x)", "did you mean 'sin'"),
+        ("log10(x", "cannot be read"),
+        ("y + 1", "unknown name 'y'"),
+        ("x if x else 1", "none of numbers"),
+        ("-" * 100 + "x", "nested too deeply"),
+        ("True", "none of numbers"),
+    ],
+)
+def test_functions_that_are_none(text, sentence):
+    with pytest.raises(SynthesisError, match=sentence.replace("+", r"\+")):
+        Formula(text)
+
+
+@given(st.floats(0.5, 3))
+def test_formulas_are_the_functions_of_numpy(x):
+    assert float(Formula("2*sin(x)^2 - log10(x)/e + pi")(x)) == 2 * np.sin(x) ** 2 - np.log10(x) / np.e + np.pi
+
+
+def test_functions_without_values_and_too_many_pairs():
+    with pytest.raises(SynthesisError, match="no value somewhere from -1 to 1"):
+        FunctionLaw("log10(x)", (-1, 1), 1, 1)
+    with pytest.raises(SynthesisError, match="the same value"):
+        FunctionLaw("x^2", (-1, 1), 1, 1)
+    with pytest.raises(SynthesisError, match="at most 3"):
+        synthesise_function(FunctionTask([0.1, 0.2, 0.3, 0.4], [1, 2, 3, 4]))

@@ -1,0 +1,247 @@
+"""Guiding a body: dyads, curves, linkages, verdicts."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gruebler.errors import SynthesisError
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.synthesis import Demands, PositionTask, synthesise_positions
+from gruebler.synthesis.burmester import burmester_curves
+from gruebler.synthesis.dyads import Displacements, all_dyads, misfit
+from gruebler.synthesis.positions import guiding_dyads
+
+
+def task_of(rows):
+    return PositionTask([(x, y, np.radians(a)) for x, y, a in rows])
+
+
+def positions_of(linkage, drives):
+    """The positions of the coupler with the point P, and the pivots in the first of them."""
+    motion = move(linkage, drives)
+    if not motion.complete:
+        return None
+    return PositionTask([(*p, a) for p, a in zip(motion.point("P"), motion.angle("coupler"), strict=True)]), motion
+
+
+FOUR_REAL = task_of([(0, 0, 0), (-2, 3.8, 81), (-0.1, 3.4, -16), (1.5, 0.8, -32), (-1.8, 2.2, 55)])
+KNOWN = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
+
+
+def test_the_worked_example_with_four_real_dyads():
+    """Values of an independent computation with two cubics (plain numpy), to the digits printed there."""
+    dyads = guiding_dyads(FOUR_REAL)
+    wanted = {
+        1.820418987: (-0.90796419 + 0.31456977j, -0.82707024 + 2.13319052j),
+        164.276983456: (143.88978088 + 65.44000633j, -5.24289868 - 3.45390618j),
+        49.102142399: (2.92442635 - 1.78460313j, -44.87561726 - 13.01742199j),
+        2.215083196: (-3.04262351 - 0.90375208j, -3.72938834 + 1.20217946j),
+    }
+    assert len(dyads) == 4
+    for dyad in dyads:
+        length = min(wanted, key=lambda r: abs(r - dyad.length))
+        assert dyad.length == pytest.approx(length, abs=5e-9 * max(1, length))
+        assert [dyad.moving, dyad.fixed] == pytest.approx(list(wanted[length]), abs=1e-7)
+    found = synthesise_positions(FOUR_REAL)
+    assert (found.count.theorem, found.count.found, found.count.real) == (4, 4, 4)
+    assert len(found.designs) + len(found.rejected) == 6
+    assert all(design.verdict.reasons for design in found.rejected)
+
+
+def test_five_positions_of_a_four_bar_give_exactly_that_one():
+    task, motion = positions_of(KNOWN, np.radians([10.0, 35.0, 60.0, 85.0, 110.0]))
+    found = synthesise_positions(task)
+    assert (found.count.found, found.count.real, len(found.designs), len(found.rejected)) == (4, 2, 1, 0)
+    design = found.designs[0]
+    assert np.degrees(design.drives) == pytest.approx([10, 35, 60, 85, 110], abs=1e-9)
+    assert design.linkage.length("coupler", 1, 2) == pytest.approx(3, rel=1e-10)
+    assert design.verdict.error < 1e-13
+    assert design.verdict.turns_fully
+    assert motion.complete
+
+
+lengths = st.floats(0.6, 3.0)
+coordinates = st.floats(-2.0, 2.0)
+
+
+@st.composite
+def guided(draw, count=5):
+    """A linkage with a point P, and drive values that it reaches."""
+    kind = draw(st.sampled_from([FourBar, SliderCrank, InvertedSliderCrank]))
+    if kind is FourBar:
+        linkage = FourBar(*draw(st.tuples(*[lengths] * 4))).linkage({"P": (draw(coordinates), draw(coordinates))})
+    else:
+        linkage = kind(draw(lengths), draw(st.floats(3.2, 6.0)), draw(st.floats(-0.5, 0.5))).linkage(
+            {"P": (draw(coordinates), draw(coordinates))}
+        )
+    start, step = draw(st.floats(0, 6)), draw(st.floats(0.2, 0.5))
+    return linkage, start + step * np.arange(count) * draw(st.floats(0.7, 1.0))
+
+
+@settings(max_examples=40, deadline=None)
+@given(guided())
+def test_positions_of_a_linkage_give_its_dyads_back(case):
+    linkage, drives = case
+    made = positions_of(linkage, drives)
+    assume(made is not None)
+    task, motion = made
+    given_, origin, size = Displacements.of(task.origins, task.turns)
+    assume(size > 0.2)
+    try:
+        dyads = guiding_dyads(task)
+    except SynthesisError:
+        assume(False)  # a linkage that guides its body along circles, such as a parallelogram
+    pivots = [motion.complex_point(name)[0] for name in ("R(frame-crank)", "R(crank-coupler)")]
+    gaps = [abs(d.fixed - pivots[0]) + abs(d.moving - pivots[1]) for d in dyads if d.form == "RR"]
+    assert min(gaps, default=np.inf) < 1e-5
+    if "slider" in linkage.mechanism.chain.links:
+        assert any(d.form == "PR" for d in dyads) or min(abs(d.length) for d in dyads) > 0
+    for dyad in dyads:
+        reduced = dyad.moved(1 / size, -origin / size)
+        assert misfit(given_, reduced) < 1e-9 * (1 + abs(reduced.moving) + abs(reduced.fixed))
+
+
+@settings(max_examples=8, deadline=None)
+@given(guided())
+def test_the_linkage_itself_is_among_the_accepted_designs(case):
+    linkage, drives = case
+    made = positions_of(linkage, drives)
+    assume(made is not None and made[0].size > 0.3)
+    mu = np.abs(np.diff(made[1].angle("coupler")))
+    assume(mu.max() > 0.05)
+    try:
+        found = synthesise_positions(made[0], Demands(one_branch=False))
+    except SynthesisError:
+        assume(False)
+    pivots = [made[1].complex_point(name)[0] for name in ("R(frame-crank)", "R(crank-coupler)")]
+
+    def has(design, pivot):
+        return (
+            min(abs(complex(e.x, e.y) - pivot) for (_, k), e in design.linkage.elements.items() if k == "frame") < 1e-4
+        )
+
+    mine = [d for d in (*found.designs, *found.rejected) if has(d, pivots[0])]
+    assert mine
+    for design in found.designs:
+        assert design.verdict.error < 1e-9 or not design.verdict.one_branch
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 10**6))
+def test_four_solutions_of_any_five_positions(seed):
+    """Second method: Newton's method in complex numbers from random starts finds the same four and no other."""
+    rng = np.random.default_rng(seed)
+    q = np.exp(1j * rng.uniform(-np.pi, np.pi, 4))
+    t = rng.normal(size=4) + 1j * rng.normal(size=4)
+    found = all_dyads(Displacements(q, t))
+    assert found.found == 4
+    assert len(found.real) in (0, 2, 4)
+    solutions = []
+    for _ in range(60):
+        v = rng.normal(size=4) * 2 + 1j * rng.normal(size=4)
+        for _ in range(60):
+            x, xc, m, mc = v
+            f = x * mc * (1 - q) + xc * m * (1 - q.conj()) - m * t.conj() - mc * t + q * x * t.conj()
+            f = f + q.conj() * xc * t + t * t.conj()
+            jac = np.stack(
+                [
+                    mc * (1 - q) + q * t.conj(),
+                    m * (1 - q.conj()) + q.conj() * t,
+                    xc * (1 - q.conj()) - t.conj(),
+                    x * (1 - q) - t,
+                ],
+                axis=1,
+            )
+            step = np.linalg.solve(jac, f)
+            v = v - step
+            if np.abs(step).max() < 1e-13 * (1 + np.abs(v).max()):
+                break
+        new = all(np.abs(v - o).max() > 1e-6 * (1 + np.abs(o).max()) for o in solutions)
+        if new and np.abs(step).max() < 1e-10 and np.abs(v).max() < 1e4:
+            solutions.append(v)
+    assert len(solutions) <= 4
+    real = [v for v in solutions if abs(v[0] - v[1].conj()) + abs(v[2] - v[3].conj()) < 1e-8 * (1 + np.abs(v).max())]
+    for v in real:
+        gaps = [abs(d.moving - v[0]) + abs(d.fixed - v[2]) for d in found.real]
+        assert min(gaps, default=np.inf) < 1e-6 * (1 + np.abs(v).max())
+
+
+@settings(max_examples=15, deadline=None)
+@given(st.integers(0, 10**6), st.floats(-3, 3), st.floats(0.01, 100), st.booleans())
+def test_moved_tasks_have_moved_dyads(seed, angle, scale, mirror):
+    rng = np.random.default_rng(seed)
+    rows = np.column_stack([rng.uniform(-2, 2, (5, 2)), rng.uniform(-2, 2, 5)])
+    turn, shift = scale * np.exp(1j * angle), scale * (3 - 2j)
+    z = rows[:, 0] + 1j * rows[:, 1]
+    a = rows[:, 2]
+    other, b = (z.conj(), -a) if mirror else (z, a)
+    other, b = turn * other + shift, b + angle
+    plain = guiding_dyads(PositionTask([tuple(r) for r in rows]))
+    moved = guiding_dyads(PositionTask([(w.real, w.imag, c) for w, c in zip(other, b, strict=True)]))
+    assert len(plain) == len(moved)
+    for dyad in plain:
+        image = [turn * (p.conjugate() if mirror else p) + shift for p in (dyad.moving, dyad.fixed)]
+        gap = min(abs(d.moving - image[0]) + abs(d.fixed - image[1]) for d in moved)
+        assert gap < 1e-5 * (scale + abs(image[0]) + abs(image[1]))
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6))
+def test_burmesters_curves_pass_through_the_dyads_of_five_positions(seed):
+    """The dyads of five positions lie on the curves of the first four; the curves hold nothing but dyads."""
+    rng = np.random.default_rng(seed)
+    rows = [tuple(r) for r in np.column_stack([rng.uniform(-2, 2, (5, 2)), rng.uniform(-2, 2, 5)])]
+    task = PositionTask(rows[:4])
+    curves = burmester_curves(task, points=2000)
+    moving = np.concatenate([piece.moving for piece in curves.pieces])
+    fixed = np.concatenate([piece.fixed for piece in curves.pieces])
+    given_, origin, size = Displacements.of(task.origins, task.turns)
+    images = given_.q * ((moving - origin) / size)[:, None] + given_.t
+    centres = ((fixed - origin) / size)[:, None]
+    wrong = np.abs(np.abs(images - centres) - np.abs((moving - origin) / size - centres[:, 0])[:, None]).max(axis=1)
+    assert np.median(wrong) < 1e-9
+    for dyad in guiding_dyads(PositionTask(rows)):
+        if max(abs(dyad.moving), abs(dyad.fixed)) < 20:
+            assert abs(curves.nearest(dyad.moving).moving - dyad.moving) < 0.05 * (1 + abs(dyad.moving))
+    assert len(curves.sliding) == 2
+    for dyad in curves.sliding:
+        assert misfit(given_, dyad.moved(1 / size, -origin / size)) < 1e-8 * (1 + abs(dyad.moving) / size)
+
+
+def test_chosen_pivots_of_three_positions():
+    rows = [(0, 0, 0), (2, 1, 20), (3, 3, 60)]
+    task = PositionTask([(x, y, np.radians(a)) for x, y, a in rows], moving_pivots=[(1, 0)], fixed_pivots=[(4, -1)])
+    by_body, by_frame = guiding_dyads(task)
+    assert by_body.moving == pytest.approx(1)
+    assert by_frame.fixed == pytest.approx(4 - 1j)
+    found = synthesise_positions(task)
+    assert found.count.theorem is None
+    assert "infinitely many" in found.notes[0]
+
+
+def test_more_than_five_positions_come_back_too():
+    task, _ = positions_of(KNOWN, np.radians(np.linspace(10, 150, 9)))
+    found = synthesise_positions(task)
+    assert found.designs[0].verdict.error < 1e-9
+    assert "least squares" in found.notes[0]
+
+
+@pytest.mark.parametrize(
+    "rows",
+    [
+        [(k, 2 * k, 0) for k in range(5)],  # a translation along a line
+        [(np.cos(k / 3), np.sin(k / 3), np.degrees(k / 3)) for k in range(5)],  # a rotation
+    ],
+)
+def test_motions_of_infinitely_many_dyads_say_so(rows):
+    with pytest.raises(SynthesisError, match="infinitely many"):
+        synthesise_positions(task_of(rows))
+
+
+def test_a_region_without_solutions():
+    task, _ = positions_of(KNOWN, np.radians([10.0, 35.0, 60.0, 85.0, 110.0]))
+    found = synthesise_positions(task, Demands(region=(10, 10, 20, 20)))
+    assert not found.designs
+    assert found.rejected[0].verdict.reasons == ("a fixed pivot lies outside the region",)

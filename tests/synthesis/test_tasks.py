@@ -1,0 +1,93 @@
+"""Tasks: sound or not constructed, and the same after a file."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gruebler.errors import SynthesisError
+from gruebler.synthesis import (
+    DeadCentreTask,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    read_task,
+    task_from_json,
+    task_to_json,
+    write_task,
+)
+
+numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
+angles = st.floats(-math.pi, math.pi)
+
+
+@st.composite
+def tasks(draw):
+    kind = draw(st.integers(0, 4))
+    count = draw(st.integers(2, 6))
+    xs = [k * 10 + draw(st.floats(-4, 4)) for k in range(count)]
+    ys = draw(st.lists(numbers, min_size=count, max_size=count))
+    turned = draw(st.lists(angles, min_size=count, max_size=count))
+    points = list(zip(xs, ys, strict=True))
+    if kind == 0:
+        return PositionTask([(x, y, a) for (x, y), a in zip(points, turned, strict=True)])
+    if kind == 1:
+        return PathTask(points, angles=tuple(a if k % 2 else None for k, a in enumerate(turned)))
+    if kind == 2:
+        return PathTask(points, crank_angles=tuple(0.3 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)))
+    if kind == 3:
+        return FunctionTask([0.1 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)], turned)
+    return DeadCentreTask(swing=draw(st.floats(0.01, 3)), time_ratio=draw(st.floats(1, 5)))
+
+
+@given(tasks(), st.sampled_from(["toml", "json", "csv"]))
+def test_files_give_the_task_back(tmp_path_factory, task, form):
+    path = tmp_path_factory.mktemp("task") / f"task.{form}"
+    write_task(path, task)
+    assert read_task(path) == task
+    assert task_from_json(task_to_json(task)) == task
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: PositionTask([(0, 0, 0), (1, 1, 1), (0, 0, 2 * math.pi)]), "positions 1 and 3 are equal"),
+        (lambda: PositionTask([(0, 0, 0)]), "at least two"),
+        (lambda: PathTask([(0, 0), (1, 1), (0, 1e-12)]), "points 1 and 3 are equal"),
+        (lambda: PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 0.5, 0.4)), "contradictory"),
+        (lambda: PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 4, 7)), "within one turn"),
+        (lambda: PathTask([(0, 0), (1, 1)], fixed_pivots=[(1, 1), (1, 1)]), "coincide"),
+        (lambda: FunctionTask([0, 0.5, 0.5], [1, 2, 3]), "inputs 2 and 3 are equal"),
+        (lambda: FunctionTask([0, 0.5], [1, 2, 3]), "as many inputs as outputs"),
+        (lambda: DeadCentreTask(swing=1, stroke=2, time_ratio=1), "one of swing and stroke"),
+        (lambda: DeadCentreTask(swing=1, time_ratio=0.9), "at least 1"),
+        (lambda: DeadCentreTask(swing=4, time_ratio=1), "between 0 and 180"),
+        (lambda: PathTask([(0, 0), (1, float("nan"))]), "point 2"),
+    ],
+)
+def test_bad_tasks_are_refused_in_one_sentence(make, sentence):
+    with pytest.raises(SynthesisError, match=sentence) as error:
+        make()
+    assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "sentence"),
+    [
+        ("a.csv", "x,y,angle\n0,0,0\n1,two,3\n", "line 3, y: expected a number, but found 'two'"),
+        ("a.csv", "x,y,angle\n0,0\n", "line 2: expected 3 columns, but found 2"),
+        ("a.csv", "p,q\n1,2\n", "line 1: expected the columns"),
+        ("a.toml", "position = [[0,0,0]]", "a task has positions, points"),
+        ("a.toml", "positions = [[0,0,0],[1,1]]", "positions 2"),
+        ("a.json", '{"points": [[0, 0], [1, 1]], "closd": true}', "did you mean 'closed'"),
+        ("a.txt", "", ".toml, .json or .csv"),
+    ],
+)
+def test_bad_files_are_refused_with_their_place(tmp_path, name, text, sentence):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(SynthesisError) as error:
+        read_task(path)
+    assert sentence in str(error.value)
+    assert str(path) in str(error.value)
