@@ -191,7 +191,7 @@ class PathCourse(Course):
         return False
 
     @property
-    def joints(self) -> tuple[float, ...]:  # type: ignore[override]
+    def joints(self) -> tuple[float, ...]:
         """None are sought along a path of several drives."""
         return ()
 
