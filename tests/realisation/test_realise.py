@@ -132,12 +132,14 @@ def test_what_cannot_move_is_said(text):
 
 
 def test_a_spent_budget_is_said():
-    found = realise(Mechanism.parse(TURNING[4]), budget=1, seed=1)
-    if not found.found:
-        assert re.search(r"3 drawings", found.message())
-        assert "Zeichnungen" in found.message("de")
-    else:
-        check(found)
+    """One drawing in each of the three searches, none of which moves; with more drawings it is found."""
+    mechanism = Mechanism.parse(TURNING[6])
+    found = realise(mechanism, budget=1, seed=15)
+    assert not found.found
+    assert found.linkage is None
+    assert re.search(r"3 drawings tried \(seed 15\)", found.message())
+    assert "3 Zeichnungen" in found.message("de")
+    check(realise(mechanism, budget=600, seed=15))
 
 
 @pytest.mark.parametrize(

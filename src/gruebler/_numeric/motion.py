@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.dyads import dyad_square
 from gruebler._numeric.placing import attempt, commit, forget, set_drives, zero_ahead
 from gruebler._numeric.program import (
@@ -30,7 +30,6 @@ from gruebler._numeric.program import (
     NEAREST,
     PUSH,
     RPR,
-    RRR,
     SINGULAR,
     START,
     TURN,
@@ -43,6 +42,7 @@ from gruebler._numeric.program import (
 )
 from gruebler._numeric.registers import REGISTERS
 from gruebler._numeric.sweep import steady, sweep, swept_links
+from gruebler._numeric.work import walking
 
 __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
 
@@ -197,7 +197,8 @@ def run(
     """
     memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
     s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
-    return walk(program, path, speeds, signs, start, poses, memory, s, np.empty(REGISTERS))
+    move = for_work(walk, walking(program, len(path), len(poses.rates)))
+    return move(program, path, speeds, signs, start, poses, memory, s, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
@@ -320,13 +321,13 @@ def _walk_to(
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
-    """The number of a dyad near a change point whose first body a step has turned by more than a right angle, or -1.
+    """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
 
-    Where the outer joints meet, their line reverses; the body goes straight on, and it is the assembly mode that
+    Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
     changes. Steps are too short for any other turn like that.
     """
     for operation in program.operations:
-        if operation[0] == RRR or operation[0] == RPR:
+        if operation[0] == RPR:
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast

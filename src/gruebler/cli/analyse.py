@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
-from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
+from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
@@ -67,7 +67,6 @@ def run(arguments: argparse.Namespace) -> int:
     }
     linkage = linkage.with_points(added) if added else linkage
     turning = turning_drives(linkage)
-    tell_compiling(arguments.lang)
     plan = planned(linkage)
     speeds = _speeds(arguments, turning)
     accelerations = _higher("--acceleration", arguments.acceleration, speeds)

@@ -7,7 +7,6 @@ import math
 from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
-from gruebler.cli.linkage_inputs import tell_compiling
 from gruebler.cli.output import print_json, say_written
 from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
@@ -20,7 +19,6 @@ def run(arguments: argparse.Namespace) -> int:
     mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
     if arguments.output is not None:
         check_linkage_path(arguments.output)
-    tell_compiling(arguments.lang)
     found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
     if found.linkage is not None and (outputs := outputs_of(arguments.chain)):
         found = replace(found, linkage=found.linkage.with_outputs(outputs))

@@ -84,18 +84,22 @@ class System:
 
     def linearised(self, x: Reals) -> tuple[Reals, Reals]:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import jacobian
+        from gruebler._numeric.work import closing_work
 
-        m = jacobian(self.conditions, x, self.room)
+        m = for_work(jacobian, closing_work(self.unknowns))(self.conditions, x, self.room)
         return self.room.residual[:m].copy(), self.room.rows[:m].copy()
 
     def independent(self, x: Reals) -> NDArray[np.int64]:
         """The numbers of equations on which the others depend at a pose on the curve."""
         if not self.redundant:
             return np.arange(self.equations)
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import settle
+        from gruebler._numeric.work import sampling
 
-        settle(self.conditions, x.copy(), np.ones(self.unknowns), self.room)
+        for_work(settle, sampling(self.unknowns, 1))(self.conditions, x.copy(), np.ones(self.unknowns), self.room)
         return np.sort(self.room.order[: self.unknowns - 1])
 
 
@@ -215,12 +219,14 @@ def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:
 
     The error is raised for a pose that is off by more than 0.05, in sizes and radians.
     """
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.tracing import settle
+    from gruebler._numeric.work import sampling
 
     pose = x.copy()
     _, matrix = made.linearised(pose)
     tangent = np.linalg.svd(matrix)[2][-1].copy()
-    arrived, miss, gauge, rank = settle(made.conditions, pose, tangent, made.room)
+    arrived, miss, gauge, rank = for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent, made.room)
     if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == made.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
@@ -247,14 +253,18 @@ def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: 
 
 
 def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: float) -> Traced:
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle, trace
+    from gruebler._numeric.work import sampling
 
-    curve = _room(1024, made.unknowns)
+    curve = _room(64, made.unknowns)
     curve.poses[0], curve.tangents[0] = pose, tangent
-    curve.gauges[0] = settle(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
+    put = for_work(settle, sampling(made.unknowns, 1))
+    curve.gauges[0] = put(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
     count, step, changes = 1, longest / 4, list[Change]()
     while True:
-        status, count, step = trace(made.conditions, curve, count, step, longest, most, made.room)
+        follow = for_work(trace, sampling(made.unknowns, len(curve.arcs) - count))
+        status, count, step = follow(made.conditions, curve, count, step, longest, most, made.room)
         if status == FULL:
             curve = _larger(curve)
         elif status == FLIP:

@@ -145,6 +145,9 @@ def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...
     if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
         samples = samples._replace(period=None)
     found = _inside(course, zeros(jet, samples, least))
+    if order == 0 and output.turning and found:  # that sine falls where the angle rises through an odd multiple
+        turned = np.round(transfer_function(course, output, np.array([zero.at for zero in found])) / (2 * pi)) % 2 == 1
+        found = tuple(zero._replace(rises=zero.rises != odd) for zero, odd in zip(found, turned.tolist(), strict=True))
     before = _before(course, output, found, order)
     words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
     return tuple(
