@@ -191,9 +191,7 @@ class _Conditions:
             raise LinkageError(f"home: the joints are not closed there; {worst} is open by {far.max():.1e} sizes")
         return x
 
-    def _conditions(
-        self, x: Reals, number: int, joint: Joint, links: tuple[str, str]
-    ) -> Iterator[tuple[float, Reals]]:
+    def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:
         first, other = links
         if joint.pair.name == "revolute":
             yield self._way(x, number, links, 1 + 0j, "")
@@ -217,9 +215,7 @@ class _Conditions:
                 out[3 * self.bodies.index(link) + 2] = sign
         return out
 
-    def _way(
-        self, x: Reals, number: int, links: tuple[str, str], along: complex, carried: str
-    ) -> tuple[float, Reals]:
+    def _way(self, x: Reals, number: int, links: tuple[str, str], along: complex, carried: str) -> tuple[float, Reals]:
         """The way from the first to the second link's point along a direction that a link carries, or none does."""
         size, out = self.linkage.size, np.zeros(3 * len(self.bodies))
         gap = 0j
@@ -324,7 +320,10 @@ def _chosen(releases: Sequence[_Release], forces: Reals) -> list[_Release]:
     """As many releases as leave the rest independent."""
     out: list[_Release] = []
     joints: dict[int, set[str]] = {}
-    members = {number: max(2, len({one.link for one in releases if one.joint == number})) for number in {one.joint for one in releases}}
+    members = {
+        number: max(2, len({one.link for one in releases if one.joint == number}))
+        for number in {one.joint for one in releases}
+    }
     while forces.shape[1]:
         here = [one.directed(forces) for one in releases]
         share = {}
