@@ -9,6 +9,7 @@ from gruebler.synthesis.dead_centres import synthesise_dead_centres
 from gruebler.synthesis.formulas import FunctionLaw
 from gruebler.synthesis.functions import function_task, minimax, structural_error, synthesise_function
 from gruebler.synthesis.judging import Demands
+from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
 from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
@@ -32,6 +33,7 @@ __all__ = [
     "structural_error",
     "synthesise_dead_centres",
     "synthesise_function",
+    "synthesise_path",
     "synthesise_positions",
     "task_from_json",
     "task_to_json",
