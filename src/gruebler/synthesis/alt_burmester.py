@@ -206,16 +206,18 @@ def _random_task(begin: Complexes, end: Complexes, rng: np.random.Generator) -> 
     return np.asarray(size * (rng.normal(size=size.shape) + 1j * rng.normal(size=size.shape)))
 
 
-def _rounded(marks: Complexes) -> Complexes:
-    """Marks relative to the size of each solution."""
-    return np.asarray(marks / (1 + np.abs(marks)))
+def _levelled(marks: Complexes) -> Complexes:
+    """Marks with logarithmic modulus, so that equal gaps are equal relative differences, of large solutions too."""
+    size = np.abs(marks)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.where(size > 0, marks / size * np.log1p(size), 0))
 
 
 def _pairs(problem: Problem, z: Complexes) -> Ints:
     """Pairs of solutions of one class: (pairs, 2)."""
     from scipy.spatial import cKDTree
 
-    marks = _rounded(problem.marks(z))
+    marks = _levelled(problem.marks(z))
     flat = np.nan_to_num(np.concatenate([marks.real, marks.imag], axis=1), nan=9.0)
     return np.asarray(cKDTree(flat).query_pairs(_SAME, output_type="ndarray"))
 

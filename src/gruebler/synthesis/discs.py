@@ -46,10 +46,10 @@ class Disc:
         return Disc(-self.centre, self.radius)
 
     def __sub__(self, other: Any) -> Disc:
-        return self + (-other if isinstance(other, Disc) else Disc.of(-np.asarray(other)))
+        return self + -(other if isinstance(other, Disc) else Disc.of(other))
 
     def __rsub__(self, other: Any) -> Disc:
-        return -self + other
+        return -self + (other if isinstance(other, Disc) else Disc.of(other))
 
     def __mul__(self, other: Any) -> Disc:
         other = other if isinstance(other, Disc) else Disc.of(other)
@@ -59,14 +59,14 @@ class Disc:
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: Any) -> Disc:
+    def __truediv__(self, other: Disc | Complexes | complex) -> Disc:
         """By a number that is exact; a disc is only divided by one without radius."""
-        other = other.centre if isinstance(other, Disc) else np.asarray(other, np.complex128)
-        centre = self.centre / other
-        return Disc(centre, self.radius / np.abs(other) * (1 + _ROUNDING) + _ROUNDING * np.abs(centre))
+        divisor = other.centre if isinstance(other, Disc) else np.asarray(other, np.complex128)
+        centre = self.centre / divisor
+        return Disc(centre, self.radius / np.abs(divisor) * (1 + _ROUNDING) + _ROUNDING * np.abs(centre))
 
     def __rtruediv__(self, other: Any) -> Disc:
-        return Disc.__truediv__(Disc.of(other), self)
+        return Disc.of(other) / self
 
 
 def certified(poses: int, points: int, z: Complexes, p: Complexes) -> NDArray[np.bool_]:

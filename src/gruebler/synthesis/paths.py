@@ -53,7 +53,7 @@ def synthesise_path(
 
     >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
     >>> synthesise_path(task).count
-    Count(what='four-bars', theorem=36, found=36, real=8)
+    Count(what='four-bars', theorem=36, found=36, real=14)
     """
     wanted = demands or Demands()
     oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
@@ -93,6 +93,8 @@ class _Reduced(NamedTuple):
     size: float
     added: int
     """How many points were added to make the problem finite."""
+    first: int
+    """The number of the point that is the origin."""
 
 
 def _exact(
@@ -103,12 +105,11 @@ def _exact(
     threads: int | None,
     progress: Progress | None,
 ) -> SynthesisResult:
-    made = _reduced(task, problem, oriented)
-    found = solutions(problem, made.parameters, threads=threads, progress=progress)
+    made, found = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
     for one, two in _dyad_pairs(problem, found):
         one, two = (d.moved(made.size, made.origin) for d in (one, two))  # noqa: PLW2901
-        designs += _judged(task, demands, one, two, oriented[0] if oriented else 0)
+        designs += _judged(task, demands, one, two, made.first)
     cognates = 3 if problem.poses == 0 and not problem.given_pivots else 1
     what = "cognate triples" if cognates == 3 else "four-bars"
     accepted, rejected = ranked(designs)
@@ -131,9 +132,27 @@ def _notes(found: Solutions, added: int) -> Iterator[str]:
         yield f"{doubtful} solutions are not certified: they are singular or nearly so."
 
 
-def _reduced(task: PathTask, problem: Problem, oriented: list[int]) -> _Reduced:
+def _best_reference(
+    task: PathTask, problem: Problem, oriented: list[int], threads: int | None, progress: Progress | None
+) -> tuple[_Reduced, Solutions]:
+    """The solutions with the most central point as origin, where the equations cancel least; else with the next."""
+    candidates = list(oriented) or list(range(len(task)))
     z = task.z
-    first = oriented[0] if oriented else 0
+    candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
+    best: tuple[_Reduced, Solutions] | None = None
+    for first in candidates[:2]:
+        made = _reduced(task, problem, oriented, first)
+        found = solutions(problem, made.parameters, threads=threads, progress=progress)
+        if best is None or len(found.z) > len(best[1].z):
+            best = made, found
+        if not found.missing + found.infinite:
+            break
+    assert best is not None
+    return best
+
+
+def _reduced(task: PathTask, problem: Problem, oriented: list[int], first: int) -> _Reduced:
+    z = task.z
     others = [k for k in oriented if k != first]
     free = [k for k in range(len(z)) if k != first and k not in others]
     size = float(np.abs(z - z[first]).mean())
@@ -146,7 +165,7 @@ def _reduced(task: PathTask, problem: Problem, oriented: list[int]) -> _Reduced:
         one, two = ((complex(*p) - z[first]) / size for p in task.fixed_pivots)
         pivots = complex(one), complex(two)
     p = parameters((places - z[first]) / size, rotations, pivots)
-    return _Reduced(p, complex(z[first]), size, extra)
+    return _Reduced(p, complex(z[first]), size, extra, first)
 
 
 def _between(z: Complexes, count: int) -> Complexes:
@@ -209,8 +228,8 @@ def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
 def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
     """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
     problem = PROBLEMS[4 if task.fixed_pivots else 0]
-    made = _reduced(task, problem, [])
-    pairs = _dyad_pairs(problem, solutions(problem, made.parameters))
+    made, found = _best_reference(task, problem, [], None, None)
+    pairs = _dyad_pairs(problem, found)
     return [(one.moved(made.size, made.origin), two.moved(made.size, made.origin)) for one, two in pairs]
 
 
