@@ -4,13 +4,16 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test fast slow wheel-test bench clean
+.PHONY: help demo test slow wheel-test test-blas test-lowest test-newest bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
 	@echo "make slow        the long tests"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
+	@echo "make test-blas   the numerical tests with two other kernels of OpenBLAS"
+	@echo "make test-lowest the fast tests with the lowest versions that pyproject.toml allows"
+	@echo "make test-newest the fast tests with another Python (NEWEST=python3.13) and the newest versions"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 
 # Reinstalled only when pyproject.toml changes: repeated calls start at once.
@@ -39,6 +42,30 @@ wheel-test: $(READY)
 		"$$(ls build/wheel/*.whl)[test]"
 	cd build/wheel && venv/bin/python -m pytest -q -n 2 -c ../../pyproject.toml --rootdir ../.. -o cache_dir=.cache \
 		$(addprefix ../../tests/,cli catalog exercises sheets test_chain.py test_pairs.py)
+
+# What is decided by rounding shows when other kernels of the linear algebra round otherwise.
+NUMERIC := $(addprefix tests/,cams freedoms geometry kinematics linkages realisation statics test_geneva.py)
+test-blas: $(READY)
+	OPENBLAS_CORETYPE=Haswell $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
+	OPENBLAS_CORETYPE=SkylakeX $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
+
+# Environments of their own, kept in build/: another version of the compiler does not touch the kernels of .venv.
+NEWEST ?= $(PYTHON)
+test-lowest: export NUMBA_CACHE_DIR = $(CURDIR)/build/lowest/kernels
+test-lowest:
+	@mkdir -p build/lowest
+	@test -x build/lowest/venv/bin/python || $(PYTHON) -m venv build/lowest/venv
+	$(PYTHON) .ci/lowest.py > build/lowest/constraints.txt
+	build/lowest/venv/bin/python -m pip install --quiet --disable-pip-version-check -e ".[test]" \
+		-c build/lowest/constraints.txt
+	build/lowest/venv/bin/python -m pytest -q -n 2
+
+test-newest: export NUMBA_CACHE_DIR = $(CURDIR)/build/newest/kernels
+test-newest:
+	@mkdir -p build/newest
+	@test -x build/newest/venv/bin/python || $(NEWEST) -m venv build/newest/venv
+	build/newest/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
+	build/newest/venv/bin/python -m pytest -q -n 2
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks

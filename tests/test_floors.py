@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[1]
 # From the ground up. A room may import rooms on lower floors and its own files.
 FLOORS = [
     {"errors", "views", "_numeric"},
-    {"pairs"},
+    {"pairs", "atomic_files"},
     {"notation"},
     {"chain"},
     {"mobility", "isomorphism"},

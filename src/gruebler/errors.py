@@ -4,19 +4,29 @@ Every message says what was expected, what was found and, where there is one, th
 raises; an honest failure (a budget spent, a proof not found) is a result and never one of these.
 """
 
+import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+
+LONGEST = 1000
+"""Characters of a message; 300 of them at most without a space."""
+_WORD = 300
 
 
 class GrueblerError(ValueError):
     """The common parent: catching it catches every refusal of this library, and nothing else.
 
-    Sentences that users of the command line meet often are there in German too.
+    Messages are one line of bounded length, however long the input is that they quote. Sentences that users of the
+    command line meet often are there in German too.
+
+    >>> text = str(NotationError(f"{'x' * 9000!r} is not a chain"))
+    >>> len(text), "… (9,002 characters) …" in text, text[-20:]
+    (315, True, "xxxx' is not a chain")
     """
 
     def __init__(self, text: str = "", de: str | None = None) -> None:
-        super().__init__(text)
-        self.de = de
+        super().__init__(shortened(text))
+        self.de = None if de is None else shortened(de)
 
     def said(self, lang: str) -> str:
         """The sentence in a language, in English where there is no other.
@@ -47,8 +57,34 @@ class LinkageError(GrueblerError):
     """Dimensions that do not make a sound linkage, or a question that its dimensions do not answer."""
 
 
+class RunError(GrueblerError):
+    """A run that cannot begin or go on: workers that keep dying, a directory of another task, an unwritable file."""
+
+
 class SynthesisError(GrueblerError):
     """A task of dimensional synthesis that contradicts itself or cannot be read."""
+
+
+def shortened(text: str) -> str:
+    r"""One line of at most `LONGEST` characters: what is longer loses its middle, words first.
+
+    >>> len(shortened("a" * 10**6)), shortened("two\n lines")
+    (300, 'two lines')
+    """
+    if "\n" in text:
+        text = re.sub(r"\s*\n\s*", " ", text.strip())
+    if len(text) > _WORD:
+        text = re.sub(rf"\S{{{_WORD + 1},}}", lambda word: _without_middle(word[0], _WORD), text)
+    return _without_middle(text, LONGEST)
+
+
+def _without_middle(text: str, most: int) -> str:
+    """The beginning and a third as much of the end, and how much it was."""
+    if len(text) <= most:
+        return text
+    middle = f"… ({len(text):,} characters) …"
+    end = (most - len(middle)) // 4
+    return text[: most - len(middle) - end] + middle + text[-end:]
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

@@ -17,6 +17,8 @@ from gruebler.chain import Chain
 from gruebler.errors import ChainError
 from gruebler.isomorphism import Permutation, code, orbits, symmetry
 from gruebler.mechanism import Drive, Mechanism, check_drives
+from gruebler.notation import link_text
+from gruebler.pairs import Alphabet
 
 __all__ = ["Driven", "driven_mechanisms", "family", "inversions"]
 
@@ -27,6 +29,22 @@ class Driven:
 
     mechanism: Mechanism
     output: str | None = None
+
+    @classmethod
+    def parse(cls, text: str) -> Driven:
+        """The driven mechanism of a text, as `text` writes it; errors as for `Mechanism.parse`."""
+        return cls(*Mechanism.parse_with_output(text))
+
+    def text(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
+        """The mechanism's text, with a mark ``output=LINK`` if there is one; `parse` takes it back.
+
+        >>> Driven.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1); output=3").text()
+        'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1); output=3'
+        """
+        mark = "" if self.output is None else f"; output={link_text(self.output)}"
+        return self.mechanism.text(alphabet) + mark
+
+    __str__ = text
 
 
 def inversions(chain: Chain) -> list[Mechanism]:

@@ -1,10 +1,45 @@
-"""How a value shows itself in a notebook: the front door puts the drawing here, so that no value imports upward."""
+"""How values show themselves: in one line, and in a notebook as a picture.
+
+The front door puts the drawing here, so that no value imports upward.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import fields
 
-__all__ = ["picture"]
+__all__ = ["Brief", "picture"]
 
 picture: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
+
+
+class Brief:
+    """A dataclass (with ``repr=False``) of many values that is printed in one line: arrays as their shapes.
+
+    >>> from dataclasses import dataclass
+    >>> @dataclass(repr=False)
+    ... class Path(Brief):
+    ...     name: str
+    ...     numbers: list[int]
+    >>> Path("a", list(range(1000)))
+    <Path name='a', numbers=list of 1000>
+    """
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))  # type: ignore[arg-type]
+        return f"<{type(self).__name__} {', '.join(f'{name}={_in_brief(value)}' for name, value in values)}>"
+
+
+_WIDE = 60  # characters of a value in such a line
+
+
+def _in_brief(value: object) -> str:
+    if hasattr(value, "shape"):
+        return f"array{value.shape}"
+    if isinstance(value, list | tuple | dict | set | frozenset) and len(value) > 3:
+        return f"{type(value).__name__} of {len(value)}"
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _WIDE else f"{text[: _WIDE - 1]}…"

@@ -152,3 +152,10 @@ def test_points_in_either_sense_and_closed_or_not():
 def test_absurd_contours_are_refused(make, words):
     with pytest.raises(CamError, match=words):
         make()
+
+
+@pytest.mark.parametrize("value", [1e70, -1e308])
+def test_contours_without_measure_are_refused(value):
+    points = [(40, 0), (0, 40), (-40, 0), (0, -40), (value, -1)]
+    with pytest.raises(CamError, match="coordinates below 1e"):
+        SmoothContour.through(points)

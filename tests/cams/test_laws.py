@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler.cams import LAWS, CamError, boundary_law, law, polynomial_law
+from gruebler.cams import LAWS, Cam, CamError, Roller, boundary_law, law, polynomial_law, read_lift
 from gruebler.cams.extremes import extremes, roots
 
 RESTING = ["3-4-5", "4-5-6-7", "5-6-7-8-9", "cycloidal", "modified-sine", "modified-trapezoid", "harmonic", "parabolic"]
@@ -134,3 +134,29 @@ def test_roots_and_poles():
 def test_absurd_laws_are_refused(make, words):
     with pytest.raises(CamError, match=words):
         make()
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("rise 1e200 90; fall 1e200 90; dwell", "expected a number below 1e\\+70, not '1e200'"),
+        ("rise 1e-200 90; fall 1e-200 90; dwell", "between 1e-70 and 1e\\+70"),
+        ("rise 10 1e-30; fall 10 90; dwell", "1e-09 rad at least"),
+        ("rise 20 60 v1=1e90; fall 20 90; dwell", "below 1e\\+70"),
+    ],
+)
+def test_lifts_beyond_all_measure_are_refused(text, words):
+    with pytest.raises(CamError, match=words):
+        read_lift(text)
+
+
+@pytest.mark.parametrize("lift", [1e12, 1e60])
+def test_a_lift_has_to_do_with_its_base_circle(lift):
+    with pytest.raises(CamError, match=r"more than 1e9 times the base circle's 20"):
+        Cam(read_lift(f"rise {lift} 90; fall {lift} 90; dwell"), base=20, follower=Roller(5))
+
+
+@pytest.mark.parametrize("size", [1e-60, 1e-6, 1.0, 1e60])
+def test_lifts_of_all_other_sizes_are_kept(size):
+    lift = read_lift(f"rise {size} 90; fall {size} 90; dwell")
+    assert max(value for _, value in lift.extremes(0)) == pytest.approx(size)

@@ -6,7 +6,9 @@ import math
 
 import pytest
 
+from gruebler.catalog import entries
 from gruebler.cli import main
+from gruebler.freedoms.files import screws_to_json
 from gruebler.linkages import FourBar
 from gruebler.linkages.files import write_linkage
 
@@ -161,7 +163,10 @@ REFUSED = [
     (["four-bar:a,b,c,d"], "four-bar: expected numbers a,b,c,d"),
     (["fourbar:1,2,3,4"], "did you mean 'four-bar'?"),
     (["crankroker"], "did you mean crankrocker"),
-    (["tri"], "the catalog entry 'tri' has no dimensions; these have: "),
+    (
+        ["winch_screw"],
+        "the places of its joints in one position, not the sizes of its links: `gruebler freedoms winch_screw` says",
+    ),
     (["R(0-1) R(1-2) R(2-0)"], "has no dimensions; give a file"),
     (["none.toml"], "none.toml: cannot be read"),
     (["/dev/null"], "a linkage is in a .toml or .json file"),
@@ -227,3 +232,28 @@ def test_several_drives_with_speeds(capsys, tmp_path):
     status, _, err = run(capsys, *five, "--speed", "60")
     assert status == 2
     assert "once for each drive: 2 times, not 1" in err
+
+
+def test_a_file_of_screws_is_told_from_one_of_sizes(capsys, tmp_path):
+    path = tmp_path / "winch.json"
+    path.write_text(json.dumps(screws_to_json(entries()["winch_screw"].placed())), encoding="utf-8")
+    status, out, err = run(capsys, str(path))
+    assert (status, out) == (2, "")
+    assert (
+        f"has the screws of its joints in one position, not the sizes of its links: `gruebler freedoms {path}`" in err
+    )
+    assert main(["freedoms", str(path)]) == main(["check", str(path)]) == 0
+
+
+def test_the_unit_of_an_angle_is_in_its_key(capsys):
+    """A crank-slider: angles of the joints in degrees by keys that say so, the way of the slide in its unit."""
+    document = json.loads(run(capsys, "slider-crank:25,70", "--json")[1])
+    rows = {row["joint"]: row for row in document["rotatability"]}
+    assert rows["R(frame-crank)"]["range_deg"] == pytest.approx(360, abs=1e-9)
+    swing = 2 * math.degrees(math.asin(25 / 70))
+    rod = rows["R(coupler-slider)"]
+    assert rod["range_deg"] == pytest.approx(swing, abs=1e-7)
+    assert rod["highest_deg"] - rod["lowest_deg"] == pytest.approx(swing, abs=1e-7)
+    slide = rows["P(frame-slider)"]
+    assert (slide["range"], slide["unit"]) == (pytest.approx(50, abs=1e-9), "mm")
+    assert not any(key.endswith("_deg") for key in slide)

@@ -33,7 +33,7 @@ def test_json_is_a_list_of_chains_that_check_reads(capfd, tmp_path):
     status, out, err = run(
         capfd, "enumerate", "--links", "8", "--multiple-joints", "2", "--format", "json", "-o", str(path)
     )
-    assert (status, out, err) == (0, "", "")
+    assert (status, out, err) == (0, "", f"Written: {path}, 18 chains\n")
     found = [Chain.from_json(one) for one in json.loads(path.read_text(encoding="utf-8"))]
     assert found == list(chains(8, multiple_joints=2))
     assert len(found) == 18
@@ -100,7 +100,7 @@ def test_jobs_and_checkpoint_change_nothing(capfd, tmp_path):
 
 def test_a_file_appears_whole_or_not_at_all(capfd, tmp_path):
     path = tmp_path / "count.json"
-    assert run(capfd, "enumerate", "--links", "8", "--count", "-o", str(path)) == (0, "", "")
+    assert run(capfd, "enumerate", "--links", "8", "--count", "-o", str(path)) == (0, "", f"Written: {path}\n")
     assert json.loads(path.read_text(encoding="utf-8"))["chains"] == 16
     assert list(tmp_path.iterdir()) == [path]
 
@@ -121,6 +121,9 @@ def test_a_file_appears_whole_or_not_at_all(capfd, tmp_path):
         (["--links", "8", "--json", "--format", "text"], "does not go with --format text"),
         (["--links", "8", "--jobs", "0"], "at least one process"),
         (["--links", "8", "-o", "no/such/directory/x"], "there is no directory"),
+        (["--links", "8", "-o", "chains.parquet"], "as .txt, .g6 or .json, not as .parquet"),
+        (["--links", "8", "-o", "chains.g6", "--format", "json"], "--format json and the ending .g6 do not agree"),
+        (["--links", "8", "-o", "count.txt", "--count"], "a count is written as JSON"),
         (["--links", "8", "--fractionated", "some"], "invalid choice"),
         (["--mobility", "1"], "required"),
     ],
@@ -189,6 +192,16 @@ def test_the_output_goes_to_ordinary_files_only(tmp_path, capsys):
     assert target.stat().st_mode & 0o777 == 0o600
     assert main(["enumerate", "--links", "6", "-o", ""]) == 2
     assert "cannot be written" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("ending", "beginning"), [(".txt", "R("), (".g6", "G"), (".json", "["), ("", "R(")])
+def test_the_ending_decides_the_format(tmp_path, capsys, ending, beginning):
+    path = tmp_path / f"chains{ending}"
+    assert main(["enumerate", "--links", "8", "-o", str(path)]) == 0
+    assert path.read_text().startswith(beginning)
+    assert capsys.readouterr() == ("", f"Written: {path}, 16 chains\n")
+    assert main(["check", str(path), "--json"]) == 0
+    assert len(json.loads(capsys.readouterr().out)) == 16
 
 
 def test_graph6_files_are_taken_back(tmp_path, capsys):

@@ -162,7 +162,7 @@ def test_pictures_besides_the_table(capsys, tmp_path, name):
         path = tmp_path / f"x.{kind}"
         moving = ["--animate", "--seconds", "2"] if kind == "html" else []
         status, out, err = run(capsys, *MACHINES[name], "-o", str(path), *moving, "--lang", "en")
-        assert (status, out, err) == (0, table, "")
+        assert (status, out, err) == (0, table, f"Written: {path}\n")
         text = path.read_text(encoding="utf-8")
         assert text.startswith("<svg" if kind == "svg" else "<!doctype html>")
         assert ("<animateTransform" in text) == (kind == "html")
@@ -203,4 +203,12 @@ def test_pictures_that_cannot_be(capsys, tmp_path, monkeypatch, arguments, words
     status, out, err = run(capsys, *arguments)
     assert (status, out) == (2, "")
     assert words in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_nothing_is_written_of_a_train_that_is_refused(capsys, tmp_path):
+    train = "sun:-40 planet:18 ring:-45.001 on arm planets=3; hold ring; sun=1"
+    status, out, err = run(capsys, "gears", train, "-o", str(tmp_path / "out.svg"))
+    assert (status, out) == (2, "")
+    assert err.startswith("gruebler gears: the conditions of assembly need whole tooth numbers")
     assert list(tmp_path.iterdir()) == []

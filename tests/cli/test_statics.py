@@ -87,7 +87,7 @@ def test_poses_that_are_not_held(capsys):
     ("arguments", "message"),
     [
         ((), "Nothing acts"),
-        (("--load", "K"), "--load: expected POINT=FX,FY, but found 'K'"),
+        (("--load", "K"), "--load: expected POINT=FX,FY or LINK:X,Y=FX,FY, but found 'K'"),
         (("--load", "R(crank-coupler)=1"), "--load: expected two numbers X,Y"),
         (("--moment", "rocker=x"), "--moment: expected a number, but found 'x'"),
         (("--moment", "roker=1"), "did you mean 'rocker'"),
@@ -130,3 +130,24 @@ def test_loads_at_one_place_add_up(capsys, twice, once):
     given, expected = (document(capsys, "four-bar:25,70,40,70", *loads, "--at", "55")[2] for loads in (twice, once))
     assert given.keys() == expected.keys()
     assert all(given[name] == pytest.approx(expected[name]) for name in given)
+
+
+def test_points_are_written_as_for_analyse(capsys):
+    """A load at LINK:X,Y is that at the joint there, and several at one point add up."""
+    at_joint = document(capsys, "slider-crank:25,70", "--load", "R(coupler-slider)=-3,-100", "--drive", "0:90:45")[2]
+    pieces = ("--load", "coupler:70,0=-3,0", "--load", "coupler:70,0=0,-100", "--mass", "crank:0,0=5")
+    at_point = document(capsys, "slider-crank:25,70", *pieces, "--drive", "0:90:45")[2]
+    name = "torque R(frame-crank)"
+    assert at_point[name] == pytest.approx(at_joint[name], abs=1e-9)
+    assert run(capsys, "slider-crank:25,70", "--load", "coupler:7=0,1")[2].startswith("expected a point LINK:X,Y")
+
+
+def test_the_table_is_narrow_and_dust_is_zero(capsys):
+    """A load across the guide, at the pin of the slider: the guide holds it."""
+    status, out, _ = run(capsys, "slider-crank:25,70", "--load", "slider:0,0=0,-100")
+    assert status == 0
+    table = out.splitlines()
+    assert max(map(len, table)) < 120
+    rows = [line.split() for line in table if line[:14].strip().isdigit()]
+    assert len(rows) == 25
+    assert all(row[1:] == ["0", "0", "0", "0", "100"] for row in rows)

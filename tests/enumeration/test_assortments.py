@@ -1,9 +1,20 @@
-from itertools import product
+from itertools import islice, product
 
 import pytest
 
-from gruebler.enumeration import assortments, contracted_graphs, count_chains, largest_degree
+from gruebler.enumeration import (
+    assortment_number,
+    assortments,
+    contracted_graphs,
+    count_chains,
+    each_assortment,
+    each_joint_assortment,
+    joint_assortment_number,
+    joint_assortments,
+    largest_degree,
+)
 from gruebler.enumeration.assortment import joint_number, loop_number
+from gruebler.enumeration.partitions import partition_numbers
 from gruebler.errors import GrueblerError
 
 SMALL = [(n, f) for n in range(1, 13) for f in range(5)]
@@ -81,3 +92,58 @@ def test_numbers_without_chains():
     for links, mobility in ((0, 1), (4, -1)):
         with pytest.raises(GrueblerError, match="at least"):
             assortments(links, mobility)
+
+
+def shared_out(total, largest):
+    """(k_1, ..., k_largest) with sum i k_i = total, by trying every k."""
+    if largest < 1:
+        if total == 0:
+            yield ()
+        return
+    for k in range(total // largest + 1):
+        for rest in shared_out(total - k * largest, largest - 1):
+            yield (*rest, k)
+
+
+def trimmed(*numbers):
+    kept = list(numbers)
+    while len(kept) > 1 and kept[-1] == 0:
+        kept.pop()
+    return tuple(kept)
+
+
+@pytest.mark.parametrize("fractionated", [False, True])
+@pytest.mark.parametrize("mobility", range(5))
+def test_listing_and_counting_agree_with_trying_every_number(mobility, fractionated):
+    """Oracle: the search that tries every number of parts, as the library once did."""
+    for links in range(1, 19):
+        joints, largest = joint_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+        expected, multiple = [], []
+        if joints is not None:
+            merging = 2 * (joints - links)
+            expected = sorted(trimmed(links - sum(more), *more) for more in shared_out(merging, largest - 2))
+            multiple = [
+                (trimmed(links - sum(more), *more), trimmed(joints - merged - sum(together), *together))
+                for merged in range(merging + 1)
+                for together in shared_out(merged, largest - 2)
+                if joints >= merged + sum(together)
+                for more in shared_out(merging - merged, largest - 2)
+            ]
+        assert assortments(links, mobility, fractionated=fractionated) == expected
+        assert assortment_number(links, mobility, fractionated=fractionated) == len(expected)
+        assert joint_assortments(links, mobility, fractionated=fractionated) == multiple
+        assert joint_assortment_number(links, mobility, fractionated=fractionated) == len(multiple)
+
+
+def test_long_lists_come_one_by_one_and_are_counted_without_them():
+    """sum i n_i = 2g holds far down the list, and p(n) of the literature (Hardy and Ramanujan: p(200)) is met."""
+    joints = joint_number(3000, 1)
+    for numbers in islice(each_assortment(3000), 2000):
+        assert sum(numbers) == 3000
+        assert sum(i * k for i, k in enumerate(numbers, 2)) == 2 * joints
+    for links, together in islice(each_joint_assortment(3000), 2000):
+        assert sum(i * k for i, k in enumerate(links, 2)) == sum(i * k for i, k in enumerate(together, 2))
+    p = partition_numbers(200)
+    assert p[200] == 3_972_999_029_388
+    # 204 links with F = 1: partitions of 200 into parts of at most 100.
+    assert assortment_number(204) == p[200] - sum(p[:100])

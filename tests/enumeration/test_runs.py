@@ -13,11 +13,13 @@ from pathlib import Path
 
 import pytest
 
-from gruebler.enumeration.checkpoint import Checkpoint, RunError, whole_file
+from gruebler.atomic_files import PARTIAL, atomic_file
+from gruebler.enumeration.checkpoint import Checkpoint
 from gruebler.enumeration.request import Request
 from gruebler.enumeration.run_request import run_count, run_list
 from gruebler.enumeration.runs import Processes, Progress, perform
 from gruebler.enumeration.work import Counter, add_tallies, work_of
+from gruebler.errors import RunError
 
 CHAINS_14 = 318162
 
@@ -80,6 +82,33 @@ def test_a_lost_worker_changes_nothing(processes, tmp_path):
     assert found == [k * k for k in range(20)]
     assert sorted(told) == list(range(20))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["3", "7"]
+
+
+class DiesWriting:
+    """Writes pieces; the first worker is killed in the middle of one."""
+
+    def __init__(self, files):
+        self.files = files
+
+    def __call__(self, number):
+        mark = self.files.directory.with_name("dead")
+        if number == 2 and not mark.exists():
+            mark.touch()
+            with atomic_file(self.files._path(number)) as file:
+                file.write(b"half")
+                file.flush()
+                os.kill(os.getpid(), signal.SIGKILL)
+        self.files.save(number, {"square": number * number})
+        return number * number
+
+
+def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
+    store = Checkpoint(tmp_path / "kept", {}, "1")
+    assert list(perform(DiesWriting(store), range(5), processes)) == [0, 1, 4, 9, 16]
+    assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)]
+    store.tidy()
+    assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)] == []
+    assert store.head(2) == {"square": 4}
 
 
 def test_a_broken_executor_that_was_given_is_replaced(tmp_path):
@@ -186,7 +215,7 @@ def test_damaged_and_torn_pieces_are_done_again(tmp_path):
         first.write_bytes(damage)
         assert run_count(request, checkpoint=tmp_path) == expected
         assert first.read_bytes() == whole
-    (tmp_path / ".0000001.piece.1.aside").write_bytes(b"torn")
+    (tmp_path / f".0000001.piece.1{PARTIAL}").write_bytes(b"torn")
     assert run_count(request, checkpoint=tmp_path) == expected
 
 
@@ -209,29 +238,96 @@ def test_a_directory_of_another_task_is_refused(tmp_path):
         run_count(Request(8), checkpoint=tmp_path / "c")
     with pytest.raises(RunError, match="cannot keep pieces"):
         run_count(Request(8), checkpoint=tmp_path / "c" / "letter.txt")
-    (tmp_path / "a" / "manifest.json").write_text("{")
-    with pytest.raises(RunError, match="cannot be read"):
-        run_count(Request(8), checkpoint=tmp_path / "a")
 
 
-def test_a_file_appears_whole_or_not_at_all(tmp_path):
-    path = tmp_path / "out"
+MANIFESTS = ["", "{", "[]", "null", '"text"', "[" * 100_000, "1" * 10_000, '{"task": ' + "[" * 900 + "]" * 900 + "}"]
 
-    def interrupted():
-        with whole_file(path) as file:
-            file.write(b"half")
-            raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
-        interrupted()
-    assert list(tmp_path.iterdir()) == []
-    with whole_file(path) as file:
-        file.write(b"whole")
-        assert not path.exists()
-    assert path.read_bytes() == b"whole"
-    assert list(tmp_path.iterdir()) == [path]
-    with pytest.raises(RunError, match="cannot be written"), whole_file(tmp_path / "no" / "out"):
-        pass
+@pytest.mark.parametrize("content", MANIFESTS, ids=range(len(MANIFESTS)))
+def test_a_broken_manifest_is_one_sentence(tmp_path, content):
+    run_count(Request(8), checkpoint=tmp_path)
+    (tmp_path / "manifest.json").write_text(content)
+    with pytest.raises(RunError, match=r"manifest\.json cannot be read; remove|keeps pieces of another task") as caught:
+        run_count(Request(8), checkpoint=tmp_path)
+    assert len(str(caught.value)) < 1500
+
+
+BROKEN = [
+    b"[]\n",
+    b"null\n",
+    b"[" * 100_000,
+    b"1" * 10_000,
+    b'{"tallies": []}\n',
+    b'{"bytes": 0, "sha256": "x"}\n',
+    b"1\n",
+]
+
+
+@pytest.mark.parametrize("content", BROKEN, ids=range(len(BROKEN)))
+def test_a_broken_piece_is_done_again(tmp_path, content):
+    request = Request(9, 2, "all")
+    expected = run_count(request, checkpoint=tmp_path / "count")
+    listed = list(run_list(request, "text", checkpoint=tmp_path / "list"))
+    for kept, again in (
+        ("count", lambda store: run_count(request, checkpoint=store) == expected),
+        ("list", lambda store: list(run_list(request, "text", checkpoint=store)) == listed),
+    ):
+        first, *_ = sorted((tmp_path / kept).glob("*.piece"))
+        whole = first.read_bytes()
+        first.write_bytes(content)
+        assert again(tmp_path / kept)
+        assert first.read_bytes() == whole
+
+
+def test_a_sealed_piece_without_its_key_is_done_again(tmp_path):
+    request = Request(8)
+    expected = run_count(request, checkpoint=tmp_path)
+    from gruebler import __version__
+
+    store = Checkpoint(tmp_path, request.to_json() | {"count": True, "orbits": False}, __version__)
+    for head in ({}, {"tallies": 3}, {"tallies": [3]}, {"tallies": [["none"]]}):
+        store.save(0, head)
+        assert store.head(0) == head
+        assert run_count(request, checkpoint=tmp_path) == expected
+
+
+def test_a_piece_under_another_number_is_done_again(tmp_path):
+    """Copied or exchanged pieces: the seal covers the number."""
+    request = Request(14)
+    listed = list(run_list(request, "graph6"))
+    store = tmp_path / "kept"
+    with ThreadPoolExecutor(1) as threads:
+        assert list(run_list(request, "graph6", executor=threads, checkpoint=store)) == listed
+    first, second, *_ = sorted(store.glob("*.piece"))
+    one, two = first.read_bytes(), second.read_bytes()
+    assert one != two
+    for contents in ((one, one), (two, two), (two, one)):
+        first.write_bytes(contents[0])
+        second.write_bytes(contents[1])
+        assert list(run_list(request, "graph6", checkpoint=store)) == listed
+        assert (first.read_bytes(), second.read_bytes()) == (one, two)
+
+
+def test_a_piece_of_another_request_is_done_again(tmp_path):
+    expected = run_count(Request(8), checkpoint=tmp_path / "eight")
+    run_count(Request(10), checkpoint=tmp_path / "ten")
+    for piece in (tmp_path / "ten").glob("*.piece"):
+        piece.replace(tmp_path / "eight" / piece.name)
+    assert run_count(Request(8), checkpoint=tmp_path / "eight") == expected
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="links need rights there")
+def test_a_piece_that_cannot_be_read_is_named(tmp_path):
+    run_count(Request(8), checkpoint=tmp_path)
+    first = min(tmp_path.glob("*.piece"))
+    first.unlink()
+    first.symlink_to(first)
+    with pytest.raises(RunError, match=rf"{first.name} cannot be read"), atomic_file(tmp_path / "out"):
+        run_count(Request(8), checkpoint=tmp_path)
+    first.unlink()
+    first.mkdir()
+    with pytest.raises(RunError, match=rf"{first.name} cannot be read: Is a directory"), atomic_file(tmp_path / "out"):
+        run_count(Request(8), checkpoint=tmp_path)
 
 
 def test_progress_counts_pieces_and_chains(tmp_path):

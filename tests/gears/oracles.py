@@ -42,3 +42,32 @@ def fits(sun, planet_sun, planet_ring, ring, turns):
     # The ring is held; the sun turns by turns * (1 + ratio), in parts of a tooth.
     moved = turns * (1 + ring * planet_sun / (sun * planet_ring)) * sun
     return any((moved + k * planet_sun / planet_ring) % 1 == 0 for k in range(int(planet_ring)))
+
+
+def slow_echelon(rows, columns):
+    """The reduced echelon form by Gauss and Jordan, row by row, every row against every other."""
+    found = {}
+    for row in rows:
+        rest = slow_reduced(row, found)
+        pivot = next((column for column in columns if column in rest), None)
+        if pivot is None:
+            continue
+        rest = {column: value / rest[pivot] for column, value in rest.items()}
+        for other, known in found.items():
+            if pivot in known:
+                found[other] = minus(known, known[pivot], rest)
+        found[pivot] = rest
+    return found
+
+
+def slow_reduced(row, basis):
+    rest = {column: value for column, value in row.items() if value}
+    for pivot, known in basis.items():
+        if pivot in rest:
+            rest = minus(rest, rest[pivot], known)
+    return rest
+
+
+def minus(row, factor, other):
+    sums = {column: row.get(column, 0) - factor * other.get(column, 0) for column in (*row, *other)}
+    return {column: value for column, value in sums.items() if value}

@@ -1,5 +1,6 @@
 """Gear trains: Willis, differentials, torques, assembly; exact everywhere."""
 
+import itertools
 import math
 from fractions import Fraction as Q
 
@@ -20,7 +21,10 @@ from gruebler.gears import (
     read_train,
     speeds,
 )
-from tests.gears.oracles import fits, rolling
+from gruebler.gears.assembly import axes
+from gruebler.gears.prose import number
+from gruebler.gears.rational import Elimination, echelon
+from tests.gears.oracles import fits, rolling, slow_echelon, slow_reduced
 
 PLANETARY = "sun:24 planet:18 ring:-60 on arm"
 teeth = st.integers(8, 90)
@@ -309,3 +313,80 @@ def test_questions_without_an_answer():
         train.relation("sun", "ring", "arm", "planet")
     with pytest.raises(GearError, match="did you mean 'planet'"):
         assembly(train, "plant", 3)
+
+
+@pytest.mark.parametrize(
+    ("text", "closed"),
+    [
+        ("sun:24 planet:18 ring:-60 on arm", {"planet": True}),
+        ("sun:24 planet:17 ring:-60 on arm", {"planet": False}),
+        ("frame:-60 planet:17 sun:24 on arm", {"planet": False}),
+        ("a:20 p:30 on c; p:25 b:25 on c", {"p": True}),  # stepped, both central wheels outside
+        ("a:20 p:30 on c; p:25 b:24 on c", {"p": False}),
+        ("s:30 p:15 r:-60 on c; s:30 q:15 r:-60 on c", {"p": True, "q": True, "s": True, "r": True}),
+        ("s:30 p:15 r:-60 on c; s:30 q:14 r:-60 on c", {"s": False, "r": False, "p": True, "q": False}),
+        ("sun:24 p1:10 p2:9 ring:-60 on arm", {}),  # two planets in a row: no condition on the tooth numbers alone
+        ("sun:24 planet:18 ring:-60", {}),  # no carrier moves
+    ],
+)
+def test_whether_central_wheels_have_one_axis(text, closed):
+    """Against the places of the axes: with half modules as lengths, each partner stands at its distance."""
+    reading = read_train(text)
+    assert {one.planet: one.coaxial for one in axes(reading.train)} == closed
+    for lang, words in (("en", "do not have one axis"), ("de", "haben keine gemeinsame Achse")):
+        assert (words in explain(reading, lang)) == (not all(closed.values()))
+
+
+def test_the_condition_of_the_textbook():
+    """z_ring = z_sun + 2 z_planet, for all small tooth numbers."""
+    for sun, planet, ring in itertools.product(range(18, 24), range(12, 18), range(48, 60)):
+        if ring > planet:
+            (one,) = axes(read_train(f"sun:{sun} planet:{planet} ring:-{ring} on arm").train)
+            assert one.coaxial == (ring == sun + 2 * planet)
+
+
+def test_numbers_of_planets():
+    assert "Equal planets (planet) that fit at equal angles: 2, 3, 4, 6." in explain(
+        read_train("sun:24 planet:18 ring:-60 on arm")
+    )
+    for many in range(2, 13):
+        fits = assembly(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet", many).possible
+        assert fits == (84 % many == 0 and 42 * math.sin(math.pi / many) > 20)
+
+
+ROWS = st.lists(
+    st.dictionaries(st.integers(0, 7), st.builds(Q, st.integers(-3, 3), st.integers(1, 3)), max_size=4), max_size=9
+)
+
+
+@given(ROWS, st.permutations(range(8)))
+def test_elimination_gives_the_form_and_the_order_of_gauss_and_jordan(rows, columns):
+    slow = slow_echelon(rows, columns)
+    form = echelon(rows, columns)
+    assert list(form.items()) == list(slow.items())
+    growing = Elimination(columns)
+    for k, row in enumerate(rows):
+        before = slow_echelon(rows[:k], columns)
+        assert growing.left(row) == slow_reduced(row, before)
+        assert growing.add(row) == bool(slow_reduced(row, before))
+
+
+@pytest.mark.parametrize("driven", [0, 1999])
+def test_a_row_of_two_thousand_wheels(driven):
+    """w_k z_k = (-1)^(k - j) w_j z_j for wheels in a row, whichever is driven."""
+    teeth = [17 + k % 40 for k in range(2000)]
+    reading = read_train(" ".join(f"w{k}:{z}" for k, z in enumerate(teeth)) + f"; drive w{driven}=1")
+    found = speeds(reading.train, reading.drives)
+    assert found.values == {f"w{k}": Q((-1) ** abs(k - driven) * teeth[driven], z) for k, z in enumerate(teeth)}
+    assert reading.train.redundant == ()
+    assert explain(reading).startswith("2000 moving links, 1999 independent meshes: mobility 1.")
+
+
+def test_ratios_with_thousands_of_digits_are_said_in_six():
+    """5,000 stages of 100:10, whose ratio 10^5000 has more digits than Python writes."""
+    reading = read_train("; ".join(f"w{k}:100 w{k + 1}:10" for k in range(5000)) + "; drive w0=1")
+    found = speeds(reading.train, reading.drives).values["w5000"]
+    assert found == Q(10) ** 5000
+    assert number(found) == "1e+5000"
+    assert number(1 / found) == "1e-5000"
+    assert "Speeds: 1e+5000 w0 - w5000 = 0" in explain(reading)

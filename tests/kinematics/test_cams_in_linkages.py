@@ -12,8 +12,6 @@ from gruebler.cams import read_lift
 from gruebler.geneva import Geneva
 from gruebler.kinematics import circuit, degrees, measures, move
 from gruebler.kinematics.course import follow
-from gruebler.kinematics.events import dead_centres
-from gruebler.kinematics.outputs import find_output
 from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage, linkage_from_json, to_json
 from gruebler.mechanism import Mechanism
 
@@ -140,11 +138,138 @@ def _with_roller(radius):
     return elements
 
 
-def test_a_dwell_has_no_dead_centres_inside():
-    course = follow(roller_follower())
-    places = [np.degrees(one.drive) for one in dead_centres(course, find_output(course.plan.linkage, "tappet"))]
-    assert places
-    assert not [at for at in places if 91 < at < 149 or 271 < at < 359]
-    single = follow(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
-    outer = [one for one in dead_centres(single, find_output(single.plan.linkage, "valve")) if one.kind == "maximum"]
-    assert [np.degrees(one.drive) for one in outer] == pytest.approx([75])
+def turning_point(linkage, name=None):
+    """Dead centres and dwells in degrees, with kind and side."""
+    found = measures(linkage, output=name)
+    centres = [(np.degrees(one.drive), one.kind, one.side) for one in found.dead_centres]
+    rests = [(np.degrees(one.begin), np.degrees(one.end), one.kind, one.side) for one in found.dwells]
+    return found, centres, rests
+
+
+def near(rows, wanted):
+    assert len(rows) == len(wanted)
+    for row, want in zip(rows, wanted, strict=True):
+        numbers = sum(isinstance(x, int | float) for x in want)
+        assert row[:numbers] == pytest.approx(want[:numbers], abs=1e-9)
+        assert row[numbers:] == want[numbers:]
+
+
+def test_dwells_of_a_valve():
+    """The valve rises, falls and rests: both ways take 75 degrees."""
+    found, centres, rests = turning_point(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
+    near(centres, [(75, "maximum", "outer")])
+    near(rests, [(150, 360, "minimum", "inner")])
+    assert np.degrees([found.phi_forward, found.phi_back]) == pytest.approx([75, 75], abs=1e-9)
+    assert (found.time_ratio, found.dwell_share, found.travel) == pytest.approx((1, 210 / 360, 8))
+
+
+def test_dwells_on_both_sides():
+    found, centres, rests = turning_point(roller_follower())
+    assert centres == []
+    near(rests, [(90, 150, "maximum", "outer"), (270, 360, "minimum", "inner")])
+    assert (found.time_ratio, found.dwell_share, found.travel) == pytest.approx((4 / 3, 150 / 360, 20))
+    timed = measures(roller_follower(), speed_rpm=60)
+    assert (timed.times.forward, timed.times.back, timed.dwell_time) == pytest.approx((90 / 360, 120 / 360, 150 / 360))
+
+
+@settings(max_examples=8, deadline=None)
+@given(
+    st.lists(st.integers(20, 60), min_size=5, max_size=5),
+    st.sampled_from(["3-4-5", "4-5-6-7", "5-6-7-8-9", "cycloidal", "modified-sine", "modified-trapezoid", "harmonic"]),
+    st.booleans(),
+)
+def test_dwells_are_those_of_the_lift(angles, name, flat):
+    """A rise in two steps with a dwell between, a dwell above, a fall, a dwell below; flat faces and rollers."""
+    a, b, c, d, e = angles
+    lift = f"rise 2 {a} {name}; dwell {b}; rise 2 {c} {name}; dwell {d}; fall 4 {e} cycloidal; dwell"
+    linkage = flat_follower(lift, 400.0) if flat else roller_follower(lift, 200.0)
+    found, centres, rests = turning_point(linkage)
+    assert centres == []
+    edges = np.cumsum([a, b, c, d, e]).tolist()
+    near(
+        rests,
+        [
+            (edges[0], edges[1], "flat", ""),
+            (edges[2], edges[3], "maximum", "outer"),
+            (edges[4], 360, "minimum", "inner"),
+        ],
+    )
+    assert np.degrees([found.phi_forward, found.phi_back]) == pytest.approx([a + c, e], abs=1e-9)
+
+
+def test_velocities_in_a_dwell_are_exactly_zero():
+    course = follow(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
+    rates = course.at(np.radians(np.linspace(150.001, 359.999, 500)), 3)
+    assert [np.abs(rates.slide("P(0-valve)", order)).max() for order in (1, 2, 3)] == [0, 0, 0]
+
+
+def test_short_lifts_are_seen_beside_long_dwells():
+    """A lift of 1.2 degrees in a turn: nine tenths of the turn say nothing about it."""
+    found, centres, rests = turning_point(flat_follower("rise 0.0002 0.6; fall 0.0002 0.6; dwell", 40.0))
+    near(centres, [(0.6, "maximum", "outer")])
+    near(rests, [(1.2, 360, "minimum", "inner")])
+    assert not found.transfer.still
+
+
+def test_a_blow_turns_back_too():
+    """With linear laws the velocity jumps from one sign to the other: a dead centre all the same."""
+    found, centres, _ = turning_point(flat_follower("rise 8 75 linear; fall 8 75 linear; dwell", 40.0))
+    near(centres, [(75, "maximum", "outer")])
+    assert found.time_ratio == pytest.approx(1)
+
+
+def test_dwells_are_seen_through_linkages():
+    """The slider behind rocker and rod rests while the rocker rests; so does the rod's angle."""
+    rests = [turning_point(rocker_follower(), name)[2] for name in ("slider", "rocker", "rod")]
+    for row in rests[1:]:
+        assert [one[:2] for one in row] == [pytest.approx(one[:2], abs=1e-9) for one in rests[0]]
+    motion = move(rocker_follower(), np.radians(np.linspace(rests[0][0][0], rests[0][0][1], 50)), speed=1.0)
+    assert np.abs(motion.slide("P(0-slider)", 1)[1:-1]).max() < 1e-12
+    assert np.ptp(motion.slide("P(0-slider)")) < 1e-12 * 80
+
+
+@pytest.mark.parametrize(("slots", "pins", "internal"), [(4, 1, False), (6, 2, False), (5, 1, True)])
+def test_dwells_of_geneva_drives(slots, pins, internal):
+    """The wheel rests while no pin is in a slot; begins of dwells are no dead centres."""
+    found, centres, rests = turning_point(geneva(slots, pins, internal))
+    drive = Geneva(slots, internal, pins)
+    assert centres == []
+    assert len(rests) == slots
+    assert found.dwell_share == pytest.approx(drive.dwell_fraction)
+    for k, (begin, end, kind, side) in enumerate(rests):
+        pitch = 360 / pins
+        assert begin == pytest.approx(np.degrees(drive.engaged) + k * pitch, abs=1e-9)
+        assert end == pytest.approx((k + 1) * pitch - np.degrees(drive.engaged), abs=1e-9)
+        assert (kind, side) == ("flat", "")
+
+
+def test_dwells_are_reported():
+    found = measures(roller_follower(), speed_rpm=60)
+    assert "Dwell in the outer position from 90° to 150°, 60°: -10" in found.explain()
+    assert "Rast in der inneren Lage von 270° bis 360°, 90°" in found.explain("de")
+    assert "In Rast: 0.416667 s je Periode." in found.explain("de")
+    told = found.to_json()
+    assert [one["begin"] for one in told["dwells"]] == pytest.approx([90, 270], abs=1e-9)
+    assert told["dwell_share"] == pytest.approx(150 / 360)
+    assert measures(geneva()).to_json()["dead_centres"] == []
+
+
+def test_a_range_of_the_drive_may_end_in_a_dwell():
+    """A crank-driven cam that only swings: the dwells at the ends of its range, and none beyond."""
+    found = measures(swinging_cam())
+    assert not found.span.full
+    assert len(found.dwells) >= 1
+    for dwell in found.dwells:
+        assert found.span.low <= dwell.begin < dwell.end <= found.span.high
+        inside = move(swinging_cam(), np.linspace(dwell.begin, dwell.end, 9)[1:-1], speed=1.0)
+        assert np.abs(inside.slide("P(0-valve)", 1)).max() < 1e-10
+
+
+def swinging_cam():
+    """The rocker of a double rocker carries a cam with a flat follower."""
+    mechanism = Mechanism.parse(
+        "R(0-arm) R(arm-rod) R(rod-cam) R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-arm)"
+    )
+    touch = {"cam": Disc(0, 0, 0.3, "rise 8 60; dwell 60; fall 8 60; dwell", 40.0, flat=True), "valve": (0, 40, 0)}
+    places = {"R(0-arm)": (150, 0), "R(arm-rod)": (150, 60), "R(rod-cam)": (30, 45), "R(0-cam)": (0, 0)}
+    return Linkage.drawn(mechanism, {**places, "P(0-valve)": (0, 40, pi / 2), "G(cam-valve)": touch})

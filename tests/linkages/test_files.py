@@ -287,6 +287,7 @@ HOSTILE = {
     "digits.json": b'{"unit": ' + b"9" * 10_000 + b"}",
     "nan.json": b'{"unit": NaN}',
     "twice.json": b'{"unit": "mm", "unit": "cm"}',
+    "twice-in-many.json": b"{" + b",".join(b'"k%d": 1' % k for k in range(60_000)) + b', "k59999": 2}',
     "list.json": b"[1, 2]",
     "empty.json": b"",
     "links.toml": b'unit = "mm"\njoints = "'
@@ -303,6 +304,13 @@ def test_hostile_files(tmp_path, name):
         read_linkage(path)
     assert str(caught.value).startswith(f"{path}: ")
     assert len(str(caught.value)) < 400
+
+
+def test_the_first_key_that_comes_again_is_named(tmp_path):
+    path = tmp_path / "keys.json"
+    path.write_text("{" + ", ".join(f'"{key}": 1' for key in "abcdbca") + "}")
+    with pytest.raises(LinkageError, match="the key 'b' stands twice"):
+        read_linkage(path)
 
 
 def test_what_is_no_file(tmp_path):

@@ -90,6 +90,11 @@ def test_roles_of_the_seeds_machines():
         ("R(0-1) R(1-2) R(2-0); frame=7", "no link '7'"),
         ("R(0-1) R(1-2) R(2-0); farme=0", "no mark of a mechanism"),
         ("R(0-1) R(1-2) R(2-0); frame=a b", "name of a link"),
+        ("R(0-1) R(1-2) R(2-0); output=7", "no link '7'"),
+        ("R(0-1) R(1-2) R(2-0); frame=1; output=1", "the output '1' is the frame"),
+        ("gr1:R(0-1-2)R(0-3)R(1-3);frame=0;drives=0:0-3", "joint 0 is R(0-1-2)"),
+        ("gr1:R(0-1)R(1-2)R(0-2);frame=0;drives=3:Rz", "the code has joints 0 to 2"),
+        ("gr1:R(0-1)R(1-2)R(0-2);frame=0;drives=0:Tx", "'Tx' is no freedom"),
         ("gr1:R(0-1)R(1-2)R(2-0)", "marks no frame"),
     ],
 )
@@ -99,9 +104,7 @@ def test_mistakes_one_by_one(text, words):
     assert words in str(caught.value)
 
 
-def test_a_mechanism_does_not_change_and_codes_have_limits():
+def test_a_mechanism_does_not_change():
     mechanism = Mechanism.parse("R(0-1-2) R(1-3) R(3-0) R(2-3); drive=R(0-1-2):0-1")
     with pytest.raises(AttributeError, match=r"does not change"):
         mechanism.frame = "1"
-    with pytest.raises(GrueblerError, match=r"has no place in a code"):
-        mechanism.code()

@@ -71,11 +71,21 @@ def _offset(points: Complexes, lines: Complexes) -> float:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def meeting(points: Complexes, size: float) -> bool:
-    """Whether the outer joints meet, so that their line has no direction."""
+def meeting(kind: int, points: Complexes, lines: Complexes, size: float) -> bool:
+    """Whether the outer joints of RRR or RPR meet, so that their line has no direction.
+
+    RPR has its slide in that line. Where other dyads are in a change point too, the joints are known to some 1e-8 of
+    the size only, so nearer than 1e-7 their line is not asked; with the slide through both any direction closes.
+    """
     way = points[5, 0] - points[0, 0]
-    near: bool = _dot(way, way) <= 1e-26 * size * size
-    return near
+    near = 1e-13
+    if kind == RPR:
+        off = _offset(points, lines)
+        if off * off > 1e-26 * size * size:
+            return False
+        near = 1e-7
+    met: bool = _dot(way, way) <= near * near * size * size
+    return met
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -95,7 +105,7 @@ def dyad_place(
         way = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
         d, l1, l2 = _dot(way, way), _dot(first, first), _dot(second, second)
-        if not meeting(points, size):
+        if not meeting(kind, points, lines, size):
             arm = way * complex((d + l1 - l2) / (2 * d), root * sqrt(l1 * l2) / d)
             turns[one] = arm * complex(first.real / l1, -first.imag / l1)
         else:  # any direction closes: the one that the body has already
@@ -110,10 +120,13 @@ def dyad_place(
         turns[one] = (reach + way * lines[5]) * complex(first.real / l1, -first.imag / l1)
         places[two, 0] = points[5, 0] + way * lines[5] - turns[two] * points[4, 0]
     elif kind == RPR:
-        way = points[5, 0] - points[0, 0]
-        line = way * complex(root * size, -_offset(points, lines))
-        length = sqrt(_dot(line, line))
-        line = complex(line.real / length, line.imag / length)
+        if meeting(kind, points, lines, size):  # any direction closes: the one that the body has already
+            line = turns[one] * lines[2]
+        else:
+            way = points[5, 0] - points[0, 0]
+            line = way * complex(root * size, -_offset(points, lines))
+            length = sqrt(_dot(line, line))
+            line = complex(line.real / length, line.imag / length)
         turns[one] = line * lines[2].conjugate()
         turns[two] = line * lines[3].conjugate()
     elif kind == PRP:

@@ -29,6 +29,8 @@ from gruebler._numeric.program import (
     NEAR,
     NEAREST,
     PUSH,
+    RPR,
+    RRR,
     SINGULAR,
     START,
     TURN,
@@ -78,7 +80,12 @@ def _look_for_change(
     inner, outer = high - ratio * (high - low), low + ratio * (high - low)
     at_inner = _square_at(program, path, speeds, inner, number, memory, s)
     at_outer = _square_at(program, path, speeds, outer, number, memory, s)
+    at, least = reach, np.inf  # the best so far: next to the zero dyads before this one may not be placed at all
     for _ in range(200):
+        if at_inner < least:
+            at, least = inner, at_inner
+        if at_outer < least:
+            at, least = outer, at_outer
         if at_inner < -FLAT:
             return inner, True
         if at_outer < -FLAT:
@@ -93,8 +100,7 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + ratio * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    at, least = (inner, at_inner) if at_inner <= at_outer else (outer, at_outer)
-    if np.isnan(least) or at >= reach - 1e-6 * (reach - memory.at[0]):
+    if least == np.inf or at >= reach - 1e-6 * (reach - memory.at[0]):
         return reach, False  # still falling: nothing is decided yet
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
@@ -274,6 +280,12 @@ def _walk_to(
         set_drives(path, speeds, trial, s)
         verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
         if verdict == GOOD:
+            number = _reversed(program, memory, s)
+            if number >= 0:
+                memory.change[number], memory.after[number] = at, -1.0 if memory.roots[3, number] > 0 else 1.0
+                verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
+                if verdict != GOOD or _reversed(program, memory, s) >= 0:
+                    return SINGULAR, at, step, fault, number
             commit(trial, memory)
             _record(row if full else -1, poses, memory, s)
             at = trial
@@ -302,6 +314,24 @@ def _walk_to(
                 return SINGULAR, at, step, fault, -1 - number
             return LIMIT, at, step, fault, number
     return DONE, at, step, fault, 0
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
+    """The number of a dyad near a change point whose first body a step has turned by more than a right angle, or -1.
+
+    Where the outer joints meet, their line reverses; the body goes straight on, and it is the assembly mode that
+    changes. Steps are too short for any other turn like that.
+    """
+    for operation in program.operations:
+        if operation[0] == RRR or operation[0] == RPR:
+            number, body = operation[9], operation[7]
+            if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
+                continue  # it has only passed near a change point, and may turn fast
+            turn, last = s.turns[body], s.before[body]
+            if abs(memory.roots[3, number]) < NEAR and turn.real * last.real + turn.imag * last.imag < 0:
+                return int(number)
+    return -1
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)

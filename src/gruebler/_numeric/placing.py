@@ -24,6 +24,7 @@ from gruebler._numeric.program import (
     NEAREST,
     PRP,
     RPP,
+    RPR,
     RRR,
     TURN,
     Memory,
@@ -331,7 +332,7 @@ def attempt(program: Program, order: int, at: float, memory: Memory, s: Scratch)
                 memory.which[0] = number
                 return verdict
             one, two = operation[7], operation[8]
-            if kind == RRR and meeting(s.points, program.size):
+            if kind in (RRR, RPR) and meeting(kind, s.points, s.lines, program.size):
                 if memory.met[number] != at:
                     memory.which[0] = number
                     return MEET

@@ -19,6 +19,7 @@ from gruebler.assur.splitting import Part, split
 from gruebler.chain import Chain
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.pairs import Alphabet, Pair
+from gruebler.views import Brief
 
 __all__ = ["Decomposition", "Group", "Share", "decompose"]
 
@@ -99,8 +100,8 @@ class Share:
     count: int
 
 
-@dataclass(frozen=True)
-class Decomposition:
+@dataclass(frozen=True, repr=False)
+class Decomposition(Brief):
     """Drives, groups in solving order, and what the drives leave undetermined."""
 
     mechanism: Mechanism

@@ -15,6 +15,7 @@ from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
 from gruebler.cams.lift import Lift
+from gruebler.views import Brief
 
 __all__ = ["Cam", "Extreme", "Findings"]
 
@@ -64,8 +65,8 @@ class Findings:
         return self.room.value <= 0
 
 
-@dataclass(frozen=True, slots=True)
-class Cam:
+@dataclass(frozen=True, slots=True, repr=False)
+class Cam(Brief):
     """A disc cam that gives a follower its lift; the lift is a length, or radians for a swinging follower.
 
     >>> from gruebler.cams import read_lift
@@ -84,6 +85,8 @@ class Cam:
             raise CamError(f"the base circle has a positive radius below 1e70, not {self.base!r}")
         lowest = min(value for _, value in self.lift.extremes(0))
         highest = max(value for _, value in self.lift.extremes(0))
+        if not self.follower.swings and highest - lowest > 1e9 * self.base:
+            raise CamError(f"a lift of {highest - lowest:g} is more than 1e9 times the base circle's {self.base:g}")
         low, high = self.start + lowest, self.start + highest
         if not self.follower.swings and low <= 0:
             raise CamError(f"the lift goes down to {lowest:g}, beyond the cam's axis")

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache, partial
 from types import MappingProxyType
 from typing import NamedTuple
@@ -146,13 +147,28 @@ def boundary_law(start: Sequence[float], end: Sequence[float]) -> Law:
         raise CamError("boundary values are finite numbers: lift, then velocity, acceleration, ... at each end")
     if len(values) > 16:
         raise CamError(f"at most 16 boundary values are taken, not {len(values)}")
-    known = np.array([value / math.factorial(k) for k, value in enumerate(start)])
-    m, n = len(start), len(values)
-    # The rest, c_m .. c_{n-1}, answers the values at 1: the derivatives of the powers there.
-    falling = [[math.perm(power, k) for power in range(n)] for k in range(len(end))]
-    matrix = np.array(falling, dtype=np.float64)
-    rest = np.linalg.solve(matrix[:, m:], np.asarray(end, dtype=np.float64) - matrix[:, :m] @ known)
-    return Law("polynomial", (Piece(0.0, (*map(float, known), *map(float, rest))),))
+    coefficients = _hermite([Fraction(v) for v in start], [Fraction(v) for v in end])
+    return Law("polynomial", (Piece(0.0, tuple(map(float, coefficients))),))
+
+
+def _hermite(start: Sequence[Fraction], end: Sequence[Fraction]) -> list[Fraction]:
+    """The polynomial of least degree with derivatives 0, 1, ... at 0 and at 1, in closed form; docs/theory/cams.md."""
+    m, n = len(start), len(end)
+    out = [Fraction(0)] * (m + n)
+    for k, value in enumerate(start):
+        for j in range(m - k):
+            for power, c in _bernstein(k + j, n):
+                out[power] += value / math.factorial(k) * math.comb(n - 1 + j, j) * c
+    for k, value in enumerate(end):
+        for j in range(n - k):
+            for power, c in _bernstein(m, k + j):
+                out[power] += (-1) ** k * value / math.factorial(k) * math.comb(m - 1 + j, j) * c
+    return out
+
+
+def _bernstein(power: int, other: int) -> list[tuple[int, int]]:
+    """The terms (power, coefficient) of t^power (1 - t)^other."""
+    return [(power + i, (-1) ** i * math.comb(other, i)) for i in range(other + 1)]
 
 
 def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, float, float]]) -> Law:

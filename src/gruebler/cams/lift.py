@@ -55,16 +55,24 @@ def dwell(angle: float) -> Segment:
     return Segment(_angle(angle))
 
 
+_LARGEST = 1e70  # of lengths, as everywhere: their squares and quotients by the square of an angle stay finite
+_SHORTEST = 1e-9  # rad: shorter parts are lost in the sum that must fill a turn, which is judged to that
+
+
 def motion(change: float, angle: float, name: str | Law = "3-4-5") -> Segment:
     """A rise (or fall, if negative) by a law."""
     if not isinstance(change, int | float) or not math.isfinite(change) or change == 0:
         raise CamError(f"a rise or fall has a finite lift that is not zero, not {change!r}")
+    if not 1 / _LARGEST < abs(change) < _LARGEST:
+        raise CamError(f"a lift lies between {1 / _LARGEST:g} and {_LARGEST:g}, not {change!r}: choose another unit")
     return Segment(_angle(angle), float(change), name if isinstance(name, Law) else law(name))
 
 
 def _angle(angle: float) -> float:
     if not isinstance(angle, int | float) or not 0 < angle <= math.tau * (1 + 1e-12):
         raise CamError(f"a part of the turn has an angle above 0 and up to 2 pi, not {angle!r} rad")
+    if angle < _SHORTEST:
+        raise CamError(f"a part of the turn has an angle of {_SHORTEST:g} rad at least, not {angle!r}")
     return float(angle)
 
 
@@ -219,4 +227,6 @@ def _number(text: str, statement: str) -> float:
         value = math.nan
     if not math.isfinite(value):
         raise CamError(f"'{statement}': expected a finite number, not {text!r}")
+    if abs(value) >= _LARGEST:
+        raise CamError(f"'{statement}': expected a number below {_LARGEST:g}, not {text!r}")
     return value

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.cams.contour import Touch, angle_of, face_coordinate
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
+from gruebler.views import Brief
 
 __all__ = ["SmoothContour"]
 
@@ -21,10 +22,11 @@ ComplexArray = NDArray[np.complex128]
 
 _BISECTIONS = 52
 _CHUNK = 1 << 20
+_MOST = 1e70  # of lengths, as for followers: their powers stay finite
 
 
-@dataclass(frozen=True, slots=True)
-class SmoothContour:
+@dataclass(frozen=True, slots=True, repr=False)
+class SmoothContour(Brief):
     """A closed smooth curve, counter-clockwise about the cam's axis; it may be hollow.
 
     Contacts are bracketed on ``resolution`` places of the curve and bisected to the last bit; a wave of the contour
@@ -48,6 +50,8 @@ class SmoothContour:
         table = finite(points, "points of a contour")
         if table.ndim != 2 or table.shape[1] != 2:
             raise CamError("a contour is given by rows of two finite numbers, x and y")
+        if (np.abs(table) >= _MOST).any():
+            raise CamError(f"a contour has coordinates below {_MOST:g}")
         if len(table) > 1 and (table[0] == table[-1]).all():
             table = table[:-1]
         closed = np.vstack([table, table[:1]])

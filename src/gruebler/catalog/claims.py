@@ -86,7 +86,7 @@ def check(
         wrong.append(WrongClaim("claims.reason", "none", "a mobility other than the generic one needs a reason"))
     if claims.group is not None and (f := counted(chain, claims.group.b)) != claims.group.counted:
         wrong.append(WrongClaim("claims.group.counted", claims.group.counted, f))
-    idle = tuple(freedom.link for freedom in report.idle_freedoms)
+    idle = tuple(link for freedom in report.idle_freedoms for link in freedom.links)
     if claims.idle and set(claims.idle) != set(idle):
         wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or "none"))
     return Checked(id, origin, report, claims, tuple(wrong), found)

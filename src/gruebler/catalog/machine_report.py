@@ -17,6 +17,7 @@ from gruebler.linkages import Linkage
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import MobilityReport, mobility_report
 from gruebler.pairs import Alphabet
+from gruebler.views import Brief
 
 if TYPE_CHECKING:
     from gruebler.freedoms import Freedoms
@@ -52,8 +53,8 @@ class GuidedPoint(NamedTuple):
     """How far it goes along y."""
 
 
-@dataclass(frozen=True, eq=False)
-class MachineReport:
+@dataclass(frozen=True, eq=False, repr=False)
+class MachineReport(Brief):
     """What `machine_report` found. `explain` says it in words."""
 
     entry: Entry

@@ -22,7 +22,19 @@ from gruebler.linkages.records import Dimensions, dimensioned
 from gruebler.mechanism import Mechanism
 from gruebler.screws import SpatialLinkage
 
-__all__ = ["Asked", "Case", "Claims", "Entry", "Exercise", "Group", "Sizes", "Text", "read_entry", "read_exercise"]
+__all__ = [
+    "Asked",
+    "Case",
+    "Claims",
+    "Entry",
+    "Exercise",
+    "Group",
+    "Sizes",
+    "Text",
+    "entry_of_data",
+    "read_entry",
+    "read_exercise",
+]
 
 
 class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -177,6 +189,13 @@ def read_entry(path: Path) -> Entry:
     return entry
 
 
+def entry_of_data(data: object, where: str) -> Entry:
+    """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
+    entry = fitted(data, Entry, lambda text: CatalogError(f"{where}: {text}"))
+    _check(entry, where)
+    return entry
+
+
 def read_exercise(path: Path) -> Exercise:
     """The exercise in a TOML file; `CatalogError` as for `read_entry`."""
     return _read(path, Exercise)
@@ -189,7 +208,7 @@ def _read(path: Path, kind: type[Record]) -> Record:
     return fitted(load(path, fail), kind, fail)
 
 
-def _check(entry: Entry, path: Path) -> None:
+def _check(entry: Entry, path: Path | str) -> None:
     """What the shape of a record cannot say."""
     try:
         chain = entry.chain()
@@ -221,7 +240,7 @@ def _check(entry: Entry, path: Path) -> None:
         _check_dimensions(entry, entry.dimensions, chain, path)
 
 
-def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path) -> None:
+def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str) -> None:
     if sizes.assumed == bool(sizes.source):
         raise CatalogError(f"{path}: dimensions: either assumed = true, or a source that prints them")
     if sizes.shown_drives and (entry.drives or any(chain.find_joint(drive) is None for drive in sizes.shown_drives)):

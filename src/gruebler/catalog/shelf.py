@@ -69,6 +69,9 @@ def entry(id: str) -> Entry:
     try:
         return entries()[id]
     except KeyError:
+        if id in exercises():
+            machines = dict.fromkeys(case.machine for case in exercises()[id].cases)
+            raise CatalogError(f"{id!r} is an exercise; the machines in it are {', '.join(machines)}") from None
         from difflib import get_close_matches
 
         close = get_close_matches(id, entries(), n=3, cutoff=0.5)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from gruebler import notation
 from gruebler.errors import NotationError
 from gruebler.pairs import Space
 
@@ -31,7 +33,11 @@ def read_graph6(code: str) -> tuple[Joints, list[str]]:
 
 
 def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[str] | None, str | Space]:
-    """Joints, links and space of a JSON document, the text or the object already read."""
+    """Joints, links and space of a JSON document, the text or the object already read.
+
+    Joints are objects, or texts such as ``"R(a-b)"``. Of a mobility report (it has a verdict) the chain alone is read,
+    for the rest is derived from it.
+    """
     if isinstance(document, str):
         try:
             document = json.loads(document)
@@ -39,6 +45,8 @@ def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[s
             raise NotationError(f"not a JSON document: {error}") from None
     if not isinstance(document, Mapping):
         raise NotationError(f"a chain is a JSON object, not {type(document).__name__}")
+    if "verdict" in document:
+        document = {key: document[key] for key in ("space", "links", "joints") if key in document}
     unknown = sorted(set(document) - {"space", "links", "joints"})
     if unknown:
         raise NotationError(f"unknown key {unknown[0]!r} in a chain: expected space, links, joints")
@@ -48,8 +56,17 @@ def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[s
     links = document.get("links")
     if links is not None and (not isinstance(links, Sequence) or isinstance(links, str)):
         raise NotationError('"links" must be a list of names')
+    space = document.get("space", Space.PLANAR)
+    if joints and all(isinstance(joint, str) for joint in joints):
+        return _joints_of_texts(joints, space), links, space
     made = [_joint_of_json(number, j) for number, j in enumerate(joints, 1)]
-    return made, links, document.get("space", Space.PLANAR)
+    return made, links, space
+
+
+def _joints_of_texts(texts: Sequence[str], space: str | Space) -> Joints:
+    """The joints of ``R(a-b)``, ``R(a-b)#2``, ..., as `Chain.joint_names` writes them."""
+    bare = [re.sub(r"\)#\d+$", ")", text) for text in texts]
+    return [(pair.name, names) for pair, names in notation.read(" ".join(bare), space)[1]]
 
 
 def _joint_of_json(number: int, document: object) -> tuple[str, Sequence[str]]:

@@ -30,6 +30,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     except GrueblerError as error:
         print(f"gruebler {arguments.command}: {error.said(getattr(arguments, 'lang', 'en'))}", file=sys.stderr)
         return 2
+    except MemoryError:
+        print(f"gruebler {arguments.command}: this needs more memory than there is", file=sys.stderr)
+        return 2
     except BrokenPipeError:
         # The reader has gone (| head): what is still buffered has nowhere to go.
         _forget_output()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from itertools import islice
@@ -15,8 +14,9 @@ from numpy.typing import NDArray
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, motion_roles, move, rotatability
 from gruebler.kinematics.branches import all_branches, read_branch
@@ -38,7 +38,6 @@ Reals = NDArray[np.float64]
 _MOST_BRANCHES = 16
 _WORDS = {
     "en": {
-        "written": "Written: {path}",
         "roles": "Roles: {roles}.",
         "pairs": "Neighbours against each other: {pairs}.",
         "full": "full turns",
@@ -48,7 +47,6 @@ _WORDS = {
         "mu": "transmission angle",
     },
     "de": {
-        "written": "Geschrieben: {path}",
         "roles": "Rollen: {roles}.",
         "pairs": "Nachbarn gegeneinander: {pairs}.",
         "full": "volle Umläufe",
@@ -90,7 +88,12 @@ def run(arguments: argparse.Namespace) -> int:
         found = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
         text = error.said(arguments.lang)
-        print(text[:1].upper() + text[1:] + "." * (not text.endswith(".")))
+        message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
+        if arguments.json:
+            none = {"columns": [], "rows": [], "complete": False, "message": message}
+            print_json({"linkage": to_json(linkage), **none})
+        else:
+            print(message)
         return 1
     rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, found, rows, arguments.branch)
@@ -167,17 +170,9 @@ def _tell(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], arguments: argparse.Namespace
 ) -> int:
     if arguments.csv is not None:
-        from gruebler.cli.draw import written
-
-        written(arguments.csv, as_csv(made).encode("utf-8"))
-        if not arguments.json:
-            print(_WORDS[arguments.lang]["written"].format(path=arguments.csv))
+        write_file(arguments.csv, as_csv(made).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print(
-            json.dumps(
-                _document(linkage, found, motion, made, arguments.lang), ensure_ascii=False, indent=2, allow_nan=False
-            )
-        )
+        print_json(_document(linkage, found, motion, made, arguments.lang))
     else:
         if found is not None:
             _say(linkage, found, _WORDS[arguments.lang], arguments.lang)
@@ -195,7 +190,7 @@ def _tell(
 
 
 def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
-    print(found.explain(lang))
+    print_text(found.explain(lang))
     made = _circuit(linkage, found)
     if isinstance(made, LinkageError):
         print(words["unknown"].format(why=made.said(lang)))
@@ -230,6 +225,15 @@ def _extent(row: Rotatability, unit: str, words: dict[str, str]) -> str:
     return f"{row.range:.6g} {unit}"
 
 
+def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
+    """A row of the rotatability; the keys of angles end in ``_deg``."""
+    out = row._asdict()
+    angles = {key: out.pop(key) for key in ("lowest", "highest")} | {"range": row.range}
+    if row.freedom == "turn":
+        return out | {f"{key}_deg": math.degrees(value) for key, value in angles.items()}
+    return out | angles | {"unit": unit}
+
+
 def _document(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], lang: str
 ) -> dict[str, Any]:
@@ -241,7 +245,7 @@ def _document(
             document |= {"roles": None, "rotatability": None}
         else:
             document["roles"] = {link: str(role) for link, role in motion_roles(around).items()}
-            document["rotatability"] = [row._asdict() | {"range": row.range} for row in rotatability(around)]
+            document["rotatability"] = [_plain_row(row, linkage.unit) for row in rotatability(around)]
     rows = zip(*(column.values for column in made), strict=True)
     return document | {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],

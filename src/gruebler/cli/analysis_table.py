@@ -23,6 +23,7 @@ Reals = NDArray[np.float64]
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"))
 _DEGREES = 180 / pi
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 class Column(NamedTuple):
@@ -143,10 +144,14 @@ def check_csv(path: Path | None) -> None:
 
 
 def as_csv(made: Sequence[Column]) -> str:
-    """A table with the units in its header; an empty cell where a quantity is not defined."""
+    """A table with the units in its header; an empty cell where a quantity is not defined.
+
+    Headers that begin with = + - @, a tab or a line end get an apostrophe in front, so that no spreadsheet takes the
+    name of a point for a formula. Numbers stay as they are.
+    """
     text = io.StringIO()
     writer = csv.writer(text)
-    writer.writerow([column.header for column in made])
+    writer.writerow(["'" + one if one.startswith(_FORMULA) else one for one in (column.header for column in made)])
     for row in zip(*(column.values for column in made), strict=True):
         writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
     return text.getvalue()

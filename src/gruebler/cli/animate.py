@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
-from gruebler.cli.draw import entry_of, picture_suffix, sized, written
+from gruebler.cli.draw import entry_of, picture_suffix, sized
+from gruebler.cli.output import print_svg, write_file
 from gruebler.drawing.animation import Options, animated_svg
 from gruebler.drawing.animation_page import animated_page
 from gruebler.linkages import Linkage
@@ -31,9 +31,9 @@ def run(arguments: argparse.Namespace) -> int:
     )
     content = _content(linkage, suffix, options, dark)
     if arguments.output is None:
-        sys.stdout.write(content.decode("utf-8"))
+        print_svg(content.decode("utf-8"))
     else:
-        written(arguments.output, content)
+        write_file(arguments.output, content, arguments.lang)
     return 0
 
 

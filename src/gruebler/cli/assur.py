@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
 
 from gruebler.assur import AssurGroup, Decomposition, Group, assur_groups, decompose, drive_choices
 from gruebler.assur.forms import roman
 from gruebler.cli.inputs import mechanism_of
-from gruebler.cli.tables import print_table
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Mechanism
 
@@ -40,7 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
         about["message"] = one.message(arguments.lang)
     names = mechanism.chain.joint_names()
     items = [_item(group, names) for group in one.groups]
-    _print(items, arguments, lambda: print(one.explain(arguments.lang)), about)
+    _print(items, arguments, lambda: print_text(one.explain(arguments.lang)), about)
     return int(not one.complete)
 
 
@@ -51,7 +51,7 @@ def _print(
         document = {**(about or {}), "count": len(items)}
         if not arguments.count:
             document["items"] = items
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     elif arguments.count:
         print(len(items))
     else:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -26,6 +25,7 @@ from gruebler.cams import (
     read_lift,
 )
 from gruebler.cli.machine_pictures import angle_of, refuse_picture, write_picture
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
@@ -102,7 +102,7 @@ def run(arguments: argparse.Namespace) -> int:
     table = _table(cam, turn_degrees(arguments.step)) if arguments.step is not None else None
     _picture(arguments, cam)
     if arguments.json:
-        print(json.dumps(_document(cam, table), ensure_ascii=False, indent=2))
+        print_json(_document(cam, table))
     else:
         _print(cam, table, words)
     return int(cam.findings().undercut)
@@ -123,7 +123,7 @@ def _laws(as_json: bool, words: dict[str, Any]) -> int:
     names = list(dict.fromkeys(law(name).name for name in LAWS))
     found = [(name, law(name).peaks()) for name in names]
     if as_json:
-        print(json.dumps([{"law": name, **peaks._asdict()} for name, peaks in found], indent=2))
+        print_json([{"law": name, **peaks._asdict()} for name, peaks in found])
     else:
         rows = [(name, *(f"{peak + 0.0:.6g}" for peak in peaks)) for name, peaks in found]
         print_table(words["laws"], rows, numbers=range(1, 5))
@@ -166,7 +166,7 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
     rows = np.stack([degrees, *(one * scale for one in found)], axis=1).tolist()
     if arguments.json:
         keys = ("cam_deg", "follower", "velocity", "acceleration")
-        print(json.dumps({"motion": records(keys, rows)}, indent=2))
+        print_json({"motion": records(keys, rows)})
     else:
         unit = "°" if follower.swings else ""
         print_turn(words["contour"], rows, ("{:g}°", f"{{:.6f}}{unit}", "{:.6f}", "{:.6f}"))

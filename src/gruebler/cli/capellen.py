@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from typing import Any
 
 from gruebler.cli.measured import in_language
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.geometry.meyer_zur_capellen import CouplerLever, SymmetricRocker, lambdas_for, symmetric_rocker
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     """The double rocker of a ratio, or both of an angle."""
     made = _made(arguments)
     if arguments.json:
-        print(json.dumps([_item(one) for one in made], ensure_ascii=False, indent=2))
+        print_json([_item(one) for one in made])
         return 0
     words = _WORDS[arguments.lang]
     for number, one in enumerate(made):

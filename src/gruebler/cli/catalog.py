@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
 
 import msgspec
 
 from gruebler.catalog import Entry, Exercise, entries, entry, exercises
-from gruebler.cli.tables import print_table
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_table, print_text
+from gruebler.linkages.documents import infinities_as_words
 from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
 
 __all__ = ["run"]
 
 _HEADERS = {"en": ("id", "name", "n", "F", "source"), "de": ("Kennung", "Name", "n", "F", "Quelle")}
+_EXERCISE_HEADERS = {lang: (id, name, source) for lang, (id, name, _, _, source) in _HEADERS.items()}
+_EXERCISES = {
+    "en": "Exercises on these machines (gruebler check ID, gruebler exercise show ID):",
+    "de": "Aufgaben zu diesen Maschinen (gruebler check KENNUNG, gruebler exercise show KENNUNG):",
+}
 _LABELS = {
     "source": ("Source", "Quelle"),
     "task": ("Task", "Aufgabe"),
@@ -38,14 +44,10 @@ def run(arguments: argparse.Namespace) -> int:
         case "show":
             records = [exercises().get(id) or entry(id) for id in arguments.ids]
             if arguments.json:
-                _print_json([_plain(record, arguments.full) for record in records])
+                print_json([_plain(record, arguments.full) for record in records])
             else:
-                print("\n\n".join(_told(record, arguments) for record in records))
+                print_text("\n\n".join(_told(record, arguments) for record in records))
     return 0
-
-
-def _print_json(documents: list[Any]) -> None:
-    print(json.dumps(documents, ensure_ascii=False, indent=2, allow_nan=False))
 
 
 def _plain(record: Entry | Exercise, full: bool) -> Any:
@@ -53,7 +55,7 @@ def _plain(record: Entry | Exercise, full: bool) -> Any:
         from gruebler.catalog.machine_report import machine_report
 
         return machine_report(record).to_json()
-    return msgspec.to_builtins(record)
+    return infinities_as_words(msgspec.to_builtins(record))
 
 
 def _told(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
@@ -68,15 +70,16 @@ def _told(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
 def _list(arguments: argparse.Namespace) -> None:
     machines, tasks = entries().values(), exercises().values()
     if arguments.json:
-        _print_json([msgspec.to_builtins(record) for record in (*machines, *tasks)])
+        print_json([_plain(record, full=False) for records in (machines, tasks) for record in records])
         return
     lang = arguments.lang
     rows = []
     for machine in machines:
         chain = machine.chain()
         rows.append((machine.id, machine.name.said(lang), str(chain.n), str(counted(chain)), machine.source))
-    rows += [(task.id, task.name.said(lang), "", "", task.source) for task in tasks]
     print_table(_HEADERS[lang], rows, numbers=(2, 3))
+    print("\n" + _EXERCISES[lang])
+    print_table(_EXERCISE_HEADERS[lang], [(task.id, task.name.said(lang), task.source) for task in tasks])
 
 
 def _shown(record: Entry | Exercise, lang: str) -> str:

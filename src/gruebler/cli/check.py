@@ -21,11 +21,15 @@ from gruebler.catalog import (
     exercises,
     read_entry,
 )
+from gruebler.catalog.records import entry_of_data
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
-from gruebler.cli.tables import print_table
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import CatalogError, GrueblerError, NotationError
+from gruebler.freedoms.files import read_any_linkage, spatial_from_json
 from gruebler.linkages.documents import load
+from gruebler.linkages.files import linkage_from_json
 from gruebler.mobility import mobility_report
 from gruebler.mobility.prose import verdict_word
 
@@ -53,14 +57,16 @@ _GROUP = {
 }
 _WIDEST_NAME = 44
 
+_ENDINGS = (".toml", ".json", ".txt", ".g6")  # of files with chains; without an ending: one chain a line
+
 
 def run(arguments: argparse.Namespace) -> int:
     """Check what the arguments name; 1 if a claim fails."""
     found = [one for word in arguments.chains for one in _checked(word, arguments)] if arguments.chains else check_all()
     if arguments.json:
-        print(json.dumps([to_json(one) for one in found], ensure_ascii=False, indent=2))
+        print_json([to_json(one) for one in found])
     elif arguments.explain:
-        print("\n\n".join(explanation(one, arguments.lang) for one in found))
+        print_text("\n\n".join(explanation(one, arguments.lang) for one in found))
     else:
         print_checked(found, arguments.lang)
     _complain(found)
@@ -141,7 +147,7 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
         yield from _lines(sys.stdin.read(), "standard input", arguments)
     elif is_text(word):
         yield _plain(chain_of(word, arguments.space), word, arguments)
-    elif (path := Path(word)).is_file() or path.suffix in {".toml", ".json", ".txt", ".g6"}:
+    elif (path := Path(word)).is_file() or path.suffix.lower() in _ENDINGS:
         yield from _file(path, arguments)
     elif word in exercises():
         yield from check_exercise(exercises()[word])
@@ -161,9 +167,12 @@ def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
 
 
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
-    if path.suffix == ".toml":
+    ending = path.suffix.lower()
+    if ending not in ("", *_ENDINGS):
+        raise CatalogError(f"{path}: expected a file that ends with {', '.join(_ENDINGS)}, not with {path.suffix}")
+    if ending == ".toml":
         if _is_linkage(path):
-            yield _plain(chain_of(str(path)), path.stem, arguments)
+            yield _plain(read_any_linkage(path).mechanism.chain, path.stem, arguments)
         else:
             yield check_entry(read_entry(path), origin=str(path))
         return
@@ -173,9 +182,9 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
         raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
     except UnicodeDecodeError:
         raise CatalogError(f"{path}: is not UTF-8 text") from None
-    if path.suffix == ".json":
+    if ending == ".json":
         yield from _json(path, text, arguments)
-    elif path.suffix == ".g6":
+    elif ending == ".g6":
         yield from _lines("".join(f"g6:{line}\n" for line in text.split()), str(path), arguments)
     else:
         yield from _lines(text, str(path), arguments)
@@ -184,7 +193,7 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
 def _is_linkage(path: Path) -> bool:
     """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
     document = load(path, lambda text: CatalogError(f"{path}: {text}"))
-    return isinstance(document, dict) and "id" not in document and "unit" in document
+    return isinstance(document, dict) and "id" not in document and ("unit" in document or "screws" in document)
 
 
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:
@@ -194,15 +203,31 @@ def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Chec
         raise NotationError(f"{path}: is nested too deeply") from None
     except ValueError as error:  # JSONDecodeError, or a number of thousands of digits
         raise NotationError(f"{path}: is not JSON: {error}") from None
+    if isinstance(document, dict) and "items" in document:
+        document = document["items"]
     if document == []:
         raise NotationError(f"{path}: no chain in it; expected an object or a list of objects")
     documents = document if isinstance(document, list) else [document]
     for number, one in enumerate(documents, 1):
         name = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        if isinstance(one, dict) and "id" in one:
+            yield check_entry(entry_of_data(one, name), origin=name)
+            continue
         try:
-            yield _plain(Chain.from_json(one), name, arguments)
+            yield _plain(_chain_of_json(one), name, arguments)
         except GrueblerError as error:
             raise NotationError(f"{name}: {error}") from None
+
+
+def _chain_of_json(document: Any) -> Chain:
+    """The chain of an object: of a list of mechanisms, a linkage with dimensions or screws, a report, or its own."""
+    if isinstance(document, dict) and isinstance(document.get("text"), str):
+        return chain_of(document["text"])
+    if isinstance(document, dict) and "screws" in document:
+        return spatial_from_json(document).mechanism.chain
+    if isinstance(document, dict) and "unit" in document:
+        return linkage_from_json(document).mechanism.chain
+    return Chain.from_json(document)
 
 
 def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Checked]:
@@ -212,7 +237,8 @@ def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Ch
             continue
         empty = False
         try:
-            yield _plain(Chain.parse(line, arguments.space), line.strip(), arguments)
+            chain = chain_of(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
+            yield _plain(chain, line.strip(), arguments)
         except GrueblerError as error:
             raise NotationError(f"{source}, line {number}: {error}") from None
     if empty:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from typing import Any
 
 from gruebler.cli.coupler_inputs import coupler_point, sizes
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.geometry.roberts import Cognate, cognates, slider_cognates
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         raise GrueblerError("cognates are known of the four-bar and the slider-crank, not of its inversion")
     if arguments.json:
-        print(json.dumps({"cognates": [_item(one) for one in found]}, ensure_ascii=False, indent=2))
+        print_json({"cognates": [_item(one) for one in found]})
     else:
         _say(found, arguments.lang)
     return 0

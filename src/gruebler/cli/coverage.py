@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import io
-import json
 import shlex
 import sys
 from collections.abc import Iterator, Sequence
@@ -18,6 +17,7 @@ from typing import Any, NamedTuple
 import msgspec
 
 from gruebler.catalog import catalog_folder, entries
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import CatalogError
 from gruebler.linkages.documents import fitted, load
@@ -164,7 +164,7 @@ def run(arguments: argparse.Namespace) -> int:
         outcomes = {one.command: one for one in _executed(wanted)}
     absent = {name for row in chosen for name in row.functions if arguments.execute and find_function(name) is None}
     if arguments.json:
-        print(json.dumps([_document(row, outcomes, absent) for row in chosen], ensure_ascii=False, indent=2))
+        print_json([_document(row, outcomes, absent) for row in chosen])
     else:
         _tell(chosen, outcomes, absent, arguments)
     missing = any(not row.commands and not row.functions for row in chosen)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from typing import Any
 
 import numpy as np
 
-from gruebler.cli.analysis_table import Column, as_csv
+from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.geometry import Contact, CouplerCurve, coupler_curve
@@ -65,6 +65,7 @@ _WORDS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
+    check_csv(arguments.csv)
     linkage, _ = linkage_of(arguments.linkage)
     found = coupler_curve(linkage, point_of(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance)
     turning = found.trail.course.turning_drive
@@ -72,11 +73,9 @@ def run(arguments: argparse.Namespace) -> int:
     contacts = [found.contact(drive) for drive in drives]
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
     if arguments.csv is not None:
-        from gruebler.cli.draw import written
-
-        written(arguments.csv, as_csv(_polygon(found, turning)).encode("utf-8"))
+        write_file(arguments.csv, as_csv(_polygon(found, turning)).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print(json.dumps(_document(found, contacts, directions), ensure_ascii=False, indent=2))
+        print_json(_document(found, contacts, directions))
     else:
         _say(found, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
     return 0

@@ -6,6 +6,7 @@ import argparse
 
 from gruebler.catalog import check_all, check_entry, entry
 from gruebler.cli.check import explanation, print_checked
+from gruebler.cli.tables import print_text
 
 __all__ = ["run"]
 
@@ -17,5 +18,5 @@ def run(arguments: argparse.Namespace) -> int:
     found = check_all()
     print_checked(found, arguments.lang)
     for id in _EXPLAINED:
-        print("\n" + explanation(check_entry(entry(id)), arguments.lang))
+        print_text("\n" + explanation(check_entry(entry(id)), arguments.lang))
     return int(any(not one.holds for one in found))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 
 from gruebler.cli.inputs import chain_of
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_text
 from gruebler.isomorphism import code
 from gruebler.transformation import derive
 
@@ -16,7 +17,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Tell how the chain grows."""
     growth = derive(chain_of(arguments.chain))
     if not arguments.json:
-        print(growth.explain(arguments.lang))
+        print_text(growth.explain(arguments.lang))
         return 0
     core, steps = growth.core, growth.derivation.steps
     document = {
@@ -29,5 +30,5 @@ def run(arguments: argparse.Namespace) -> int:
         ],
         "derivation": growth.derivation.to_json(),
     }
-    print(json.dumps(document, ensure_ascii=False, indent=2))
+    print_json(document)
     return 0

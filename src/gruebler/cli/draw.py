@@ -18,14 +18,14 @@ from gruebler.catalog import Entry, entries
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.output import print_svg, write_file
 from gruebler.drawing import Figure, draw, draw_contracted, draw_graph, draw_loops
 from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.enumeration.checkpoint import whole_file
 from gruebler.errors import GrueblerError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["entry_of", "german", "picture_suffix", "run", "sized", "subject", "told_picture", "written"]
+__all__ = ["entry_of", "german", "picture_suffix", "run", "sized", "subject", "told_picture"]
 
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
@@ -69,14 +69,14 @@ def told_picture(figure: Figure, path: Path | None, suffix: str, dark: bool, lan
     """Write a picture into a file, or as SVG on standard output; say what could not be shown on standard error."""
     notes = list(figure.notes)
     if path is None:
-        sys.stdout.write(figure.svg())
+        print_svg(figure.svg())
     else:
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
             content = picture_bytes(figure, suffix, dark=dark)
         if any("missing from" in str(one.message) for one in caught):
             notes.append(_LETTERS[lang])
-        written(path, content)
+        write_file(path, content, lang)
     for note in notes:
         print(note, file=sys.stderr)
 
@@ -198,9 +198,3 @@ def subject(word: str, space: str | None, frame: str | None, drives: list[str]) 
     if frame is None and not drives:
         return chain
     return Mechanism(chain, chain.links[0] if frame is None else frame, drives)
-
-
-def written(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all; `RunError` if it cannot be written."""
-    with whole_file(path, durable=False) as file:
-        file.write(content)

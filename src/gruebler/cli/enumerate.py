@@ -9,22 +9,25 @@ import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Executor
 from contextlib import closing, contextmanager
+from pathlib import Path
 from typing import BinaryIO
 
+from gruebler.atomic_files import atomic_file
 from gruebler.cli.inputs import assortment_of
+from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.tables import print_table
-from gruebler.enumeration.checkpoint import RunError, whole_file
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
 from gruebler.enumeration.runs import Processes, Progress
 from gruebler.enumeration.work import Listing
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, RunError
 
 __all__ = ["run"]
 
 _LONG = 900.0  # seconds; what takes longer, or fills more than the following, is told and asked for again
 _LARGE = 8 * 10**9
+_ENDINGS = {".txt": "text", ".g6": "graph6", ".json": "json"}
 
 _WORDS = {
     "en": {
@@ -36,7 +39,7 @@ _WORDS = {
         "inversions": "inversions (frame)",
         "drives": "driven mechanisms (frame, drive at the frame)",
         "joint_orbits": "joint orbits",
-        "found": "{n} chains written to {path}.",
+        "found": ", {n} chains",
         "progress": "{pieces} pieces  {chains:,} chains  {rate:,.0f}/s  {left}",
         "left": "about {time} left",
         "size": "{about}{chains:,} chains",
@@ -53,7 +56,7 @@ _WORDS = {
         "inversions": "Inversionen (Gestell)",
         "drives": "angetriebene Getriebe (Gestell, Antrieb am Gestell)",
         "joint_orbits": "Gelenkklassen (Symmetrie)",
-        "found": "{n} Ketten nach {path} geschrieben.",
+        "found": ", {n} Ketten",
         "progress": "{pieces} Teile  {chains:,} Ketten  {rate:,.0f}/s  {left}",
         "left": "noch etwa {time}",
         "size": "{about}{chains:,} Ketten",
@@ -80,6 +83,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError(f"--format {arguments.format} goes with a list: a count is a table, or JSON with --json")
     if form is None and arguments.format == "json":
         arguments.json = True
+    if form is None and _form_of_ending(arguments.output) not in (None, "json"):
+        raise GrueblerError(f"{arguments.output}: a count is written as JSON; end the name with .json")
     if arguments.output is not None and not arguments.output.name:
         raise RunError(f"--output {str(arguments.output)!r} names no file")
     if arguments.output is not None and not arguments.output.parent.is_dir():
@@ -93,12 +98,26 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _format(arguments: argparse.Namespace, request: Request) -> str:
-    form = arguments.format or ("json" if arguments.json else "text")
+    form = arguments.format or ("json" if arguments.json else _form_of_ending(arguments.output) or "text")
     if arguments.json and form != "json":
         raise GrueblerError(f"--json is the same as --format json and does not go with --format {form}")
     if form == "graph6" and not request.only_simple:
         raise GrueblerError("graph6 describes chains with simple joints only: take --format text or json here")
+    if _form_of_ending(arguments.output) not in (None, form):
+        raise GrueblerError(
+            f"{arguments.output}: --format {form} and the ending {arguments.output.suffix} do not agree"
+        )
     return str(form)
+
+
+def _form_of_ending(path: Path | None) -> str | None:
+    """The format that the name of a file asks for; None without an ending, `GrueblerError` for an unknown one."""
+    if path is None or not path.suffix:
+        return None
+    form = _ENDINGS.get(path.suffix.lower())
+    if form is None:
+        raise GrueblerError(f"{path}: chains are written as .txt, .g6 or .json, not as {path.suffix}")
+    return form
 
 
 def _check_size(size: Estimate, arguments: argparse.Namespace) -> None:
@@ -150,10 +169,9 @@ def _count(
     if request.fractionated == "all":
         document["by_fractionation"] = found.by_fractionation
     if arguments.output is not None:
-        with whole_file(arguments.output) as file:
-            file.write((json.dumps(document, indent=2) + "\n").encode())
+        write_file(arguments.output, (json.dumps(document, indent=2) + "\n").encode(), arguments.lang)
     elif arguments.json:
-        print(json.dumps(document, indent=2))
+        print_json(document)
     else:
         _print_count(found, request, arguments.lang)
     return 0
@@ -198,10 +216,9 @@ def _list(
             sys.stdout.flush()  # what follows goes past its buffer
             _write(listings, form, request, sys.stdout.buffer)
             return 0
-        with whole_file(arguments.output) as file:
+        with atomic_file(arguments.output) as file:
             number = _write(listings, form, request, file)
-    if sys.stdout.isatty():
-        print(_WORDS[arguments.lang]["found"].format(n=number, path=arguments.output))
+    say_written(arguments.output, arguments.lang, _WORDS[arguments.lang]["found"].format(n=number))
     return 0
 
 

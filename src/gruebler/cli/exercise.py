@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
-from typing import Any
 
 from gruebler.catalog import Exercise, Text
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.exercises import (
@@ -18,6 +17,7 @@ from gruebler.exercises import (
     mark,
     plain_key,
     plain_marks,
+    plain_name,
     plain_solution,
     plain_task,
     said_source,
@@ -60,14 +60,10 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _print_json(document: Any) -> None:
-    print(json.dumps(document, ensure_ascii=False, indent=2))
-
-
 def _list(arguments: argparse.Namespace) -> None:
     found = all_exercises().values()
     if arguments.json:
-        _print_json([plain_task(one) for one in found])
+        print_json([plain_task(one) for one in found])
         return
     lang = arguments.lang
     print_table(_HEADERS[lang], [(one.id, one.name.said(lang), said_source(one.source, lang)) for one in found])
@@ -75,7 +71,7 @@ def _list(arguments: argparse.Namespace) -> None:
 
 def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
     if arguments.json:
-        _print_json([plain_solution(one, solve(one)) if solved else plain_task(one) for one in found])
+        print_json([plain_solution(one, solve(one)) if solved else plain_task(one) for one in found])
         return
     texts = [
         solution_text(one, solve(one), arguments.lang) if solved else task_text(one, arguments.lang, solve(one))
@@ -90,13 +86,13 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
         key, equals, answer = word.partition("=")
         if not equals or not key.strip() or not answer.strip():
             raise GrueblerError(f"an answer is written KEY=ANSWER, such as H=40, not {word!r}")
-        if plain_key(key.strip()) in map(plain_key, answers):
+        if key.strip() in answers:
             raise GrueblerError(f"{key.strip()} is answered twice: give one answer for each")
         answers[key.strip()] = answer
     marks = mark(task, answers)
     right = all(one.mark is Mark.RIGHT for one in marks)
     if arguments.json:
-        _print_json({"id": task.id, "right": right, "answers": plain_marks(marks)})
+        print_json({"id": task.id, "right": right, "answers": plain_marks(marks)})
     else:
         _say(task, marks, arguments.lang)
     return 0 if right else 1
@@ -109,7 +105,8 @@ def _say(task: Exercise, marks: list[Marked], lang: str) -> None:
             line += f" ({said_value(one.result.value, one.result.unit, lang)})"
         print(line + (f". {one.hint.said(lang)}" if one.hint else ""))
     answered = {one.key for one in marks}
-    missing = [plain_key(asked.key) for asked in task.asked if asked.key not in answered]
+    results = solve(task).results
+    missing = [plain_name(results[asked.key]) for asked in task.asked if asked.key not in answered]
     if missing:
         print(_MISSING.said(lang).format(", ".join(missing)))
     print(_SUMMARY.said(lang).format(right=sum(one.mark is Mark.RIGHT for one in marks), all=len(marks)))

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 from typing import Any
 
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.mobility import mobility_report
 from gruebler.transformation import Extension, Place, extend
@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
         document: dict[str, Any] = {"count": len(found)}
         if not arguments.count:
             document["items"] = [_item(chain, one) for one in found]
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     elif arguments.count:
         print(len(found))
     else:

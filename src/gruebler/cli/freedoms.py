@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from pathlib import Path
 
 from gruebler.catalog import entries, read_entry
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_text
 from gruebler.errors import GrueblerError
 from gruebler.freedoms import freedoms
 from gruebler.linkages import Linkage
@@ -22,9 +23,9 @@ def run(arguments: argparse.Namespace) -> int:
     linkage = _linkage(arguments.linkage)
     found = freedoms(linkage, at=_pose(linkage, arguments.at), branch=arguments.branch, tolerance=arguments.tolerance)
     if arguments.json:
-        print(json.dumps({"linkage": arguments.linkage, **found.to_json()}, ensure_ascii=False, indent=2))
+        print_json({"linkage": arguments.linkage, **found.to_json()})
     else:
-        print(found.explain(arguments.lang))
+        print_text(found.explain(arguments.lang))
     return int(found.mobility == 0)
 
 

@@ -1,16 +1,19 @@
-"""`gruebler gallery`: all chains or mechanisms of a request, or machines of the catalog, on one page."""
+"""`gruebler gallery`: all chains or mechanisms of a request, of lines of text, or of the catalog, on one page."""
 
 from __future__ import annotations
 
 import argparse
+import sys
 from collections.abc import Iterator
-from itertools import groupby
+from itertools import groupby, islice
+from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import entry
+from gruebler.catalog import entries, entry
 from gruebler.chain import Chain
-from gruebler.cli.draw import german, subject, written
-from gruebler.cli.inputs import assortment_of
+from gruebler.cli.draw import german, subject
+from gruebler.cli.inputs import assortment_of, is_text, outputs_of
+from gruebler.cli.output import write_file
 from gruebler.drawing import Item, Section, draw, gallery_html
 from gruebler.drawing.files import suffix_of
 from gruebler.drawing.prose import chain_name
@@ -29,6 +32,8 @@ _WORDS = {
         "title": "Kinematic chains with {n} links, F = {f}",
         "inversions": "Mechanisms with {n} links, F = {f}",
         "catalog": "Machines of the catalog",
+        "lines": "Chains and mechanisms",
+        "output": "output {link}",
         "note": "{chains} chains, {pictures} pictures.",
         "machines": "{pictures} pictures.",
         "section": "Links binary, ternary, ...: {assortment} ({number})",
@@ -39,6 +44,8 @@ _WORDS = {
         "title": "Kinematische Ketten mit {n} Gliedern, F = {f}",
         "inversions": "Getriebe mit {n} Gliedern, F = {f}",
         "catalog": "Maschinen des Katalogs",
+        "lines": "Ketten und Getriebe",
+        "output": "Abtrieb {link}",
         "note": "{chains} Ketten, {pictures} Bilder.",
         "machines": "{pictures} Bilder.",
         "section": "Glieder binär, ternär, ...: {assortment} ({number})",
@@ -54,9 +61,11 @@ def run(arguments: argparse.Namespace) -> int:
     words = _WORDS[arguments.lang]
     if arguments.ids:
         _check(arguments)
-        title = words["catalog"]
-        sections = [Section("", tuple(_machine(id, arguments) for id in arguments.ids))]
-        note = words["machines"].format(pictures=len(arguments.ids))
+        named = [one for word in arguments.ids for one in _lines(word)]
+        _fits(len(named))
+        title = words["catalog" if not any(map(is_text, named)) else "lines"]
+        sections = [Section("", tuple(_line(word, number, arguments) for number, word in enumerate(named, 1)))]
+        note = words["machines"].format(pictures=len(named))
     elif arguments.links is not None:
         title, note, sections = _request(arguments)
     else:
@@ -70,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
         from gruebler.drawing.plotting import gallery_pdf
 
         content = gallery_pdf(title, sections, note=note)
-    written(arguments.output, content)
+    write_file(arguments.output, content, arguments.lang)
     return 0
 
 
@@ -90,6 +99,52 @@ def _check(arguments: argparse.Namespace) -> None:
             )
 
 
+def _lines(word: str) -> list[str]:
+    """The chains, mechanisms and ids of a file, a line each, or of standard input (``-``); else the word itself."""
+    path = Path(word)
+    if word != "-" and (is_text(word) or word in entries() or path.suffix.lower() in (".toml", ".json")):
+        return [word]
+    if word != "-" and not path.is_file() and not path.suffix and len(path.parts) == 1:
+        return [word]  # an id that the catalog does not have: it says so
+    try:
+        text = sys.stdin.read() if word == "-" else path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        raise GrueblerError(f"{word}: cannot be read ({error.strerror or error})") from None
+    except UnicodeDecodeError:
+        raise GrueblerError(f"{word}: is not UTF-8 text") from None
+    found = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if path.suffix == ".g6":
+        found = [f"g6:{line}" for line in found]
+    if not found:
+        raise GrueblerError(f"{word}: no chain in it; expected one a line")
+    return found
+
+
+def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
+    """The picture of a chain or mechanism that is written out, or of a machine of the catalog."""
+    if not is_text(word) and word in entries():
+        return _machine(word, arguments)
+    if not is_text(word) and not Path(word).is_file():
+        entry(word)  # raises with the nearest ids
+    try:
+        shown = subject(word, None, None, [])
+        outputs = outputs_of(word)
+    except GrueblerError as error:
+        raise GrueblerError(f"number {number}, {word[:40]!r}: {error}") from None
+    name = chain_name(shown, arguments.lang) if isinstance(shown, Chain) else family(shown, arguments.lang)
+    words = [str(number), name or "", *(_WORDS[arguments.lang]["output"].format(link=link) for link in outputs)]
+    figure = draw(shown, labels=arguments.labels, lang=arguments.lang, name=name or "")
+    return Item(figure, "  ".join(filter(None, words)), code(shown) if isinstance(shown, Chain) else shown.code())
+
+
+def _fits(number: int) -> None:
+    if number > _MOST:
+        raise GrueblerError(
+            f"{number:,} chains do not fit on a page of {_MOST:,}",
+            f"{number:,} Ketten passen nicht auf eine Seite für {_MOST:,}",
+        )
+
+
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
     record = entry(id)
     name = record.name.said(arguments.lang)
@@ -104,13 +159,20 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
     usual: dict[str, Any] = _USUAL | {key: value for key, value in given.items() if value is not None}
     mobility = usual.pop("mobility")
     options = usual | {"assortment": assortment_of(arguments.assortment)}
-    size = estimate(Request(arguments.links, mobility, **options), "text").chains
-    if size > _MOST:
+    if options["assortment"] is None:
+        size = estimate(Request(arguments.links, mobility, **options), "text").chains
+        if size > _MOST:
+            raise GrueblerError(
+                f"{size:,} chains do not fit on a page of {_MOST:,}; choose some with --assortment",
+                f"{size:,} Ketten passen nicht auf eine Seite für {_MOST:,}; wähle mit --assortment aus",
+            )
+    found = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
+    if len(found) > _MOST:
         raise GrueblerError(
-            f"{size:,} chains do not fit on a page of {_MOST:,}; choose some with --assortment",
-            f"{size:,} Ketten passen nicht auf eine Seite für {_MOST:,}; wähle mit --assortment aus",
+            f"more than {_MOST:,} chains have the assortment {arguments.assortment}: they do not fit on a page",
+            f"mehr als {_MOST:,} Ketten haben die Gliederverteilung {arguments.assortment}: Sie passen nicht auf eine "
+            "Seite",
         )
-    found = list(chains(arguments.links, mobility, **options))
     if not found:
         raise GrueblerError(
             f"there are no such chains with {arguments.links} links and F = {mobility}: nothing to be drawn",

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import argparse
-import json
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from gruebler.cli.machine_pictures import is_few, write_picture
-from gruebler.cli.tables import print_table
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
-from gruebler.gears.prose import number
+from gruebler.gears.assembly import axes
+from gruebler.gears.prose import number, writable
 
 __all__ = ["run"]
 
@@ -39,15 +40,15 @@ def run(arguments: argparse.Namespace) -> int:
     reading = _read(arguments.train)
     found = speeds(reading.train, reading.drives)
     forces = balance(reading.train, reading.drives, reading.loads) if reading.loads else None
+    possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     _picture(arguments, reading)
     if arguments.json:
-        print(json.dumps(_document(reading, found, forces), ensure_ascii=False, indent=2))
+        print_json(_document(reading, found, forces))
     else:
-        print(explain(reading, arguments.lang))
+        print_text(explain(reading, arguments.lang))
         if reading.drives:
             print()
             _print_speeds(reading, found, forces, arguments.lang)
-    possible = all(assembly(reading.train, planet, count).possible for planet, count in reading.planets.items())
     return int((bool(reading.drives) and not found.complete) or not possible)
 
 
@@ -117,6 +118,16 @@ def _document(reading: Reading, found: Speeds, forces: Balance | None) -> dict[s
     if forces:
         document["torques"] = {link: _value(value) for link, value in forces.torques.items()}
         document["powers"] = {link: _value(value) for link, value in forces.powers.items()}
+    document["axes"] = [
+        {
+            "planet": one.planet,
+            "carrier": one.carrier,
+            "wheels": [mesh.b for mesh in one.meshes],
+            "coaxial": one.coaxial,
+        }
+        | {"distances_in_half_modules": [_value(distance) for distance in one.distances]}
+        for one in axes(train)
+    ]
     if reading.planets:
         tested = [assembly(train, planet, count) for planet, count in reading.planets.items()]
         document["assembly"] = [
@@ -128,7 +139,11 @@ def _document(reading: Reading, found: Speeds, forces: Balance | None) -> dict[s
 
 
 def _value(value: Fraction | float | None) -> dict[str, Any] | None:
-    """Both the exact text and a number."""
+    """Both the exact text and a number; neither where there are too many digits for it."""
     if value is None:
         return None
-    return {"exact": str(value) if isinstance(value, Fraction) else None, "value": float(value)}
+    try:
+        plain: float | None = float(value)
+    except OverflowError:
+        plain = None
+    return {"exact": str(value) if isinstance(value, Fraction) and writable(value) else None, "value": plain}

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from typing import Any
 
 import numpy as np
 
 from gruebler.cli.machine_pictures import angle_of, write_picture
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
@@ -25,6 +25,8 @@ _ROWS = {
     "engaged_deg": ("driver's angle for a step", "Treiberwinkel je Schritt", "°"),
     "motion_fraction": ("part of a turn in motion", "Bewegungsanteil einer Umdrehung", ""),
     "dwell_fraction": ("part of a turn in dwell", "Rastanteil einer Umdrehung", ""),
+    "dwell_begin_deg": ("dwell from the driver's angle", "Rast vom Treiberwinkel", "°"),
+    "dwell_end_deg": ("... to", "... bis", "°"),
     "greatest_ratio": ("greatest speed by driver's speed", "größte Drehzahl durch Antriebsdrehzahl", ""),
     "greatest_acceleration": ("greatest acceleration by speed²", "größte Beschleunigung durch Drehzahl²", ""),
     "greatest_acceleration_at_deg": ("... at the driver's angle ±", "... beim Treiberwinkel ±", "°"),
@@ -60,7 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         if table is not None:
             keys = ("driver_deg", "wheel_deg", *_TABLE["en"][2:])
             document["motion"] = records(keys, table)
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
         return 0
     german = arguments.lang == "de"
     rows = [(_ROWS[key][german], f"{value:.10g}{_ROWS[key][2]}") for key, value in figures.items()]
@@ -92,6 +94,8 @@ def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict
         "engaged_deg": math.degrees(2 * drive.engaged),
         "motion_fraction": drive.motion_fraction,
         "dwell_fraction": drive.dwell_fraction,
+        "dwell_begin_deg": math.degrees(drive.engaged),
+        "dwell_end_deg": math.degrees(math.tau / drive.pins - drive.engaged),
         "greatest_ratio": drive.greatest_ratio,
         "greatest_acceleration": drive.greatest_acceleration,
         "greatest_acceleration_at_deg": math.degrees(drive.greatest_acceleration_at),

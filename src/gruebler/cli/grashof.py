@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 
-from gruebler.cli.tables import print_table
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.linkages.extremes import Arc
 from gruebler.linkages.four_bar import FourBar
@@ -59,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError(f"four lengths A B C D are needed (three go with --free), not {len(lengths)}")
     four_bar = FourBar(*lengths)
     if arguments.json:
-        print(json.dumps(_document(four_bar), ensure_ascii=False, indent=2))
+        print_json(_document(four_bar))
     else:
         _say(four_bar, arguments.lang)
     grashof = four_bar.grashof
@@ -93,7 +93,7 @@ def _along(given: dict[str, float], arguments: argparse.Namespace) -> int:
     found = turning_ranges(turns, **given) if turns else types_along(**given)
     if arguments.json:
         items = [_range_item(part) for part in found]
-        print(json.dumps({**given, "free": free, "turns": turns, "items": items}, ensure_ascii=False, indent=2))
+        print_json({**given, "free": free, "turns": turns, "items": items})
     elif not found:
         print(words["none"].format(free=free, turns=turns))
     else:
@@ -124,7 +124,7 @@ def _range_item(part: LengthRange) -> dict[str, object]:
 
 def _say(four_bar: FourBar, lang: str) -> None:
     words = _WORDS[lang]
-    print(four_bar.grashof.explain(lang))
+    print_text(four_bar.grashof.explain(lang))
     if not four_bar.limits:
         return
     arcs = words["or"].join(_arc(arc, words["full"]) for arc in four_bar.limits)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import re
 from typing import Any
 
 from gruebler.cli import capellen
 from gruebler.cli.measured import in_language, length_of, same_unit
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
@@ -69,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
         if task:
             raise GrueblerError("a size is found for one linkage: give its name")
         if arguments.json:
-            print(json.dumps([_item(one) for one in GUIDANCES], ensure_ascii=False, indent=2))
+            print_json([_item(one) for one in GUIDANCES])
         else:
             rows = [_row(one, arguments.lang) for one in GUIDANCES]
             print_table(words["headers"], rows, numbers=(2, 5, 6, 7))
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
         print(error)
         return 1
     if arguments.json:
-        print(json.dumps(_item(one) | (_sized_item(one, found) if found else {}), ensure_ascii=False, indent=2))
+        print_json(_item(one) | (_sized_item(one, found) if found else {}))
         return 0
     print_table(words["headers"], [_row(one, arguments.lang)], numbers=(2, 5, 6, 7))
     print(f"\n{words['proportions'].format(text=one.proportions.said(arguments.lang))}")

@@ -10,9 +10,10 @@ from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import decode
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of"]
+__all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of", "outputs_of"]
 
 
 def is_text(word: str) -> bool:
@@ -25,13 +26,15 @@ def _is_code(word: str) -> bool:
 
 
 def _of_file(word: str) -> Mechanism | None:
-    """The mechanism of a file with the dimensions of a linkage, if the word is one."""
+    """The mechanism of a file with the dimensions of a linkage or the screws of its joints, if the word is one."""
     path = Path(word)
-    if is_text(word) or path.suffix.lower() not in (".toml", ".json") or not path.is_file():
+    if is_text(word) or not path.suffix or not path.is_file():
         return None
-    from gruebler.linkages.files import read_linkage
+    if path.suffix.lower() not in (".toml", ".json"):
+        raise GrueblerError(f"{path}: expected a .toml or .json file of a linkage, not {path.suffix}")
+    from gruebler.freedoms.files import read_any_linkage
 
-    return read_linkage(path).mechanism
+    return read_any_linkage(path).mechanism
 
 
 def chain_of(word: str, space: str | None = None) -> Chain:
@@ -59,6 +62,21 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
         chain = chain_of(word)
         found = Mechanism(chain, chain.links[0])
     return Mechanism(found.chain, found.frame if frame is None else frame, drives or found.drives)
+
+
+def outputs_of(word: str) -> tuple[str, ...]:
+    """The output links that a text's mark, a linkage file or a catalog entry names."""
+    if _of_file(word) is not None:
+        from gruebler.freedoms.files import read_any_linkage
+
+        linkage = read_any_linkage(Path(word))
+        return linkage.outputs if isinstance(linkage, Linkage) else ()
+    if not is_text(word):
+        return entry(word).outputs
+    if _is_code(word) or ";" not in word:
+        return ()
+    output = Mechanism.parse_with_output(word)[1]
+    return () if output is None else (output,)
 
 
 def assortment_of(text: str | None) -> tuple[int, ...] | None:

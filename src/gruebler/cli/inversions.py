@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import argparse
-import json
+from collections.abc import Sequence
 
 from gruebler.cli.inputs import chain_of
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven, driven_mechanisms, family, inversions
-from gruebler.mechanism import Mechanism
 
 __all__ = ["item", "run"]
 
-_HEADERS = {"en": ("frame", "drive", "output", "family"), "de": ("Gestell", "Antrieb", "Abtrieb", "Familie")}
+_HEADERS = {
+    "en": {"frame": "frame", "drive": "drive", "output": "output", "family": "family"},
+    "de": {"frame": "Gestell", "drive": "Antrieb", "output": "Abtrieb", "family": "Familie"},
+}
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -37,18 +40,21 @@ def run(arguments: argparse.Namespace) -> int:
         document: dict[str, object] = {"count": len(found)}
         if not arguments.count:
             document["items"] = [item(driven) for driven in found]
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     elif arguments.count:
         print(len(found))
+    elif arguments.text:
+        for driven in found:
+            print(driven)
     else:
-        print_table(_HEADERS[arguments.lang], [_row(driven, arguments.lang) for driven in found])
+        _print(found, arguments.lang)
     return 0
 
 
 def item(driven: Driven) -> dict[str, object]:
-    """One item of a JSON list: code (None where codes have no place for a drive), text, family if it has one."""
+    """One item of a JSON list: code, text, and family and output if there are any."""
     mechanism = driven.mechanism
-    out: dict[str, object] = {"code": _code(mechanism), "text": str(mechanism)}
+    out: dict[str, object] = {"code": mechanism.code(), "text": driven.text()}
     if (name := family(mechanism)) is not None:
         out["family"] = name
     if driven.output is not None:
@@ -56,14 +62,18 @@ def item(driven: Driven) -> dict[str, object]:
     return out
 
 
-def _code(mechanism: Mechanism) -> str | None:
-    try:
-        return mechanism.code()
-    except GrueblerError:
-        return None
-
-
-def _row(driven: Driven, lang: str) -> tuple[str, str, str, str]:
+def _row(driven: Driven, lang: str) -> dict[str, str]:
     mechanism = driven.mechanism
-    drives = ", ".join(mechanism.drive_names())
-    return mechanism.frame, drives, driven.output or "", family(mechanism, lang) or ""
+    return {
+        "frame": mechanism.frame,
+        "drive": ", ".join(mechanism.drive_names()),
+        "output": driven.output or "",
+        "family": family(mechanism, lang) or "",
+    }
+
+
+def _print(found: Sequence[Driven], lang: str) -> None:
+    """The table, without a column that is empty in every row."""
+    rows = [_row(driven, lang) for driven in found]
+    keys = [key for key in _HEADERS[lang] if key == "frame" or any(row[key] for row in rows)]
+    print_table([_HEADERS[lang][key] for key in keys], [[row[key] for key in keys] for row in rows])

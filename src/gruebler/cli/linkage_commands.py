@@ -327,9 +327,16 @@ def _add_gallery(commands: _Commands) -> None:
         "gallery",
         help="draw all chains or mechanisms of a request on one page",
         description="All chains of a request, or machines of the catalog, on one page.",
-        epilog="Example: gruebler gallery --links 8 -o eight.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
+        epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler variants --links 6 --prismatic 1 | "
+        "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
     )
-    gallery.add_argument("ids", nargs="*", metavar="ID", help="entries of the catalog, instead of a request")
+    gallery.add_argument(
+        "ids",
+        nargs="*",
+        metavar="ID|CHAIN|FILE|-",
+        help="instead of a request: entries of the catalog, texts of chains and mechanisms, files with one a line, or "
+        "- for lines on standard input",
+    )
     gallery.add_argument("--links", type=int, metavar="N", help="number of links")
     gallery.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
     gallery.add_argument(

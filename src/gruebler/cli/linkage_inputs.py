@@ -55,8 +55,15 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
         raise GrueblerError(f"{word!r}: expected {_forms()}{nearest(kind, _DOORS)}")
     record = entry(word)
     if record.dimensions is None:
-        sized = [one.id for one in entries().values() if one.dimensions is not None]
-        raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {', '.join(sized)}")
+        sized = ", ".join(one.id for one in entries().values() if one.dimensions is not None)
+        if record.screws is None:
+            raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {sized}")
+        raise GrueblerError(
+            f"the catalog entry {word!r} has the places of its joints in one position, not the sizes of its links: "
+            f"`gruebler freedoms {word}` says how it moves; sizes have: {sized}",
+            f"der Katalogeintrag {word!r} hat die Orte seiner Gelenke in einer Lage, nicht die Abmessungen seiner "
+            f"Glieder: `gruebler freedoms {word}` sagt, wie er sich bewegt; Abmessungen haben: {sized}",
+        )
     return record.linkage(), record.dimensions.range
 
 

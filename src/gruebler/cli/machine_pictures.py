@@ -6,6 +6,7 @@ import argparse
 import math
 from collections.abc import Callable
 
+from gruebler.cli.output import write_file
 from gruebler.drawing import Figure
 from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.drawing.moving_files import MOVING, moving_bytes
@@ -45,8 +46,6 @@ def write_picture(
     arguments: argparse.Namespace, still: Callable[[], Figure], moving: Callable[[float], MovingPicture]
 ) -> None:
     """Write the picture if a file is named; ``moving`` is told the seconds."""
-    from gruebler.cli.draw import written
-
     if arguments.output is None:
         refuse_picture(arguments, "needs a file for the picture: -o FILE", "verlangt eine Datei für das Bild: -o DATEI")
         return
@@ -54,7 +53,7 @@ def write_picture(
         if arguments.seconds is not None:
             raise GrueblerError("--seconds goes with --animate", "--seconds gehört zu --animate")
         suffix = suffix_of(arguments.output, SUFFIXES)
-        written(arguments.output, picture_bytes(still(), suffix, dark=arguments.dark))
+        write_file(arguments.output, picture_bytes(still(), suffix, dark=arguments.dark), arguments.lang)
         return
     if getattr(arguments, "at", None) is not None:
         raise GrueblerError(
@@ -63,4 +62,4 @@ def write_picture(
         )
     suffix = suffix_of(arguments.output, MOVING)
     shown = moving(4.0 if arguments.seconds is None else arguments.seconds)
-    written(arguments.output, moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang))
+    write_file(arguments.output, moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang), arguments.lang)

@@ -16,6 +16,7 @@ from gruebler.cli.linkage_commands import add_linkage_commands
 from gruebler.cli.plot_commands import add as add_plot_commands
 from gruebler.cli.sheet_commands import add as add_sheet_commands
 from gruebler.cli.statics_commands import add as add_statics_commands
+from gruebler.errors import shortened
 
 __all__ = ["build_parser"]
 
@@ -24,7 +25,7 @@ class _Parser(argparse.ArgumentParser):
     """argparse, but wrong usage is one sentence."""
 
     def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+        self.exit(2, f"{self.prog}: {shortened(message)} (see {self.prog} --help)\n")
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -125,6 +126,8 @@ def _add_assortments(commands: argparse._SubParsersAction[_Parser]) -> None:
     assortments.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
     assortments.add_argument("--fractionated", action="store_true", help="also degrees that only these have")
     assortments.add_argument("--multiple-joints", action="store_true", help="with joints of more than two links")
+    assortments.add_argument("--count", action="store_true", help="only how many")
+    assortments.add_argument("--yes", action="store_true", help="begin even if it will be long")
     assortments.add_argument("--json", action="store_true", help="an object with a list of assortments")
     _add_language(assortments)
     assortments.set_defaults(run="gruebler.cli.assortments")
@@ -142,6 +145,7 @@ def _add_inversions(commands: argparse._SubParsersAction[_Parser]) -> None:
     inversions.add_argument("--anywhere", action="store_true", help="drives between moving links too")
     inversions.add_argument("--number", type=int, default=1, metavar="D", help="so many drives (default: 1)")
     inversions.add_argument("--output", action="store_true", help="choose an output link too")
+    inversions.add_argument("--text", action="store_true", help="a mechanism a line, as other commands read it")
     inversions.add_argument("--count", action="store_true", help="only how many")
     inversions.add_argument("--json", action="store_true", help="an object with count and items")
     _add_language(inversions)

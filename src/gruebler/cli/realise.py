@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from dataclasses import replace
 
-from gruebler.catalog import entry
-from gruebler.cli.inputs import is_text, mechanism_of
+from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.linkage_inputs import tell_compiling
+from gruebler.cli.output import print_json, say_written
 from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
 __all__ = ["run"]
-
-_WRITTEN = {"en": "Written: {path}", "de": "Geschrieben: {path}"}
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -25,19 +22,17 @@ def run(arguments: argparse.Namespace) -> int:
         check_linkage_path(arguments.output)
     tell_compiling(arguments.lang)
     found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
-    if found.linkage is not None and not is_text(arguments.chain):
-        found = replace(found, linkage=found.linkage.with_outputs(entry(arguments.chain).outputs))
+    if found.linkage is not None and (outputs := outputs_of(arguments.chain)):
+        found = replace(found, linkage=found.linkage.with_outputs(outputs))
     if found.linkage is not None and arguments.output is not None:
         write_linkage(arguments.output, found.linkage)
+        say_written(arguments.output, arguments.lang)
     if arguments.json:
-        print(json.dumps(_document(found, arguments.lang), ensure_ascii=False, indent=2))
+        print_json(_document(found, arguments.lang))
         return 0 if found.found else 1
     print(found.message(arguments.lang))
-    if found.linkage is not None:
-        if arguments.output is None:
-            print("\n" + to_toml(found.linkage).rstrip())
-        else:
-            print(_WRITTEN[arguments.lang].format(path=arguments.output))
+    if found.linkage is not None and arguments.output is None:
+        print("\n" + to_toml(found.linkage).rstrip())
     return 0 if found.found else 1
 
 

@@ -23,6 +23,7 @@ from gruebler.catalog.feature_query import (
 )
 from gruebler.catalog.features import AccessFeatures
 from gruebler.cli.inversions import item
+from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven, family
@@ -115,7 +116,7 @@ def _look_up(query: FeatureQuery, arguments: argparse.Namespace) -> None:
     if arguments.count:
         print(json.dumps({"count": len(found)}) if arguments.json else len(found))
     elif arguments.json:
-        print(json.dumps([_document(*one) for one in found], ensure_ascii=False, indent=2))
+        print_json([_document(*one) for one in found])
     elif found:
         print_table(_HEADERS[arguments.lang], [_row(*one, arguments.lang) for one in found], numbers=(2, 3, 4))
     else:
@@ -175,7 +176,7 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
     more = arguments.limit == number and next(found, None) is not None
     if arguments.json:
         document = {"count": number, "complete": not more} | ({} if arguments.count else {"items": items})
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     elif arguments.count and not more:
         print(number)
     else:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
-import sys
 from typing import Any
 
-from gruebler.cli.draw import written
 from gruebler.cli.measured import length_of, same_unit
+from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.sheets import Sheet, Sized, Told, sheet, sheets
@@ -67,7 +65,7 @@ def _list(arguments: argparse.Namespace) -> None:
             }
             for one in sheets().values()
         ]
-        _print_json(items)
+        print_json(items)
         return
     rows = [
         (one.id, one.record.title.said(arguments.lang), one.record.source.said(arguments.lang))
@@ -83,9 +81,9 @@ def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
     suffix = "svg" if arguments.output is None else suffix_of(arguments.output, SUFFIXES)
     made = page(one, arguments.lang)
     if arguments.output is None:
-        sys.stdout.write(made.svg())
+        print_svg(made.svg())
     else:
-        written(arguments.output, made.written(suffix))
+        write_file(arguments.output, made.written(suffix), arguments.lang)
 
 
 # --- show -------------------------------------------------------------------------------------------
@@ -94,7 +92,7 @@ def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
 def _show(one: Sheet, arguments: argparse.Namespace) -> int:
     """The sheet in words; status 1 if a value does not hold."""
     if arguments.json:
-        _print_json(_item(one, arguments.lang))
+        print_json(_item(one, arguments.lang))
         return int(bool(one.wrong))
     lang, words = arguments.lang, _WORDS[arguments.lang]
     title = f"{one.record.title.said(lang)} ({one.id})"
@@ -194,7 +192,7 @@ def _size(one: Sheet, arguments: argparse.Namespace) -> int:
         print(error)
         return 1
     if arguments.json:
-        _print_json(_sized_item(found, unit))
+        print_json(_sized_item(found, unit))
     else:
         _say_size(one, found, unit, arguments.lang)
     return 0
@@ -237,7 +235,3 @@ def _sized_item(found: Sized, unit: str) -> dict[str, Any]:
         "length_by_scale": found.ratio,
         "lengths": dict(found.lengths),
     }
-
-
-def _print_json(document: Any) -> None:
-    print(json.dumps(document, ensure_ascii=False, indent=2))

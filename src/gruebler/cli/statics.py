@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -14,6 +13,8 @@ from numpy.typing import ArrayLike
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.output import print_json, write_file
+from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion, move
@@ -72,15 +73,9 @@ def run(arguments: argparse.Namespace) -> int:
     held = statics(motion, loads)
     made = _columns(held, arguments.friction, words)
     if arguments.csv is not None:
-        from gruebler.cli.draw import written
-
-        written(arguments.csv, as_csv([*made, *_components(held, words)]).encode("utf-8"))
+        write_file(arguments.csv, as_csv([*made, *_components(held, words)]).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print(
-            json.dumps(
-                _document(held, [*made, *_components(held, words)], arguments.lang), ensure_ascii=False, indent=2
-            )
-        )
+        print_json(_document(held, [*made, *_components(held, words)], arguments.lang))
     elif arguments.csv is None:
         _say(held, made, words, arguments.lang)
     return 0 if motion.complete and not held.singular.any() else 1
@@ -109,14 +104,15 @@ def _added(option: str, given: Sequence[str], count: int) -> dict[Any, ArrayLike
     out: dict[Any, ArrayLike] = {}
     for text in given:
         name, numbers = _named(option, text, count)
-        out[name] = np.add(out.get(name, 0.0), numbers)
+        key = name if option == "--moment" else point_of(name)
+        out[key] = np.add(out.get(key, 0.0), numbers)
     return out
 
 
 def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float]:
     name, equals, values = text.rpartition("=")
     if not equals or not name:
-        wanted = "POINT=FX,FY" if count == 2 else "NAME=NUMBER"
+        wanted = "POINT=FX,FY or LINK:X,Y=FX,FY" if count == 2 else "NAME=NUMBER"
         raise GrueblerError(f"{option}: expected {wanted}, but found {text!r}")
     numbers = _numbers(option, values, count)
     return name.strip(), numbers if count > 1 else numbers[0]
@@ -164,33 +160,41 @@ def _columns(held: Statics, coefficient: float | None, words: dict[str, str]) ->
         work = np.where(np.abs(held.work[:, k]) <= _NOISE * held.load[k], 0.0, held.work[:, k])
         efforts.append(Column(effort, f"N·{linkage.unit}" if turns else "N", work))
     out += efforts
-    names = mechanism.chain.joint_names()
+    names, largest = mechanism.chain.joint_names(), _largest_force(held)
     for number, joint in enumerate(mechanism.chain.joints):
         links = joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]
         for link in links:
             size = np.hypot(*held.force(number, link).T)
-            out.append(Column(words["joint"].format(joint=names[number], link=link), "N", size))
+            out.append(Column(words["joint"].format(joint=names[number], link=link), "N", size, largest))
     for number, joint in enumerate(mechanism.chain.joints if coefficient is not None else ()):
         if joint.pair.name in ("prismatic", "roll_slide"):
             assert coefficient is not None
             found = slide_friction(held, number, coefficient)
-            out.append(Column(words["friction"].format(joint=names[number]), "N", found.friction))
+            out.append(Column(words["friction"].format(joint=names[number]), "N", found.friction, largest))
             more = words["effort"].format(name=efforts[0].name)
             out.append(Column(more, efforts[0].unit, efforts[0].values + found.effort))
     return out
 
 
+def _largest_force(held: Statics) -> float:
+    """The largest force of a joint over all rows: what rounding leaves of other forces is as small against it."""
+    joints = enumerate(held.motion.linkage.mechanism.chain.joints)
+    sizes = [np.abs(held.force(number, link)) for number, joint in joints for link in joint.links]
+    return max(float(np.where(np.isfinite(size), size, 0.0).max(initial=0.0)) for size in sizes)
+
+
 def _components(held: Statics, words: dict[str, str], once: bool = False) -> list[Column]:
     """The forces of all joints on all their links, and the moments of slides; ``once``: no reactions."""
     mechanism, unit = held.motion.linkage.mechanism, held.motion.linkage.unit
-    out = []
+    out, largest = [], _largest_force(held)
     for number, (joint, name) in enumerate(zip(mechanism.chain.joints, mechanism.chain.joint_names(), strict=True)):
         for link in (_moving(joint.links, mechanism.frame),) if once and len(joint.links) == 2 else joint.links:
             said = words["joint"].format(joint=name, link=link)
-            out += [Column(f"{said} {axis}", "N", held.force(number, link)[:, k]) for k, axis in enumerate("xy")]
+            force = held.force(number, link)
+            out += [Column(f"{said} {axis}", "N", force[:, k], largest) for k, axis in enumerate("xy")]
             if joint.pair.name in ("prismatic", "double_slide"):
                 moment = words["couple"].format(joint=name, link=link)
-                out.append(Column(moment, f"N·{unit}", held.couple(number, link)))
+                out.append(Column(moment, f"N·{unit}", held.couple(number, link), largest * held.motion.linkage.size))
     return out
 
 

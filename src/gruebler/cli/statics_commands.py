@@ -25,7 +25,11 @@ def add(commands: Any) -> None:
         "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
     )
     statics.add_argument(
-        "--load", action="append", default=[], metavar="POINT=FX,FY", help="a force at a point or joint; repeatable"
+        "--load",
+        action="append",
+        default=[],
+        metavar="POINT=FX,FY",
+        help="a force at a point, a joint or LINK:X,Y; repeatable",
     )
     statics.add_argument(
         "--moment", action="append", default=[], metavar="LINK=M", help="a moment on a link, left about; repeatable"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 
 from gruebler.cli.coupler_inputs import coupler_point, sizes
+from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
 from gruebler.geometry.straight import Piece, coupler_path, longest_piece, piece, piece_of_ratio
 
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
             "ratio": found.ratio if found.length else None,
             "direction_deg": math.degrees(found.direction),
         }
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
         return 0
     rows = (
         ("angles", words["window"].format(start=start, end=end, width=end - start)),

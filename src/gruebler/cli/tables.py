@@ -3,29 +3,111 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from shutil import get_terminal_size
+from textwrap import fill
 
-__all__ = ["print_table"]
+__all__ = ["print_long_table", "print_table", "print_text", "terminal_width"]
 
 
 def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> None:
     """Print rows under headers; ``numbers`` are the columns set flush right.
+
+    A table wider than the terminal, or than 160 columns elsewhere, gets headers of several lines. On a terminal, what
+    is still wider is split into blocks, each with the first column.
 
     >>> print_table(["name", "n"], [["four-bar", "4"], ["five-bar", "5"]], numbers=[1])
     name      n
     four-bar  4
     five-bar  5
     """
-    if sys.stdout.isatty():
-        _print_rich(headers, rows, numbers)
+    terminal = sys.stdout.isatty()
+    width = terminal_width() if terminal else _WIDE
+    columns = [[header, *cells] for header, *cells in zip(headers, *rows, strict=True)]
+    if _width(columns) > width:
+        columns = [[_folded(header, cells), *cells] for header, *cells in columns]
+    blocks = _blocks(columns, width) if terminal else [list(range(len(columns)))]
+    for number, block in enumerate(blocks):
+        if number:
+            print()
+        chosen = [columns[k] for k in block]
+        right = [place for place, k in enumerate(block) if k in numbers]
+        if terminal:
+            _print_rich([head for head, *_ in chosen], list(zip(*(cells for _, *cells in chosen), strict=True)), right)
+        else:
+            _print_plain(chosen, right)
+
+
+def terminal_width() -> int:
+    """The columns of the terminal; the variable COLUMNS wins."""
+    return get_terminal_size().columns
+
+
+def print_text(text: str) -> None:
+    """Print lines; on a terminal long ones are folded at its width, with the indent of the line."""
+    if not sys.stdout.isatty():
+        print(text)
         return
-    widths = [max(len(cell) for cell in column) for column in zip(headers, *rows, strict=True)]
-    for row in (headers, *rows):
+    width = max(min(terminal_width(), _WIDEST), 30)
+    for line in text.split("\n"):
+        indent = line[: len(line) - len(line.lstrip())]
+        folded = fill(line, width, subsequent_indent=indent + "  ", break_long_words=False, break_on_hyphens=False)
+        print(folded if len(line) > width else line)
+
+
+_WIDEST = 100  # of a paragraph that is read easily
+_WIDE = 160  # of a table in a file or a pipe
+_BETWEEN = 3  # columns of a terminal for each column of a table
+
+
+def _width(columns: Sequence[Sequence[str]]) -> int:
+    """Of a table of these columns, with what rich puts between and beside them."""
+    widths = [max(len(line) for cell in column for line in cell.split("\n")) for column in columns]
+    return sum(widths) + _BETWEEN * len(widths)
+
+
+def _folded(header: str, cells: Sequence[str]) -> str:
+    """The header in lines as wide as its longest word or the widest cell."""
+    width = max(len(part) for part in (*cells, *header.split(), "-"))
+    return fill(header, width, break_long_words=False, break_on_hyphens=False)
+
+
+def _blocks(columns: Sequence[Sequence[str]], width: int) -> list[list[int]]:
+    """The numbers of the columns that stand side by side; the first column leads every block."""
+    blocks = [[0]] if columns else []
+    for k in range(1, len(columns)):
+        if len(blocks[-1]) > 1 and _width([columns[j] for j in (*blocks[-1], k)]) > width:
+            blocks.append([0])
+        blocks[-1].append(k)
+    return blocks
+
+
+def _print_plain(columns: Sequence[Sequence[str]], numbers: Sequence[int]) -> None:
+    """Aligned columns; headers of several lines stand on their last one."""
+    headers = [column[0].split("\n") for column in columns]
+    height = max(map(len, headers), default=0)
+    filled = [[*[""] * (height - len(head)), *head, *column[1:]] for head, column in zip(headers, columns, strict=True)]
+    widths = [max(map(len, column)) for column in filled]
+    for row in zip(*filled, strict=True):
         cells = [
             cell.rjust(width) if k in numbers else cell.ljust(width)
             for k, (cell, width) in enumerate(zip(row, widths, strict=True))
         ]
         print("  ".join(cells).rstrip())
+
+
+def print_long_table(headers: Sequence[str], rows: Iterable[Sequence[int]], largest: int) -> None:
+    """Print rows of numbers as they come, none of them above ``largest``, which sets the widths beforehand.
+
+    >>> print_long_table(["binary", "ternary"], [(4, 2), (5, 0)], 6)
+    binary  ternary
+         4        2
+         5        0
+    """
+    widths = [max(len(header), len(str(largest))) for header in headers]
+    print("  ".join(header.rjust(width) for header, width in zip(headers, widths, strict=True)))
+    for row in rows:
+        print("  ".join(str(number).rjust(width) for number, width in zip(row, widths, strict=True)))
 
 
 def _print_rich(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int]) -> None:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 
 from gruebler.chain import Chain
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
+from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven
 from gruebler.isomorphism import code
@@ -41,22 +43,16 @@ def run(arguments: argparse.Namespace) -> int:
     found = list(variants(wanted))
     if arguments.json:
         items = [_item(one) for one in found]
-        print(json.dumps({"count": len(items), "items": items}, ensure_ascii=False, indent=2))
+        print_json({"count": len(items), "items": items})
         return 0
     for one in found:
-        print(_text(one))
-    print("\n" + _FOUND[arguments.lang].format(n=len(found)))
+        print(one)
+    print(_FOUND[arguments.lang].format(n=len(found)), file=sys.stderr)
     return 0
 
 
 def _item(one: Chain | Driven) -> dict[str, object]:
     return item(one) if isinstance(one, Driven) else {"code": code(one), "text": str(one)}
-
-
-def _text(one: Chain | Driven) -> str:
-    if isinstance(one, Chain):
-        return str(one)
-    return str(one.mechanism) + ("" if one.output is None else f"; output {one.output}")
 
 
 def _at_frame(text: str) -> tuple[Wanted, int]:

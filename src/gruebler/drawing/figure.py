@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from gruebler.drawing.styles import STYLES
+from gruebler.views import Brief
 
 __all__ = [
     "MARGIN",
@@ -112,8 +113,8 @@ class Text:
 Shape = Lines | Circle | Arc | Text
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
+@dataclass(frozen=True, slots=True, repr=False)
+class Figure(Brief):
     """Shapes within 0 <= x <= width, 0 <= y <= height, with a title and a description for those who cannot see."""
 
     shapes: tuple[Shape, ...]

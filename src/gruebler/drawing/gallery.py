@@ -9,6 +9,7 @@ from html import escape
 from gruebler.drawing.figure import Figure
 from gruebler.drawing.styles import COLOURS
 from gruebler.drawing.svg import style_sheet, svg
+from gruebler.views import Brief
 
 __all__ = ["Item", "Section", "gallery_html"]
 
@@ -22,8 +23,8 @@ class Item:
     code: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Section:
+@dataclass(frozen=True, slots=True, repr=False)
+class Section(Brief):
     """Pictures under a heading."""
 
     heading: str

@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.drawing.figure import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.instant_centres import pole_marks
 from gruebler.drawing.labels import noted
 from gruebler.drawing.linkage_arrows import acceleration_arrows, velocity_arrows
 from gruebler.drawing.linkage_bodies import Part, at_pose, corners_of, in_link, slides
 from gruebler.drawing.linkage_dimensions import dimension_lines
-from gruebler.drawing.linkage_poles import centrode_lines, inflection_lines, pole_crosses
+from gruebler.drawing.linkage_poles import centrode_lines, inflection_lines
 from gruebler.drawing.prose import in_language
 from gruebler.drawing.sheet import Layer, Sheet
 from gruebler.drawing.stage import Stage
@@ -25,7 +26,7 @@ from gruebler.drawing.symbols import RADIUS, straight_drive, turning_drive, wide
 from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
-from gruebler.kinematics.events import dead_centres
+from gruebler.kinematics.events import stops
 from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.transmission import Leg, driving_legs
 from gruebler.linkages import Line, Named
@@ -127,10 +128,11 @@ def _free_direction(stage: Stage, joint: int, at: Point) -> float:
 
 
 def _dead_centres(sheet: Sheet) -> list[Shape]:
-    """The links as thin lines where the output stops."""
+    """The links as thin lines where the output stops or rests."""
     stage = sheet.stage
     course = stage.driven()
-    found = [centre.drive for centre in dead_centres(course, find_output(stage.linkage, sheet.output))]
+    centres, dwells = stops(course, find_output(stage.linkage, sheet.output))
+    found = [centre.drive for centre in centres] + [drive for dwell in dwells for drive in (dwell.begin, dwell.end)]
     if not stage.goes_round:
         low, high = stage.path.drives[0, 0], stage.path.drives[-1, 0]
         found = [drive for drive in found if low <= drive <= high]
@@ -238,7 +240,7 @@ LAYERS: Mapping[str, Layer] = {
     "transmission": _transmission,
     "velocities": velocity_arrows,
     "accelerations": acceleration_arrows,
-    "poles": pole_crosses,
+    "poles": pole_marks,
     "dimensions": dimension_lines,
     "scale": _later,
 }

@@ -9,6 +9,7 @@ from math import cos, degrees, pi, sin
 
 from gruebler.drawing.axes import figures
 from gruebler.drawing.figure import MARGIN, Circle, Figure, Lines, Point, Shape, Text, figure_of
+from gruebler.drawing.instant_centres import pole_numbers
 from gruebler.drawing.labels import legend, named
 from gruebler.drawing.linkage_arrows import scale_bars
 from gruebler.drawing.linkage_bodies import (
@@ -144,6 +145,9 @@ def draw_linkage(
         made["dimensions"] = dimension_lines(sheet._replace(drawn=shapes))
         shapes += made["dimensions"]
     shapes += scale_bars(sheet._replace(drawn=shapes), tuple(layers))
+    if "poles" in layers:
+        numbers = pole_numbers(linkage.mechanism.chain.links)
+        rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
     if rows:
         shapes += legend(rows, [Point(0.0, 0.0)], shapes)
     said, missing = told(stage, curves, {key: made[key] for key in layers}, lang, ghost or 0)

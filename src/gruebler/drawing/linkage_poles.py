@@ -1,4 +1,4 @@
-"""Instant centres, centrodes and the inflection circle of a link against the frame."""
+"""Centrodes and the inflection circle of a link against the frame."""
 
 from __future__ import annotations
 
@@ -15,42 +15,18 @@ from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 
-__all__ = ["centrode_lines", "inflection_lines", "pole_crosses"]
+__all__ = ["centrode_lines", "cross", "inflection_lines"]
 
 Complexes = NDArray[np.complex128]
 
-_AWAY = 0.4  # of the figure's longer side: poles farther away from it are not shown
-_WIDE = 0.3  # the same, for what is seen of centrodes and inflection circles
+_WIDE = 0.3  # of the figure's longer side: how far around it centrodes and inflection circles are seen
 _SAMPLES = 1440  # points of a centrode or circle
 _TURNING = 1e-6  # for a drive of speed 1: a link that turns more slowly has its pole far away
 _POINT = 1e-6  # sizes: a smaller inflection circle is a point
 
 
-def pole_crosses(sheet: Sheet) -> list[Shape]:
-    """The instant centres of the links against the frame, where they lie at no joint and not far away."""
-    stage = sheet.stage
-    stage.driven()
-    pose, chain, frame = stage.pose, stage.lower.mechanism.chain, stage.lower.mechanism.frame
-    given = stage.linkage.mechanism.chain.links
-    upper, lower = stage.reach
-    away = _AWAY * max(lower.x - upper.x, lower.y - upper.y)
-    frame_pins = [complex(e.x, e.y) for (_, own), e in stage.lower.elements.items() if own == frame]
-    shapes: list[Shape] = []
-    for k, link in enumerate(chain.links):
-        w = float(pose.rates[0, 0, k])
-        if link == frame or link not in given or abs(w) < 1e-6:
-            continue
-        pole = complex(pose.places[0, 0, k] + 1j * pose.places[1, 0, k] / w)
-        at = stage.local(pole)
-        beyond = max(upper.x - at.x, at.x - lower.x, upper.y - at.y, at.y - lower.y)
-        if beyond > away or min((abs(pole - pin) for pin in frame_pins), default=1.0) < 1e-6 * stage.lower.size:
-            continue
-        shapes.append(_cross(at))
-        shapes.append(noted(at, f"P({frame}, {link})", "value", [*sheet.drawn, *shapes]))
-    return shapes
-
-
-def _cross(at: Point) -> Lines:
+def cross(at: Point) -> Lines:
+    """A small cross."""
     return Lines(
         tuple((at.plus(d, -5.0), at.plus(d, 5.0)) for d in (Point(1.0, 1.0).unit, Point(1.0, -1.0).unit)), "edge"
     )
@@ -109,7 +85,7 @@ def inflection_lines(sheet: Sheet) -> list[Shape]:
     for z, name in ((pole, "P"), (pole - 1j * shift, "W")):
         point = stage.local(z)
         if lines and box.holds(point):
-            shapes.append(_cross(point) if name == "P" else Circle(point, 3.2, "dot"))
+            shapes.append(cross(point) if name == "P" else Circle(point, 3.2, "dot"))
             shapes.append(noted(point, name, "value", [*sheet.drawn, *shapes]))
     return shapes
 

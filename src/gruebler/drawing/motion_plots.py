@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from gruebler.drawing.axes import Axis, angles, decimals
 from gruebler.drawing.figure import Figure, Point
 from gruebler.drawing.plot_runs import Between, Branch, PlotRun, plot_run
-from gruebler.drawing.plots import Band, Curve, Mark, Panel, Spot, plotted
+from gruebler.drawing.plots import Band, Curve, Mark, Panel, Rest, Spot, plotted
 from gruebler.drawing.prose import in_language
 from gruebler.drawing.styles import LINES
 from gruebler.errors import LinkageError
 from gruebler.kinematics import transmission_angle
-from gruebler.kinematics.events import dead_centres, natural
+from gruebler.kinematics.events import natural, stops
 from gruebler.kinematics.outputs import Output, find_output
 from gruebler.kinematics.transmission import measure_transmission
 from gruebler.linkages import Linkage
@@ -27,7 +27,7 @@ Reals = NDArray[np.float64]
 
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three
-_NOISE = 1e-6  # of the usual size of a derivative: smaller values are none
+_NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values are none
 _WORDS = {
     "en": {
         "transfer": "{name}: transfer functions of {output}",
@@ -36,6 +36,8 @@ _WORDS = {
         "transmission_about": "Transmission angle over the drive, {range}. Smallest {mu}° at {at}; shaded below 40°.",
         "dead": "Dead centres at {values}.",
         "mark": "dead centre",
+        "rests": "Dwells, shaded: {values}.",
+        "rest": "dwell",
     },
     "de": {
         "transfer": "{name}: Übertragungsfunktionen von {output}",
@@ -45,6 +47,8 @@ _WORDS = {
         "getönt.",
         "dead": "Totlagen bei {values}.",
         "mark": "Totlage",
+        "rests": "Rasten, getönt: {values}.",
+        "rest": "Rast",
     },
 }
 
@@ -59,7 +63,7 @@ def transfer_plot(
     name: str = "",
     names: Mapping[str, str] | None = None,
 ) -> Figure:
-    """The transfer functions of order 0, 1 and 2 over the drive, one below the other, with the dead centres.
+    """The transfer functions of order 0, 1 and 2 over the drive, one below the other, with dead centres and dwells.
 
     Args:
         linkage: with one drive.
@@ -81,7 +85,7 @@ def transfer_plot(
     found, words = find_output(linkage, output), _WORDS[lang]
     _check(run, found, output)
     called = (names or {}).get(found.name, found.name)
-    marks = _dead(run, found)
+    marks, rests = _stops(run, found, words["rest"])
     panels = []
     for order in range(3):
         values = found.track(run.motion, order)
@@ -94,8 +98,9 @@ def transfer_plot(
         axis = Axis(_order_words(run, found, order), scale(*run.bulk(values), few=6))
         shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
         curves = (Curve(run.x, values, "", LINES[0]),)
-        panels.append(Panel(run.across, axis, curves, marks=shown, size=_LOW, marked=words["mark"]))
-    about = words["transfer_about"].format(range=run.range, output=called) + _told(marks, words)
+        named = rests if order == 0 else tuple(rest._replace(words="") for rest in rests)
+        panels.append(Panel(run.across, axis, curves, marks=shown, rests=named, size=_LOW, marked=words["mark"]))
+    about = words["transfer_about"].format(range=run.range, output=called) + _described(run, marks, rests, words)
     return plotted(panels, words["transfer"].format(name=run.name, output=called), about, lang)
 
 
@@ -104,7 +109,9 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
     linkage = run.course.linkage
     frame = linkage.mechanism.frame
     moving = [link for link in linkage.mechanism.chain.links if link != frame]
-    still = {link: np.ptp(find_output(linkage, link).track(run.motion, 0)) < _NOISE for link in moving}
+    seen = {link: find_output(linkage, link) for link in moving}
+    sizes = {link: 1.0 if seen[link].turning else run.course.plan.lower.size for link in moving}
+    still = {link: np.ptp(seen[link].track(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
     others = ", ".join(link for link in moving if not still[link])
     if output.link == frame:
         raise LinkageError(
@@ -120,10 +127,13 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
         )
 
 
-def _told(marks: tuple[Mark, ...], words: dict[str, str]) -> str:
-    """The dead centres in words."""
+def _described(run: PlotRun, marks: tuple[Mark, ...], rests: tuple[Rest, ...], words: dict[str, str]) -> str:
+    """The dead centres and dwells in words."""
     values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
-    return " " + words["dead"].format(values=values) if values else ""
+    out = " " + words["dead"].format(values=values) if values else ""
+    to = math.radians if run.course.turning_drive else float
+    ranges = ", ".join(f"{run.value(to(rest.low))} – {run.value(to(rest.high))}" for rest in rests)
+    return out + (" " + words["rests"].format(values=ranges) if ranges else "")
 
 
 def _order_words(run: PlotRun, output: Output, order: int) -> str:
@@ -149,14 +159,24 @@ def _least(run: PlotRun, output: Output, order: int) -> float:
     return _NOISE * natural(run.course, output) / by
 
 
-def _dead(run: PlotRun, output: Output) -> tuple[Mark, ...]:
-    """The dead centres within what is plotted."""
-    drives = [run.within(centre.drive) for centre in dead_centres(run.course, output)]
+def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[Mark, ...], tuple[Rest, ...]]:
+    """The dead centres and the dwells within what is plotted."""
+    centres, dwells = stops(run.course, output)
+    drives = [run.within(centre.drive) for centre in centres]
     shown = sorted(drive for drive in drives if drive is not None)
-    end, period = float(run.drives[-1]), run.course.span.period
-    again = [drive + period for drive in shown if drive + period <= end + 1e-9]
+    low, high, period = float(run.drives[0]), float(run.drives[-1]), run.course.span.period
+    again = [drive + period for drive in shown if drive + period <= high + 1e-9 * period]
     marks = [Mark(run.shown(drive), run.value(drive)) for drive in shown]
-    return *marks, *(Mark(run.shown(drive), "") for drive in again)
+    marks += [Mark(run.shown(drive), "") for drive in again]
+    rests = []
+    for dwell in dwells:
+        laps = range(math.floor((low - dwell.end) / period), math.ceil((high - dwell.begin) / period) + 1)
+        for lap in laps if period < math.inf else (0,):
+            shift = lap * period if lap else 0.0
+            begin, end = max(low, dwell.begin + shift), min(high, dwell.end + shift)
+            if end - begin > 1e-9 * (high - low):
+                rests.append(Rest(run.shown(begin), run.shown(end), word))
+    return tuple(marks), tuple(sorted(rests))
 
 
 def transmission_plot(
@@ -186,15 +206,17 @@ def transmission_plot(
     if at is None:
         row = int(values.argmin())
         least, at = float(values[row]), float(run.drives[row])
+    marks, rests = _stops(run, found, words["rest"])
     panel = Panel(
         run.across,
         Axis("μ in °", decimals(0.0, 90.0, few=9)),
         (Curve(run.x, values, "", LINES[0]),),
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
-        marks=_dead(run, found),
+        marks=marks,
+        rests=rests,
         spots=(Spot(run.shown(at), least, f"μ_min = {least:.1f}°"),),
         marked=words["mark"],
     )
     about = words["transmission_about"].format(range=run.range, mu=in_language(f"{least:.2f}", lang), at=run.value(at))
-    about += _told(panel.marks, words)
+    about += _described(run, marks, rests, words)
     return plotted([panel], words["transmission"].format(name=run.name, output=called), about, lang)

@@ -18,7 +18,7 @@ from gruebler.drawing.room import Room, complexes
 from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import GrueblerError
 
-__all__ = ["Band", "Curve", "Mark", "Panel", "Spot", "plotted", "ratio_diagram"]
+__all__ = ["Band", "Curve", "Mark", "Panel", "Rest", "Spot", "plotted", "ratio_diagram"]
 
 Reals = NDArray[np.float64]
 
@@ -67,6 +67,14 @@ class Mark(NamedTuple):
     words: str
 
 
+class Rest(NamedTuple):
+    """A range of the axis below that is shaded: a dwell, with words above it."""
+
+    low: float
+    high: float
+    words: str
+
+
 class Panel(NamedTuple):
     """One pair of axes, or one with a second axis on the right, and what is in it."""
 
@@ -77,6 +85,7 @@ class Panel(NamedTuple):
     bands: tuple[Band, ...] = ()
     marks: tuple[Mark, ...] = ()
     spots: tuple[Spot, ...] = ()
+    rests: tuple[Rest, ...] = ()
     size: Point = _SIZE
     marked: str = ""
     """What the marks are, for the list of lines."""
@@ -129,7 +138,15 @@ def _painted(panel: Panel) -> list[Shape]:
         drawn.append(Circle(at, 3.2, "dot"))
         drawn += [noted(at, spot.words, "value", [*drawn, margins])] if spot.words else []
     shaded = [shape for band in panel.bands for shape in _shaded(panel, band, drawn)]
-    return [*shaded, *_grid(panel), *drawn]
+    rests = [_rest(panel, rest) for rest in panel.rests]
+    return [*rests, *shaded, *_grid(panel), *drawn]
+
+
+def _rest(panel: Panel, rest: Rest) -> Shape:
+    """A dwell, shaded from below to above."""
+    left, right = (panel.size.x * panel.across.scale.part(x) for x in (rest.low, rest.high))
+    high = panel.size.y
+    return Lines(((Point(left, 0.0), Point(right, 0.0), Point(right, -high), Point(left, -high)),), "rest", closed=True)
 
 
 # --- axes ------------------------------------------------------------------------------------------
@@ -166,7 +183,9 @@ def _frame(panel: Panel) -> Iterator[Shape]:
     yield Lines(tuple(strokes), "axis")
     yield from texts
     yield Text(Point(wide, _TICK + 27.0), panel.across.words, "value", "end")
-    above = -high - _ABOVE * (2 if any(mark.words for mark in panel.marks) else 1)
+    above = -high - _ABOVE * (
+        2 if any([*(mark.words for mark in panel.marks), *(rest.words for rest in panel.rests)]) else 1
+    )
     yield Text(Point(0.0, above), panel.up.words, "value", "start")
     if panel.right:
         yield Text(Point(wide, above), panel.right.words, "value", "end")
@@ -184,12 +203,14 @@ def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]
 
 
 def _marks(panel: Panel) -> Iterator[Shape]:
-    """Lines upwards; their words stand side by side above the panel, as long as there is room."""
+    """Lines upwards; their words and those of dwells stand side by side above the panel, as long as there is room."""
     last = -math.inf
-    for mark in sorted(panel.marks):
+    rests = [Mark((rest.low + rest.high) / 2, rest.words) for rest in panel.rests]
+    for mark in sorted([*panel.marks, *rests]):
         foot = panel.place(mark.x, panel.up.scale.low)
         top = Point(foot.x, -panel.size.y)
-        yield Lines(((foot, top),), "dead")
+        if mark not in rests:
+            yield Lines(((foot, top),), "dead")
         half = text_width(mark.words, 11.0) / 2
         if mark.words and foot.x - half > last:
             yield Text(top.plus(Point(0.0, -13.0)), mark.words, "tick")

@@ -97,6 +97,7 @@ STYLES = {
     "centrode-moving": Style(stroke="purple", width=1.6, dash=_DASHED),
     "inflection": Style(stroke="accent", width=1.5, dash=_DASHED),
     "warning": Style(fill="warning"),
+    "rest": Style(fill="frame"),
     "grid": Style(stroke="grid", width=1.0),
     "axis": Style(stroke="ink", width=1.2),
     "dead": Style(stroke="faint", width=1.2, dash=_DASHED),

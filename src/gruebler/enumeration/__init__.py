@@ -1,11 +1,15 @@
 """Every chain, exactly once: assortments, contracted graphs, and the chains as numbers, values or bytes."""
 
-from gruebler.enumeration.assortment import Assortment, assortments, largest_degree
+from gruebler.enumeration.assortment import Assortment, assortment_number, assortments, each_assortment, largest_degree
 from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
 from gruebler.enumeration.counting import ChainCount, count_chains
 from gruebler.enumeration.kinematic import chains_of, edge_blocks, graph6_blocks
-from gruebler.enumeration.multiple_assortment import joint_assortments
+from gruebler.enumeration.multiple_assortment import (
+    each_joint_assortment,
+    joint_assortment_number,
+    joint_assortments,
+)
 from gruebler.enumeration.request import Request, RequestCount, chains, count
 
 __all__ = [
@@ -14,15 +18,19 @@ __all__ = [
     "ContractedGraph",
     "Request",
     "RequestCount",
+    "assortment_number",
     "assortments",
     "chains",
     "chains_of",
     "contracted_graphs",
     "count",
     "count_chains",
+    "each_assortment",
+    "each_joint_assortment",
     "edge_blocks",
     "fractionation",
     "graph6_blocks",
+    "joint_assortment_number",
     "joint_assortments",
     "largest_degree",
 ]

@@ -12,9 +12,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gruebler.enumeration.partitions import Partition, partition_numbers, partitions_of_length
 from gruebler.errors import GrueblerError
 
-__all__ = ["Assortment", "assortments", "joint_number", "largest_degree", "loop_number"]
+__all__ = [
+    "Assortment",
+    "assortment_number",
+    "assortments",
+    "each_assortment",
+    "joint_number",
+    "largest_degree",
+    "loop_number",
+    "numbers_of",
+]
 
 Assortment = tuple[int, ...]
 """(n_2, n_3, n_4, ...): how many links have two, three, four ... joints, without zeros at the end."""
@@ -71,7 +81,8 @@ def assortments(links: int, mobility: int = 1, *, fractionated: bool = False) ->
         fractionated: whether to allow the larger degrees that only fractionated chains (F >= 2) have.
 
     Every assortment in the list has a contracted graph; whether it has a chain that is nowhere rigid only the
-    enumeration tells (with F = 0 often not).
+    enumeration tells (with F = 0 often not). Their number grows like exp(2.6 sqrt(n)): `assortment_number` tells it
+    at once, and `each_assortment` gives them one by one.
 
     Raises:
         GrueblerError: links < 1 or mobility < 0.
@@ -81,26 +92,47 @@ def assortments(links: int, mobility: int = 1, *, fractionated: bool = False) ->
     >>> assortments(5, 2), assortments(8, 2)
     ([(5,)], [])
     """
-    largest = largest_degree(links, mobility, fractionated=fractionated)
-    if largest is None:
-        return []
-    found = []
-    for higher in _higher(links, largest, 4):
-        binary = mobility + 3 + sum((i - 3) * k for i, k in enumerate(higher, 4))
-        ternary = links - binary - sum(higher)
-        if ternary >= 0:
-            whole = [binary, ternary, *higher]
-            while whole[-1] == 0:
-                whole.pop()
-            found.append(tuple(whole))
-    return sorted(found)
+    return list(each_assortment(links, mobility, fractionated=fractionated))
 
 
-def _higher(room: int, largest: int, degree: int) -> Iterator[tuple[int, ...]]:
-    """(n_4, n_5, ...): a link of i joints brings i - 3 binary links, so it takes i - 2 places."""
-    if degree > largest:
-        yield ()
+def each_assortment(links: int, mobility: int = 1, *, fractionated: bool = False) -> Iterator[Assortment]:
+    """The assortments of `assortments` one by one, in the same order, in constant memory.
+
+    >>> next(each_assortment(1000))[:2]
+    (4, 996)
+    """
+    loops, largest = loop_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    if loops is None or largest is None:
         return
-    for k in range(room // (degree - 2) + 1):
-        for rest in _higher(room - k * (degree - 2), largest, degree + 1):
-            yield (k, *rest)
+    # A link of i joints is a part i - 2 of 2(L - 1); what has no part is a binary link.
+    total = 2 * (loops - 1)
+    for length in range(total, -1, -1):
+        for partition in partitions_of_length(total, length, largest - 2):
+            yield numbers_of(links - length, partition)
+
+
+def numbers_of(first: int, partition: Partition) -> Assortment:
+    """The number ``first``, then how often each part 1, 2, ... occurs.
+
+    >>> numbers_of(7, ((1, 1), (3, 2)))
+    (7, 1, 0, 2)
+    """
+    counts = [first] + [0] * (partition[-1][0] if partition else 0)
+    for part, times in partition:
+        counts[part] = times
+    return tuple(counts)
+
+
+def assortment_number(links: int, mobility: int = 1, *, fractionated: bool = False) -> int:
+    """How many assortments `assortments` lists, without listing them: a number of partitions; O(n^1.5).
+
+    >>> assortment_number(8), assortment_number(100)
+    (3, 117343357)
+    """
+    loops, largest = loop_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    if loops is None or largest is None:
+        return 0
+    total = 2 * (loops - 1)
+    numbers = partition_numbers(total)
+    # At most one part can be too large, since the largest allowed one is at least half of the total.
+    return numbers[total] - sum(numbers[: max(0, total - largest + 2)])

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from gruebler.enumeration.assortment import Assortment, joint_number, largest_degree
+from gruebler.enumeration.assortment import Assortment, joint_number, largest_degree, numbers_of
+from gruebler.enumeration.partitions import Partition, partition_numbers, partitions, running_sums
 
-__all__ = ["JointAssortment", "joint_assortments"]
+__all__ = ["JointAssortment", "each_joint_assortment", "joint_assortment_number", "joint_assortments"]
 
 
 class JointAssortment(NamedTuple):
@@ -31,38 +32,53 @@ def joint_assortments(links: int, mobility: int = 1, *, fractionated: bool = Fal
     (5, 1) (5, 1)
     (6,) (3, 2)
     """
+    return list(each_joint_assortment(links, mobility, fractionated=fractionated))
+
+
+def each_joint_assortment(links: int, mobility: int = 1, *, fractionated: bool = False) -> Iterator[JointAssortment]:
+    """The assortments of `joint_assortments` one by one, in the same order, in constant memory.
+
+    >>> next(each_joint_assortment(6))
+    JointAssortment(links=(4, 2), joints=(7,))
+    """
     joints, largest = joint_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
     if joints is None or largest is None:
-        return []
-    found = []
-    for merged in range(2 * (joints - links) + 1):
-        for higher in _shared_out(merged, largest - 2):
-            together = sum(k * (i + 1) for i, k in enumerate(higher, 1))
-            simple = joints - together
+        return
+    total = 2 * (joints - links)
+    for merged in range(total + 1):
+        for together in partitions(merged, largest - 2):
+            simple = joints - merged - _length(together)
             if simple < 0:
                 continue
             # Every link has two joints; what is left of the joints' elements is shared out one by one.
-            spare = 2 * joints - merged - 2 * links
-            for more in _shared_out(spare, largest - 2):
-                binary = links - sum(more)
-                if binary >= 0:
-                    found.append(JointAssortment(_trimmed(binary, *more), _trimmed(simple, *higher)))
+            for more in partitions(total - merged, largest - 2):
+                yield JointAssortment(numbers_of(links - _length(more), more), numbers_of(simple, together))
+
+
+def joint_assortment_number(links: int, mobility: int = 1, *, fractionated: bool = False) -> int:
+    """How many assortments `joint_assortments` lists, without listing them; docs/theory/multiple-joints.md.
+
+    >>> joint_assortment_number(6), joint_assortment_number(100)
+    (3, 930512111350)
+    """
+    joints, largest = joint_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    if joints is None or largest is None:
+        return 0
+    total = 2 * (joints - links)
+    numbers = partition_numbers(total)
+    sums = running_sums(numbers)
+
+    def above(of: int, bound: int) -> int:
+        """Partitions with a part (or, by conjugation, a number of parts) above the bound, at least half of ``of``."""
+        return sums[max(0, of - bound)]
+
+    found = 0
+    for merged in range(total + 1):
+        rest = total - merged
+        together = numbers[merged] - above(merged, largest - 2) - above(merged, joints - merged)
+        found += together * (numbers[rest] - above(rest, largest - 2))
     return found
 
 
-def _shared_out(total: int, largest: int) -> Iterator[tuple[int, ...]]:
-    """(k_1, k_2, ..., k_largest) with sum i k_i = total."""
-    if largest < 1:
-        if total == 0:
-            yield ()
-        return
-    for k in range(total // largest + 1):
-        for rest in _shared_out(total - k * largest, largest - 1):
-            yield (*rest, k)
-
-
-def _trimmed(*numbers: int) -> Assortment:
-    kept = list(numbers)
-    while len(kept) > 1 and kept[-1] == 0:
-        kept.pop()
-    return tuple(kept)
+def _length(partition: Partition) -> int:
+    return sum(times for _, times in partition)

@@ -6,8 +6,8 @@ from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
+from gruebler.atomic_files import temporary_directory
 from gruebler.enumeration.assortment import loop_number
 from gruebler.enumeration.checkpoint import Checkpoint, PieceFiles
 from gruebler.enumeration.request import Request, RequestCount
@@ -49,9 +49,10 @@ def run_count(
 
     def known(number: int) -> list[Tally] | None:
         kept = store.head(number) if store is not None else None
-        if kept is None:
+        try:
+            found = [Tally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (kept or {})["tallies"]]
+        except (KeyError, TypeError, ValueError):  # none, or not the head of a counted piece
             return None
-        found = [Tally(kind, tuple(assortment), *numbers) for kind, assortment, *numbers in kept["tallies"]]
         watch.add(sum(tally.chains for tally in found), fresh=False)
         return found
 
@@ -62,7 +63,10 @@ def run_count(
 
     size = _COUNTED_LONG if (loop_number(request.links, request.mobility) or 0) > 7 else _COUNTED
     results = perform(Counter(request, orbits), work_of(request, size=size), executor, known=known, finished=finished)
-    return add_tallies(request, orbits, results)
+    found = add_tallies(request, orbits, results)
+    if store is not None:
+        store.tidy()
+    return found
 
 
 def run_list(
@@ -84,9 +88,10 @@ def run_list(
     work = work_of(request, size=_LISTED[form])
     if store is not None:
         yield from _filed(lister, work, executor, store, watch)
+        store.tidy()
     elif executor is not None:
-        with TemporaryDirectory(prefix="gruebler-") as directory:
-            yield from _filed(lister, work, executor, PieceFiles(Path(directory), durable=False), watch)
+        with temporary_directory() as directory:
+            yield from _filed(lister, work, executor, PieceFiles(directory, durable=False), watch)
     else:
         for piece in work:
             found = lister(piece)
@@ -121,10 +126,10 @@ def _filed(
     watch: Watch,
 ) -> Iterator[Listing]:
     def known(number: int) -> _Head | None:
-        kept = files.head(number)
-        if kept is None:
+        try:
+            head = [(kind, chains, length) for kind, chains, length in (files.head(number) or {})["listings"]]
+        except (KeyError, TypeError, ValueError):  # none, or not the head of a listed piece
             return None
-        head = [(kind, chains, length) for kind, chains, length in kept["listings"]]
         watch.add(sum(chains for _, chains, _ in head), fresh=False)
         return head
 

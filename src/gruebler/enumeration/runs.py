@@ -17,7 +17,7 @@ from multiprocessing.connection import Connection
 from time import monotonic
 from typing import Generic, TypeVar
 
-from gruebler.enumeration.checkpoint import RunError
+from gruebler.errors import RunError
 
 __all__ = ["Processes", "Progress", "Watch", "perform"]
 

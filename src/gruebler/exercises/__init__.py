@@ -6,7 +6,7 @@ as a result. docs/theory/exercises.md has the conventions and the misprints with
 """
 
 from gruebler.exercises.making import KINDS, LEVELS, fresh
-from gruebler.exercises.marking import Mark, Marked, mark, plain_key
+from gruebler.exercises.marking import Mark, Marked, mark, plain_key, plain_name
 from gruebler.exercises.plain import plain_marks, plain_solution, plain_table, plain_task
 from gruebler.exercises.prose import lines_of_table, said_source, said_value, solution_text, task_text
 from gruebler.exercises.shelf import all_exercises, exercise
@@ -37,6 +37,7 @@ __all__ = [
     "methods",
     "plain_key",
     "plain_marks",
+    "plain_name",
     "plain_solution",
     "plain_table",
     "plain_task",

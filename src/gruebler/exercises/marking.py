@@ -14,7 +14,7 @@ from gruebler.exercises.answers import Given, read_answer
 from gruebler.exercises.solution import Mistake, Result, Value
 from gruebler.exercises.solving import scale_of, solve
 
-__all__ = ["Mark", "Marked", "mark", "plain_key"]
+__all__ = ["Mark", "Marked", "mark", "plain_key", "plain_name"]
 
 _FINE = 1e-3  # relative difference of an answer that is right whatever its digits
 _NEAR = 0.02  # of one that is nearly right: rounded on the way
@@ -72,7 +72,7 @@ _ANYWHERE = (
 
 
 def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
-    """Mark the answers, given as texts by the keys of the results.
+    """Mark the answers, given as texts by the keys of the results or by the symbols that the solution prints.
 
     A number is right within half a unit of its last digit or a thousandth; decimal comma or point, with a unit or in
     that of the result or of the printed answer. Raises `GrueblerError` for a key that is not asked, an answer that is
@@ -89,21 +89,43 @@ def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
         raise GrueblerError(
             f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
         )
-    found = []
-    plain = {plain_key(key): key for key in solution.results}
+    found: list[Marked] = []
     for word, answer in answers.items():
-        key = plain.get(plain_key(word), word)
-        if key not in solution.results:
-            asked = [plain_key(a.key) for a in exercise.asked] or list(plain)
-            raise GrueblerError(
-                f"{exercise.id} does not ask for {key!r}{nearest(key, asked)}; it asks for {', '.join(asked)}"
-            )
+        key = _asked_for(word, exercise, solution.results)
+        if key in (one.key for one in found):
+            raise GrueblerError(f"{word} is answered twice: give one answer for each")
         printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
         known = [*printed, *(m for m in solution.mistakes if m.key == key)]
         result = solution.results[key]
         scales = [1.0, *(scale_of(asked, result) for asked in exercise.asked if asked.key == key)]
         found.append(_marked(known, result, answer.strip(), scales))
     return found
+
+
+def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> str:
+    """The key of the result that a word names: by the key, or by the symbol that the solution prints."""
+    wanted = _bare(word)
+    named = [key for key in results if _bare(key) == wanted] or [
+        key for key, result in results.items() if _bare(result.symbol) == wanted
+    ]
+    if len(named) == 1:
+        return named[0]
+    if named:
+        raise GrueblerError(f"{word} stands for several results of {exercise.id}: {', '.join(map(plain_key, named))}")
+    asked = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
+    raise GrueblerError(
+        f"{exercise.id} does not ask for {word!r}{nearest(word, asked)}; it asks for {', '.join(asked)}"
+    )
+
+
+def _bare(word: str) -> str:
+    return "".join(plain_key(word).split())
+
+
+def plain_name(result: Result) -> str:
+    """What a result is called: its key, and its symbol where that is another word, in letters of every keyboard."""
+    key, symbol = plain_key(result.key), plain_key(result.symbol)
+    return f"{key} ({symbol})" if symbol and symbol != key and "." not in key else key
 
 
 def plain_key(key: str) -> str:

@@ -14,6 +14,7 @@ from types import MappingProxyType
 from gruebler.catalog import Text
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_finite
+from gruebler.views import Brief
 
 __all__ = [
     "Check",
@@ -111,8 +112,8 @@ class Mistake:
     hint: Text
 
 
-@dataclass(frozen=True, slots=True)
-class Solution:
+@dataclass(frozen=True, slots=True, repr=False)
+class Solution(Brief):
     """The way to the answer, the answers by key, and what speaks for them."""
 
     parts: tuple[Part, ...]

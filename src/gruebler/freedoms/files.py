@@ -8,14 +8,14 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import msgspec
 
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import Linkage
-from gruebler.linkages.documents import fitted, load
+from gruebler.linkages.documents import fitted, infinities_as_words, load
 from gruebler.linkages.files import linkage_from_json
 from gruebler.mechanism import Mechanism
 from gruebler.pairs import Space
@@ -33,7 +33,8 @@ class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     z: list[float] | None = None
     lead: float | None = None
     """Of a screw, the way along z for a whole turn."""
-    radii: list[float] | None = None
+    radii: list[float | Literal["inf", "-inf"]] | None = None
+    """A flat contour has ``inf``, in JSON the text ``"inf"``."""
     pressure: float | None = None
 
 
@@ -63,6 +64,8 @@ def screwed(screws: Screws, mechanism: Mechanism) -> SpatialLinkage:
         given = {key: value for key, value in msgspec.structs.asdict(record).items() if value is not None}
         if "lead" in given:
             given["pitch"] = given.pop("lead") / (2 * math.pi)
+        if "radii" in given:
+            given["radii"] = [float(radius) for radius in given["radii"]]
         if "pressure" in given:
             given["pressure"] = math.radians(given["pressure"])
         if spherical and "radii" in given:
@@ -111,7 +114,7 @@ def _plain(place: JointPlace, angles: bool) -> dict[str, Any]:
     if place.pitch:
         out["lead"] = place.pitch * 2 * math.pi
     if place.radii is not None:
-        out["radii"] = [math.degrees(r) if angles else r for r in place.radii]
+        out["radii"] = infinities_as_words([math.degrees(r) if angles else r for r in place.radii])
     if place.pressure is not None:
         out["pressure"] = math.degrees(place.pressure)
     return out

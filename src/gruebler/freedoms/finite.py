@@ -18,6 +18,7 @@ from gruebler.freedoms.double_roots import blurred
 from gruebler.freedoms.excess import Excess
 from gruebler.freedoms.forms import definite, directions
 from gruebler.freedoms.instant import Instant, at_pose
+from gruebler.views import Brief
 
 __all__ = ["Evidence", "Finite", "finite"]
 
@@ -56,8 +57,8 @@ class Evidence(StrEnum):
     """The velocities could not be followed at all: the pose is all but singular in yet another way."""
 
 
-@dataclass(frozen=True, eq=False)
-class Finite:
+@dataclass(frozen=True, eq=False, repr=False)
+class Finite(Brief):
     """What following the velocities gave."""
 
     mobility: int

@@ -9,14 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.screws import Closing
+from gruebler.views import Brief
 
 __all__ = ["Instant", "at_pose"]
 
 Reals = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class Instant:
+@dataclass(frozen=True, eq=False, repr=False)
+class Instant(Brief):
     """The singular values of the constraints at a pose, and the spaces on either side of the gap among them."""
 
     closing: Closing

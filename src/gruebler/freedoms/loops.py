@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,14 +87,46 @@ def sarrus(s: Sketch) -> Iterator[Reason]:
             return
 
 
-def cardan(s: Sketch) -> Iterator[Reason]:
-    """Two cross joints, each with its centre on the axis of a bearing of its shaft: both centres stand still."""
-    found = []
+class Hooke(NamedTuple):
+    """A Hooke's joint: its centre, the two links that it joins, and its joints."""
+
+    centre: Reals
+    shafts: frozenset[str]
+    joints: tuple[int, ...]
+
+
+def _hookes_joints(s: Sketch) -> Iterator[Hooke]:
+    """The cross joints, and the crosses that are links: two turning joints whose axes meet and are not parallel."""
     for k in s.kinds("universal"):
-        for j in s.kinds("revolute"):
-            if set(s.chain.joints[j].links) & set(s.chain.joints[k].links) and s.on_axis(j, s.at(k)):
-                found.append((j, k))
-    for (j, k), (i, h) in itertools.combinations(found, 2):
-        shaft = set(s.chain.joints[k].links) & set(s.chain.joints[h].links)
-        if k != h and j != i and shaft and set(s.chain.joints[j].links) & set(s.chain.joints[i].links):
-            yield Reason("cardan", tuple(shaft), (j, k, h, i))
+        yield Hooke(s.at(k), frozenset(s.chain.joints[k].links), (k,))
+    turning = s.kinds("revolute")
+    for link in s.chain.links:
+        mine = [k for k, joint in enumerate(s.chain.joints) if link in joint.links]
+        if len(mine) != 2 or not set(mine) <= set(turning) or any(len(s.chain.joints[k].links) > 2 for k in mine):
+            continue
+        bar = _bar(s, *mine)
+        if bar is not None and bar[0] < SAME:
+            shafts = {name for k in mine for name in s.chain.joints[k].links} - {link}
+            if len(shafts) == 2:
+                yield Hooke(bar[2][0], frozenset(shafts), (mine[0], mine[1]))
+
+
+def cardan(s: Sketch) -> Iterator[Reason]:
+    """Two Hooke's joints, each with its centre on the axis of a bearing of its shaft: both centres stand still."""
+    if s.chain.space is not Space.SPATIAL:
+        return
+    found = [
+        (j, hooke)
+        for hooke in _hookes_joints(s)
+        for j in s.kinds("revolute")
+        if j not in hooke.joints and set(s.chain.joints[j].links) & hooke.shafts and s.on_axis(j, hooke.centre)
+    ]
+    reasons = []
+    for (j, one), (i, other) in itertools.combinations(found, 2):
+        shaft = one.shafts & other.shafts
+        bearings = set(s.chain.joints[j].links) & set(s.chain.joints[i].links)
+        if one.joints != other.joints and j != i and shaft and bearings:
+            reasons.append(Reason("cardan", tuple(sorted(shaft)), (j, *one.joints, *other.joints, i)))
+    # Of two crosses that are links the frame is a shaft as well, seen from the shaft between them: said once.
+    frame = s.closing.mechanism.frame
+    yield from [reason for reason in reasons if frame not in reason.links] or reasons

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from gruebler.errors import GrueblerError
 from gruebler.freedoms.reasons import Reason, group_count
-from gruebler.mobility.idle import When
 from gruebler.pairs import Alphabet
 
 if TYPE_CHECKING:
@@ -264,7 +263,7 @@ def _lines(found: Freedoms, column: int) -> Iterator[str]:
         open=followed.open,
         ways=ways,
     )
-    spinning = [idle.link for idle in found.report.idle_freedoms if idle.when is When.ALWAYS]
+    spinning = [" + ".join(idle.links) for idle in found.idle_parts]
     if spinning:
         yield say("idle" if len(spinning) == 1 else "idles", link=", ".join(spinning), useful=found.useful)
     yield from _reasons(found, column)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import isfinite
 from typing import Any
 
@@ -12,21 +13,23 @@ from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.freedoms.finite import Finite, finite
+from gruebler.freedoms.idle import idle_parts
 from gruebler.freedoms.instant import Instant, at_pose
 from gruebler.freedoms.placing import placed
 from gruebler.freedoms.reasons import Reason, reasons
 from gruebler.linkages import Linkage
 from gruebler.mobility import MobilityReport, mobility_report
-from gruebler.mobility.idle import When
+from gruebler.mobility.idle import IdleFreedom
 from gruebler.screws import SpatialLinkage
+from gruebler.views import Brief
 
 __all__ = ["Freedoms", "freedom_report", "freedoms"]
 
 Reals = NDArray[np.float64]
 
 
-@dataclass(frozen=True, eq=False)
-class Freedoms:
+@dataclass(frozen=True, eq=False, repr=False)
+class Freedoms(Brief):
     """What `freedoms` found. `explain` says it in words."""
 
     linkage: Linkage | SpatialLinkage
@@ -58,8 +61,13 @@ class Freedoms:
 
     @property
     def idle(self) -> int:
-        """Freedoms that belong to one link alone whatever the sizes, such as the spin of a rod between two balls."""
-        return sum(idle.freedoms for idle in self.report.idle_freedoms if idle.when is When.ALWAYS)
+        """Freedoms that belong to one part alone, such as the spin of a rod between two balls."""
+        return sum(idle.freedoms for idle in self.idle_parts)
+
+    @cached_property
+    def idle_parts(self) -> tuple[IdleFreedom, ...]:
+        """What moves for itself alone: whatever the sizes, or with these dimensions (`gruebler.freedoms.idle`)."""
+        return idle_parts(self.instant, self.report.idle_freedoms)
 
     @property
     def useful(self) -> int:

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from gruebler.gears.train import FRAME, GearError, Mesh, Train
 
-__all__ = ["Assembly", "assembly"]
+__all__ = ["Assembly", "Axes", "assembly", "axes", "even_numbers"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,3 +76,66 @@ def _spacing(first: Mesh, other: Mesh) -> Fraction:
     """In turns: centrals a, b and planet teeth p, q fit again after gcd(p, q) / |a q - b p| of a turn."""
     p, a, q, b = (int(size) for size in (first.size_a, first.size_b, other.size_a, other.size_b))
     return Fraction(math.gcd(p, q), abs(a * q - b * p)) if a * q != b * p else Fraction(0)
+
+
+@dataclass(frozen=True, slots=True)
+class Axes:
+    """The distances from a planet's axis that its wheels and their partners give: equal if the partners are coaxial."""
+
+    carrier: str
+    planet: str
+    meshes: tuple[Mesh, ...]
+    """Its meshes with the central wheels, the planet first."""
+
+    @property
+    def distances(self) -> tuple[Fraction, ...]:
+        """Of each partner's axis from the planet's, in half modules."""
+        return tuple(abs(mesh.size_a + mesh.size_b) for mesh in self.meshes)
+
+    @property
+    def coaxial(self) -> bool:
+        """Whether the partners can have one axis, for wheels of one module without profile shift."""
+        return len(set(self.distances)) == 1
+
+
+def axes(train: Train) -> tuple[Axes, ...]:
+    """The planets between central wheels, with the distances that the tooth numbers give.
+
+    Planets are told from central wheels where the gear meshes on a moving carrier leave no doubt: a wheel all of whose
+    partners have no other mesh there, or wheels that all mesh with the same two others.
+
+    >>> from gruebler.gears import read_train
+    >>> [(one.planet, one.coaxial) for one in axes(read_train("sun:24 planet:17 ring:-60 on arm").train)]
+    [('planet', False)]
+    """
+    out = []
+    for carrier in dict.fromkeys(mesh.carrier for mesh in train.meshes if mesh.carrier != FRAME):
+        meshes = [mesh for mesh in train.meshes if mesh.carrier == carrier and mesh.kind == "gear"]
+        partners: dict[str, set[str]] = {}
+        for mesh in meshes:
+            partners.setdefault(mesh.a, set()).add(mesh.b)
+            partners.setdefault(mesh.b, set()).add(mesh.a)
+        same: dict[frozenset[str], set[str]] = {}
+        for planet, centres in partners.items():
+            same.setdefault(frozenset(centres), set()).add(planet)
+        for planet, centres in partners.items():
+            alike = same[frozenset(centres)]
+            star = len(alike) == 1 and all(partners[centre] == {planet} for centre in centres)
+            ring = len(alike) > 1 and len(centres) == 2 and all(partners[centre] == alike for centre in centres)
+            if len(centres) > 1 and (star or ring):
+                mine = (_from(mesh, planet) for mesh in meshes if planet in (mesh.a, mesh.b))
+                out.append(Axes(carrier, planet, tuple(mine)))
+    return tuple(out)
+
+
+def even_numbers(train: Train, planet: str, most: int = 12) -> tuple[int, ...]:
+    """How many equal planets can be put in at equal angles, from 2 up to so many; empty if that is not known.
+
+    >>> from gruebler.gears import read_train
+    >>> even_numbers(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet")
+    (2, 3, 4, 6)
+    """
+    try:
+        return tuple(number for number in range(2, most + 1) if assembly(train, planet, number).possible)
+    except GearError:
+        return ()

@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from gruebler.gears.rational import Row, echelon, reduced
+from gruebler.gears.rational import Elimination, Row, reduced
 from gruebler.gears.train import MIXED, GearError, Train, Unit, exact
 
 __all__ = ["Balance", "Contradiction", "Speeds", "balance", "influence", "ratio", "speeds"]
+
+
+_GIVEN = ""  # the column of what is given: a drive is the row "link - speed * given"; no link has an empty name
 
 
 class Contradiction(NamedTuple):
@@ -50,25 +53,25 @@ def speeds(train: Train, drives: Mapping[str, object]) -> Speeds:
     >>> {link: str(value) for link, value in speeds(train, {"sun": 7, "ring": 0}).values.items()}
     {'sun': '7', 'planet': '-14/3', 'arm': '2', 'ring': '0'}
     """
-    chosen: dict[str, Fraction] = {}
+    links = train.links
+    form = _relations(train, [*links, _GIVEN])
     wrong: list[Contradiction] = []
     spare: list[str] = []
-    units = train.units()
+    units, comparable = train.units(), train.comparable(links)
     for link, value in drives.items():
         wanted = exact(value, f"speed of {train.known(link)}")
-        if wanted and units[link] != Unit.TURNING and not train.comparable(train.links):
+        if wanted and units[link] != Unit.TURNING and not comparable:
             raise GearError(f"{link} is driven, but {MIXED}")
-        rest = reduced({link: Fraction(1)}, _with(train, chosen))
-        if rest:
-            chosen[link] = wanted
+        rest = form.left({link: Fraction(1)})
+        if rest.keys() - {_GIVEN}:
+            form.add({link: Fraction(1), _GIVEN: -wanted})
             continue
-        follows = _combined(_influence(train, chosen, (link,))[link], chosen)
+        follows = rest.get(_GIVEN, Fraction(0))
         spare.append(link) if follows == wanted else wrong.append(Contradiction(link, wanted, follows))
-    found = _influence(train, chosen, train.links)
-    determined = _with(train, chosen)
+    determined = form.full()
     values = {
-        link: None if reduced({link: Fraction(1)}, determined) else _combined(found[link], chosen)
-        for link in train.links
+        link: -row.get(_GIVEN, Fraction(0)) if (row := determined.get(link)) and row.keys() <= {link, _GIVEN} else None
+        for link in links
     }
     return Speeds(values, tuple(wrong), tuple(spare))
 
@@ -84,10 +87,18 @@ def influence(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
     {'sun': '2/7', 'ring': '5/7'}
     """
     names = [train.known(link) for link in drives]
-    if len(_with(train, names)) < len(train.links) or len(names) != train.mobility or len(set(names)) < len(names):
+    form = _relations(train, train.links)
+    free = len(train.links) - len(form.rows)
+    if not all(form.add({link: Fraction(1)}) for link in names) or len(names) != free:
         told = ", ".join(names) or "none"
-        raise GearError(f"the train has {train.mobility} freedoms and needs as many independent drives; given: {told}")
-    return _influence(train, names, train.links)
+        raise GearError(f"the train has {free} freedoms and needs as many independent drives; given: {told}")
+    chosen = set(names)
+    found = _relations(train, [*(link for link in train.links if link not in chosen), *names]).full()
+    factors = {}
+    for link in train.links:
+        rest = reduced({link: Fraction(1)}, found)
+        factors[link] = {drive: rest[drive] for drive in names if drive in rest}
+    return factors
 
 
 def ratio(train: Train, a: str, b: str, held: Iterable[str] = ()) -> Fraction:
@@ -161,20 +172,9 @@ def _per_radian(terms: list[tuple[str, Fraction]], units: Mapping[str, Unit], dr
     return screwed + float(plain) * scale if plain else screwed
 
 
-def _with(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
-    """The relations together with the rows that fix the drives."""
-    return echelon([*(mesh.row() for mesh in train.meshes), *({link: Fraction(1)} for link in drives)], train.links)
-
-
-def _influence(train: Train, drives: Iterable[str], links: Iterable[str]) -> dict[str, Row[str]]:
-    names = list(drives)
-    form = echelon((mesh.row() for mesh in train.meshes), [link for link in train.links if link not in names] + names)
-    found: dict[str, Row[str]] = {}
-    for link in links:
-        rest = reduced({link: Fraction(1)}, form)
-        found[link] = {drive: rest[drive] for drive in names if drive in rest}
-    return found
-
-
-def _combined(factors: Row[str], values: Mapping[str, Fraction]) -> Fraction:
-    return sum((factor * values[drive] for drive, factor in factors.items()), Fraction(0))
+def _relations(train: Train, columns: Iterable[str]) -> Elimination[str]:
+    """The speed relations, the columns in this order."""
+    form = Elimination(columns)
+    for mesh in train.meshes:
+        form.add(mesh.row())
+    return form

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from decimal import Decimal
 from fractions import Fraction
 
-from gruebler.gears.assembly import Assembly, assembly
+from gruebler.gears.assembly import Assembly, assembly, axes, even_numbers
 from gruebler.gears.motion import speeds
 from gruebler.gears.reading import Reading
-from gruebler.gears.train import FRAME, Train
+from gruebler.gears.train import FRAME, Train, comparable
 
-__all__ = ["explain", "number"]
+__all__ = ["decimal", "explain", "number", "writable"]
+
+_LARGEST_BITS = 13_500  # below the 4,300 digits that Python turns into text
 
 # sentence: (English, German)
 SENTENCES = {
@@ -39,6 +43,16 @@ SENTENCES = {
         "{number} planets ({planet}) at equal angles cannot be put in: {reasons}.",
         "{number} Planeten ({planet}) lassen sich nicht gleichmäßig verteilt einbauen: {reasons}.",
     ),
+    "axes": (
+        "{links} do not have one axis: with {planet} the tooth numbers give different distances of the axes, {sums} "
+        "half modules (one module, no profile shift).",
+        "{links} haben keine gemeinsame Achse: Mit {planet} ergeben die Zähnezahlen verschiedene Achsabstände, {sums} "
+        "halbe Moduln (gleicher Modul, keine Profilverschiebung).",
+    ),
+    "numbers": (
+        "Equal planets ({planet}) that fit at equal angles: {numbers}.",
+        "Gleiche Planeten ({planet}), die sich gleichmäßig verteilt einbauen lassen: {numbers}.",
+    ),
     "coaxial": (
         "the central wheels are not coaxial (wheels of one module without profile shift)",
         "die Zentralräder sind nicht gleichachsig (gleicher Modul, keine Profilverschiebung)",
@@ -59,7 +73,33 @@ def number(value: Fraction | float) -> str:
     """
     if isinstance(value, float):
         return f"{value:.6g}"
-    return str(value) if value.denominator == 1 else f"{value} ({float(value):.6g})"
+    if not writable(value):
+        return decimal(value)
+    return str(value) if value.denominator == 1 else f"{value} ({decimal(value)})"
+
+
+def writable(value: Fraction) -> bool:
+    """Whether its digits can be written out: a long row of stages has ratios of tens of thousands of digits.
+
+    >>> writable(Fraction(1, 10**4000)), writable(Fraction(1, 10**5000))
+    (True, False)
+    """
+    return max(abs(value.numerator), value.denominator).bit_length() <= _LARGEST_BITS
+
+
+def decimal(value: Fraction) -> str:
+    """Six digits of a number, however large or small.
+
+    >>> decimal(Fraction(7, 2)), decimal(Fraction(10**5000, 3))
+    ('3.5', '3.33333e+4999')
+    """
+    try:
+        if value == 0 or float(value) != 0:
+            return f"{float(value):.6g}"
+    except OverflowError:
+        pass
+    digits = f"{Decimal(value.numerator) / Decimal(value.denominator):.6g}"
+    return str(Decimal(digits).normalize()).lower()
 
 
 def explain(reading: Reading, lang: str = "en") -> str:
@@ -76,9 +116,11 @@ def explain(reading: Reading, lang: str = "en") -> str:
     def say(key: str, **words: object) -> str:
         return SENTENCES[key][column].format(**words)
 
-    lines = [say("mobility", links=len(train.links), meshes=len(train.basis), freedoms=train.mobility)]
-    if train.redundant:
-        lines.append(say("redundant", meshes="; ".join(map(str, train.redundant))))
+    links, redundant = len(train.links), train.redundant
+    independent = len(train.meshes) - len(redundant)
+    lines = [say("mobility", links=links, meshes=independent, freedoms=links - independent)]
+    if redundant:
+        lines.append(say("redundant", meshes="; ".join(map(str, redundant))))
     lines += [say("relation", relation=relation) for relation in _outer_relations(train)]
     if reading.drives:
         found = speeds(train, reading.drives)
@@ -88,12 +130,22 @@ def explain(reading: Reading, lang: str = "en") -> str:
             lines.append(say("spare", links=", ".join(found.spare)))
         if found.free:
             used = len(reading.drives) - len(found.spare) - len(found.contradictions)
-            lines.append(say("free", links=", ".join(found.free), missing=train.mobility - used))
+            lines.append(say("free", links=", ".join(found.free), missing=links - independent - used))
     for planet, count in reading.planets.items():
         one = assembly(train, planet, count)
         reasons = _reasons(one, column)
         key = "impossible" if reasons else "possible"
         lines.append(say(key, number=count, planet=planet, reasons="; ".join(reasons)))
+    for found_axes in axes(train):
+        wheels = found_axes.meshes
+        if not found_axes.coaxial:
+            sums = (f"|{mesh.size_b} {'-' if mesh.size_a < 0 else '+'} {abs(mesh.size_a)}|" for mesh in wheels)
+            shown = (f"{total} = {value}" for total, value in zip(sums, found_axes.distances, strict=True))
+            lines.append(
+                say("axes", links=", ".join(m.b for m in wheels), planet=found_axes.planet, sums="; ".join(shown))
+            )
+        elif found_axes.planet not in reading.planets and (fits := even_numbers(train, found_axes.planet)):
+            lines.append(say("numbers", planet=found_axes.planet, numbers=", ".join(map(str, fits))))
     return "\n".join(lines)
 
 
@@ -105,11 +157,15 @@ def _reasons(one: Assembly, column: int) -> list[str]:
 
 def _outer_relations(train: Train) -> list[str]:
     """The relations between the links that are not planets, where their speeds can be compared."""
-    ends = [link for mesh in train.meshes if mesh.carrier != FRAME for link in (mesh.a, mesh.b)]
-    outer = [link for link in train.links if ends.count(link) < 2]
-    return [_sum(form) for form in train.relations(*outer) if train.comparable(form)]
+    ends = Counter(link for mesh in train.meshes if mesh.carrier != FRAME for link in (mesh.a, mesh.b))
+    outer = [link for link in train.links if ends[link] < 2]
+    forms, units = train.relations(*outer), train.units()
+    return [_sum(form) for form in forms if comparable(units[link] for link in form)]
 
 
 def _sum(form: dict[str, int]) -> str:
-    terms = "".join(f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else f'{abs(k)} '}{link}" for link, k in form.items())
+    terms = "".join(
+        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else number(Fraction(abs(k))) + ' '}{link}"
+        for link, k in form.items()
+    )
     return terms.removeprefix(" + ")

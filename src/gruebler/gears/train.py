@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 from gruebler import views
 from gruebler.errors import GrueblerError, nearest
-from gruebler.gears.rational import Row, echelon, reduced
+from gruebler.gears.rational import Elimination, Row, echelon
 
-__all__ = ["KINDS", "MIXED", "GearError", "Kind", "Mesh", "Train", "Unit", "exact"]
+__all__ = ["KINDS", "MIXED", "GearError", "Kind", "Mesh", "Train", "Unit", "comparable", "exact"]
 
 FRAME = "frame"
 
@@ -204,16 +204,13 @@ class Train:
     @property
     def redundant(self) -> tuple[Mesh, ...]:
         """Meshes that say nothing new, such as those of a second planet; each depends on the ones before it."""
-        found: list[Mesh] = []
-        for k, mesh in enumerate(self.meshes):
-            if not reduced(mesh.row(), echelon((one.row() for one in self.meshes[:k]), self.links)):
-                found.append(mesh)
-        return tuple(found)
+        form = Elimination(self.links)
+        return tuple(mesh for mesh in self.meshes if not form.add(mesh.row()))
 
     def comparable(self, links: Iterable[str]) -> bool:
         """Whether the speeds of these links can be compared: not if some slide per radian and others per turn."""
         units = self.units()
-        return not {Unit.PER_RADIAN, Unit.PER_TURN} <= {units[link] for link in links}
+        return comparable(units[link] for link in links)
 
     def known(self, link: str) -> str:
         """The link, if the train has it; otherwise an error that offers the nearest name."""
@@ -225,14 +222,17 @@ class Train:
 
     def relations(self, *links: str) -> list[dict[str, int]]:
         """All independent relations between the speeds of some links, each in whole numbers."""
-        chosen = [self.known(link) for link in links]
+        units, chosen = self.units(), dict.fromkeys(links)
+        if strangers := [link for link in chosen if link not in units]:
+            self.known(strangers[0])
         others = [link for link in self.links if link not in chosen]
         # What slides is told by what turns, so that lengths per radian and per turn stay apart.
-        turning = [link for link in chosen if self.units()[link] == Unit.TURNING]
-        sliding = [link for link in chosen if link not in turning]
+        turning = [link for link in chosen if units[link] == Unit.TURNING]
+        sliding = [link for link in chosen if units[link] != Unit.TURNING]
         form = echelon((mesh.row() for mesh in self.meshes), [*others, *sliding, *turning])
+        place = {link: k for k, link in enumerate(chosen)}
         return [
-            _whole({link: row[link] for link in chosen if link in row})
+            _whole({link: row[link] for link in sorted(row, key=place.__getitem__)})
             for pivot, row in form.items()
             if pivot in chosen
         ]
@@ -253,6 +253,11 @@ class Train:
     def _repr_svg_(self) -> str | None:
         """Its wheels to scale, for notebooks."""
         return views.picture(self) if views.picture else None
+
+
+def comparable(units: Iterable[Unit]) -> bool:
+    """Whether speeds in these units can be compared: per radian and per turn differ by 2 pi."""
+    return not {Unit.PER_RADIAN, Unit.PER_TURN} <= set(units)
 
 
 def _whole(row: Row[str]) -> dict[str, int]:

@@ -27,14 +27,15 @@ from gruebler.geometry.sampling import Samples, area, length, sampled
 from gruebler.geometry.trail import Trail, trail_of
 from gruebler.linkages import Linkage, Named
 from gruebler.linkages.quantities import as_finite
+from gruebler.views import Brief
 
 __all__ = ["CouplerCurve", "coupler_curve"]
 
 _TOLERANCE = 1e-4  # of the reach of linkage and path
 
 
-@dataclass(frozen=True, eq=False)
-class CouplerCurve:
+@dataclass(frozen=True, eq=False, repr=False)
+class CouplerCurve(Brief):
     """The path of a point on one branch of a linkage with one drive. Everything is found when it is asked for.
 
     Drive values are in radians (or the unit), those of a drive that turns fully from 0 to the period.

@@ -11,12 +11,13 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, nearest
 from gruebler.geometry.relative import Complexes, against, link_numbers, resting_and_translating
 from gruebler.kinematics import Motion
+from gruebler.views import Brief
 
 __all__ = ["Centrodes", "Poles", "centrodes", "poles"]
 
 
-@dataclass(frozen=True)
-class Poles:
+@dataclass(frozen=True, repr=False)
+class Poles(Brief):
     """The instant centres of all pairs of links, in coordinates of the frame as x + iy.
 
     A pair has a pole (``at``), or one at infinity (``direction``: the links translate against one another, at right
@@ -57,8 +58,8 @@ class Poles:
         return self.links.index(link)
 
 
-@dataclass(frozen=True)
-class Centrodes:
+@dataclass(frozen=True, repr=False)
+class Centrodes(Brief):
     """The curves that the pole of two links draws on each of them; they roll on one another without slip."""
 
     fixed: Complexes

@@ -12,6 +12,7 @@ from gruebler.errors import LinkageError
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.kinematics.course import Course, follow
 from gruebler.linkages import Linkage, Named
+from gruebler.views import Brief
 
 __all__ = ["Trail", "trail_of"]
 
@@ -20,8 +21,8 @@ _EDGE = 1e-3  # of the parameter: nearer to a limit of the drive the path is con
 _STILL = 1e-11  # sizes for each unit of the parameter: a point that is never faster does not move
 
 
-@dataclass(frozen=True)
-class Trail:
+@dataclass(frozen=True, repr=False)
+class Trail(Brief):
     """A path z(s). Of a drive that turns fully s is the drive's value, and the path is closed.
 
     Between limits it is s with drive = low + (high - low) sin^2(s/2), from 0 to pi: at a limit the pose grows as the

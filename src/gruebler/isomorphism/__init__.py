@@ -1,11 +1,12 @@
 """Sameness of chains: canonical codes, correspondences and symmetry. Exact for every chain."""
 
 from gruebler.isomorphism.automorphisms import Permutation, Symmetry, orbits, symmetry
-from gruebler.isomorphism.codes import CODE_PREFIX, Marked, canonical_order, code, decode
+from gruebler.isomorphism.codes import CODE_PREFIX, DriveMark, Marked, canonical_order, code, decode
 from gruebler.isomorphism.matching import Isomorphism, find_isomorphism, is_isomorphic
 
 __all__ = [
     "CODE_PREFIX",
+    "DriveMark",
     "Isomorphism",
     "Marked",
     "Permutation",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from gruebler.chain import Chain
-from gruebler.isomorphism.colouring import Coloured, coloured
+from gruebler.isomorphism.colouring import Coloured, DriveMark, coloured
 
 __all__ = ["Permutation", "Symmetry", "orbits", "symmetry"]
 
@@ -34,7 +34,7 @@ class Symmetry:
     """A flag is a link with a joint that it carries."""
 
 
-def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int] = ()) -> Symmetry:
+def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> Symmetry:
     """The automorphisms that keep space, pairs, a marked frame and marked joints.
 
     Cost: as for the canonical code, plus O(generators · joint elements).

@@ -1,33 +1,35 @@
 """The canonical code: one text for each structure, equal if and only if the structures are the same.
 
-    code = "gr1:" text [ ";frame=" link ] [ ";drives=" joint { "," joint } ]
+    code  = "gr1:" text [ ";frame=" link ] [ ";drives=" drive { "," drive } ]
+    drive = joint [ ":" direction ] [ ":" link "-" link ]
 
 The text is the chain's own notation with its links numbered canonically and its joints sorted, without blanks;
-links and joints count from 0. The prefix names the version: a code of another version is refused, since its
+links and joints count from 0. A drive names the direction where its joint has several freedoms, and two links where it
+has more. The prefix names the version: a code of another version is refused, since its
 numbering may differ.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from gruebler.chain import Chain, Joint
 from gruebler.errors import NotationError
-from gruebler.isomorphism.colouring import coloured
+from gruebler.isomorphism.colouring import DriveMark, coloured
 
-__all__ = ["CODE_PREFIX", "Marked", "canonical_order", "code", "decode"]
+__all__ = ["CODE_PREFIX", "DriveMark", "Marked", "canonical_order", "code", "decode"]
 
 CODE_PREFIX = "gr1:"
 
 
 class Marked(NamedTuple):
-    """A chain with a marked frame and marked joints, as a code describes it."""
+    """A chain with a marked frame and marked joints or parts of joints, as a code describes it."""
 
     chain: Chain
     frame: str | None
-    drives: tuple[int, ...]
+    drives: tuple[int | DriveMark, ...]
 
 
 class Order(NamedTuple):
@@ -37,7 +39,7 @@ class Order(NamedTuple):
     joints: tuple[int, ...]
 
 
-def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> Order:
+def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> Order:
     """Links and joints in canonical order: for chains of the same structure the k-th ones correspond.
 
     Exact for every chain. Cost: microseconds for usual chains; see docs/theory/canonical-code.md.
@@ -58,8 +60,8 @@ def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[i
     return Order(tuple(links), tuple(sorted(range(len(chain.joints)), key=key)))
 
 
-def code(chain: Chain, *, frame: str | None = None, drives: Collection[int] = ()) -> str:
-    """The canonical code of a chain, optionally with a marked frame and marked joints (drives, by number).
+def code(chain: Chain, *, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> str:
+    """The canonical code of a chain, optionally with a marked frame and marked joints (drives, by number or in part).
 
     >>> code(Chain.parse("R(a-b) R(b-c) R(c-d) R(d-a)")) == code(Chain.parse("R(1-3) R(3-2) R(2-4) R(4-1)"))
     True
@@ -74,9 +76,19 @@ def code(chain: Chain, *, frame: str | None = None, drives: Collection[int] = ()
     ]
     text = Chain(joints, space=chain.space).text().replace(" ", "")
     marks = "" if frame is None else f";frame={rank[frame]}"
-    if drives:
-        marks += f";drives={','.join(str(k) for k, number in enumerate(order.joints) if number in drives)}"
+    place = {number: k for k, number in enumerate(order.joints)}
+    written = sorted(_mark(drive, place, rank) for drive in drives)
+    if written:
+        marks += f";drives={','.join(mark for _, mark in written)}"
     return CODE_PREFIX + text + marks
+
+
+def _mark(drive: int | DriveMark, place: Mapping[int, int], rank: Mapping[str, str]) -> tuple[int, str]:
+    """A drive's joint in canonical order, and its text."""
+    if not isinstance(drive, DriveMark):
+        return place[drive], str(place[drive])
+    links = "-".join(sorted((rank[link] for link in drive.between), key=int))
+    return place[drive.joint], ":".join(part for part in (str(place[drive.joint]), drive.direction, links) if part)
 
 
 def decode(text: str) -> Marked:
@@ -95,18 +107,30 @@ def decode(text: str) -> Marked:
     ordered = sorted((_number(link), link) for link in chain.links)
     chain = Chain(chain.joints, links=[link for _, link in ordered], space=chain.space)
     frame: str | None = None
-    drives: tuple[int, ...] = ()
+    drives: tuple[int | DriveMark, ...] = ()
     for mark in marks:
         if match := re.fullmatch(r"frame=(\d+)", mark):
             frame = match[1]
             chain.index(frame)
-        elif match := re.fullmatch(r"drives=(\d+(?:,\d+)*)", mark):
-            drives = tuple(int(number) for number in match[1].split(","))
-            if max(drives) >= len(chain.joints):
-                raise NotationError(f"{mark!r}: the code has joints 0 to {len(chain.joints) - 1}")
+        elif re.fullmatch(rf"drives={_DRIVE}(?:,{_DRIVE})*", mark):
+            drives = tuple(_drive(chain, text) for text in mark.removeprefix("drives=").split(","))
         else:
             raise NotationError(f"{mark!r} is no mark of a code: expected frame=LINK or drives=JOINT,JOINT")
     return Marked(chain, frame, drives)
+
+
+_DRIVE = r"\d+(?::[RTH][xyz])?(?::\d+-\d+)?"
+
+
+def _drive(chain: Chain, text: str) -> int | DriveMark:
+    joint, *parts = text.split(":")
+    if int(joint) >= len(chain.joints):
+        raise NotationError(f"'drives={text}': the code has joints 0 to {len(chain.joints) - 1}")
+    direction = "".join(part for part in parts if "-" not in part)
+    links = tuple(link for part in parts if "-" in part for link in part.split("-"))
+    if not set(links) <= set(chain.joints[int(joint)].links):
+        raise NotationError(f"'drives={text}': joint {joint} is {chain.joints[int(joint)]}")
+    return DriveMark(int(joint), direction, links) if parts else int(joint)
 
 
 def _number(link: str) -> int:

@@ -2,7 +2,9 @@
 
 Every link is a vertex. A joint of two links is an edge, coloured by its pair and by whether it is driven; a
 joint of more links, or one that repeats between the same two links, is a vertex of its own with an edge to each
-of its links, so that automorphisms can exchange such joints. A marked frame is a link of another colour.
+of its links, so that automorphisms can exchange such joints. A marked frame is a link of another colour. A mark on a
+part of a joint (one of its freedoms, two of its links) is a vertex too, with an edge to the joint's vertex and to those
+links.
 docs/theory/canonical-code.md has the definition.
 """
 
@@ -11,6 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,16 +22,29 @@ from gruebler.chain import Chain
 from gruebler.errors import ChainError
 from gruebler.pairs import PAIRS
 
-__all__ = ["Coloured", "coloured"]
+__all__ = ["Coloured", "DriveMark", "coloured"]
 
 _FRAME, _LINK, _FIRST_JOINT = 0, 1, 2
 _INCIDENCE = 0
 _PLACE = {pair: k for k, pair in enumerate(PAIRS)}
+_FIRST_MARK = _FIRST_JOINT + 2 * len(PAIRS)
+_DIRECTIONS = ("", *(kind + axis for kind in "RTH" for axis in "xyz"))
+
+
+class DriveMark(NamedTuple):
+    """A mark on a part of a joint: one of several freedoms, between two of more links."""
+
+    joint: int
+    """The joint's number."""
+    direction: str = ""
+    """The freedom, such as ``Tz``; empty where the joint has one only."""
+    between: tuple[str, ...] = ()
+    """The two links, in any order; empty where the joint has no others."""
 
 
 @dataclass(frozen=True, slots=True)
 class Coloured:
-    """Vertices 0 to n - 1 are the links, the others joints."""
+    """Vertices 0 to n - 1 are the links, the others joints, then marks on parts of joints."""
 
     vertex_colour: NDArray[np.int64]
     edges: NDArray[np.int32]
@@ -37,12 +53,14 @@ class Coloured:
     """Joint number -> vertex, for the joints that are vertices."""
 
 
-def coloured(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> Coloured:
-    """The coloured graph of a chain with a marked frame and marked (driven) joints.
+def coloured(chain: Chain, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> Coloured:
+    """The coloured graph of a chain with a marked frame and marked (driven) joints or parts of joints.
 
     Raises `ChainError` for a frame or a joint number that the chain does not have. Cost O(joint elements).
     """
-    for number in drives:
+    marks = [mark for mark in drives if isinstance(mark, DriveMark)]
+    partly = {mark.joint for mark in marks}
+    for number in (*partly, *(number for number in drives if isinstance(number, int))):
         if not 0 <= number < len(chain.joints):
             raise ChainError(f"there is no joint number {number}; the chain has joints 0 to {len(chain.joints) - 1}")
     repeats = Counter(frozenset(joint.links) for joint in chain.joints)
@@ -55,7 +73,7 @@ def coloured(chain: Chain, frame: str | None = None, drives: Collection[int] = (
     for number, joint in enumerate(chain.joints):
         kind = 2 * _PLACE[joint.pair] + (number in drives)
         links = [chain.index(link) for link in joint.links]
-        if len(links) == 2 and repeats[frozenset(joint.links)] == 1:
+        if len(links) == 2 and repeats[frozenset(joint.links)] == 1 and number not in partly:
             edges.append((links[0], links[1]))
             edge_colours.append(1 + kind)
         else:
@@ -63,6 +81,11 @@ def coloured(chain: Chain, frame: str | None = None, drives: Collection[int] = (
             edges += [(link, len(colours)) for link in links]
             edge_colours += [_INCIDENCE] * len(links)
             colours.append(_FIRST_JOINT + kind)
+    for mark in marks:
+        ends = (joint_vertex[mark.joint], *map(chain.index, mark.between))
+        edges += [(end, len(colours)) for end in ends]
+        edge_colours += [_INCIDENCE] * len(ends)
+        colours.append(_FIRST_MARK + _DIRECTIONS.index(mark.direction))
     return Coloured(
         np.array(colours, np.int64),
         np.array(edges, np.int32).reshape(-1, 2),

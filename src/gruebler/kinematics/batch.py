@@ -20,6 +20,7 @@ from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.moving import move, planned, start_of
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, with_lower_pairs
+from gruebler.views import Brief
 
 __all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
 
@@ -27,8 +28,8 @@ Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 
-@dataclass(frozen=True)
-class Designs:
+@dataclass(frozen=True, repr=False)
+class Designs(Brief):
     """Many designs of one mechanism, as arrays. Made by `designs`, `four_bars` and the like."""
 
     plan: Plan
@@ -46,8 +47,8 @@ class Designs:
         return len(self.points)
 
 
-@dataclass(frozen=True)
-class Motions:
+@dataclass(frozen=True, repr=False)
+class Motions(Brief):
     """Poses of many designs along one path; NaN in rows that a design does not reach."""
 
     designs: Designs
@@ -133,6 +134,8 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
     plan = planned(linkages[0])
     if plan.wheels and len(linkages) > 1:
         raise LinkageError("linkages with wheels are moved one by one, by move")
+    if plan.released:
+        raise LinkageError("overconstrained linkages are moved one by one, by move")
     lower = [with_lower_pairs(linkage) for linkage in linkages]
     arrays = [plan.element_arrays(linkage) for linkage in lower]
     points, lines = (np.array([pair[k] for pair in arrays]) for k in (0, 1))

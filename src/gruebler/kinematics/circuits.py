@@ -20,8 +20,9 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics.curve import System, Traced, on_curve, system, trace_circuit
 from gruebler.kinematics.moving import move
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.zeros import zeros
+from gruebler.kinematics.zeros import Samples, zeros
 from gruebler.linkages import Linkage, Named, with_lower_pairs
+from gruebler.views import Brief
 
 __all__ = ["ChangePoint", "Circuit", "Extreme", "Stretch", "circuit"]
 
@@ -29,7 +30,9 @@ Reals = NDArray[np.float64]
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
 
-_CONSTANT = 1e-11  # a derivative that is nowhere larger is none
+_CONSTANT = 1e-11  # of the natural size: a derivative that is nowhere larger is none
+_AGAIN = 1e-9  # of the natural size: a value after a lap that differs by less is the same
+_ROUND = 1e-12  # of the length: a place so near the end of a closed circuit is its beginning
 _SINGULAR = 1e-3  # a start with a smaller gauge is taken only if there is no better one
 _SHAKY = 1e-4  # a shaky linkage moves less, within what counts as closed joints
 _TRIALS = 1024  # values of the drive that are tried for a start
@@ -65,8 +68,8 @@ class Stretch(NamedTuple):
     """The drive values at both."""
 
 
-@dataclass(frozen=True, eq=False)
-class Circuit:
+@dataclass(frozen=True, eq=False, repr=False)
+class Circuit(Brief):
     """All positions of a linkage on one curve.
 
     Places on the curve are given by the arc: its length from the first sample in sizes of the linkage, an angle
@@ -182,25 +185,39 @@ class Circuit:
         >>> np.degrees(made.at(upright).angle("crank")).round(9).tolist()
         [90.0]
         """
-        found = zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), self.arcs)
-        return tuple(zero.at for zero in found)
+        ends = quantity(self.samples, 0)[[0, -1]]
+        again = self.closed and abs(ends[1] - ends[0]) <= _AGAIN * np.abs(quantity(self.samples, 0)).max()
+        samples = Samples(self.arcs, period=self.length if again else None, ends=True)
+        found = zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
+        return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in found))
 
-    def extremes(self, quantity: Quantity) -> tuple[Extreme, ...]:
-        """All extremes of something along the curve, in order; values to rounding."""
-        found = zeros(lambda s: quantity(self.at(s), 1)[None], self.arcs, least=_CONSTANT)
-        values = quantity(self.at([zero.at for zero in found]), 0)
-        return tuple(Extreme(z.at, float(v), not z.rises) for z, v in zip(found, values, strict=True))
+    def extremes(self, quantity: Quantity, natural: float = 1.0) -> tuple[Extreme, ...]:
+        """All extremes of something along the curve, in order; values to rounding.
 
-    def range(self, quantity: Quantity) -> tuple[float, float]:
-        """The smallest and the largest value of something along the curve."""
-        values = [extreme.value for extreme in self.extremes(quantity)]
+        ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
+        """
+        samples = Samples(self.arcs, period=self.length if self.closed else None)
+        found = zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
+        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in found]
+        values = quantity(self.at(arcs), 0)
+        return tuple(sorted(Extreme(at, float(v), not z.rises) for at, z, v in zip(arcs, found, values, strict=True)))
+
+    def _wrapped(self, arc: float) -> float:
+        """The same place of a closed circuit, from 0 to its length."""
+        place = arc % self.length
+        return 0.0 if self.length - place < _ROUND * self.length else place
+
+    def range(self, quantity: Quantity, natural: float = 1.0) -> tuple[float, float]:
+        """The smallest and the largest value of something along the curve; ``natural`` as for `extremes`."""
+        values = [extreme.value for extreme in self.extremes(quantity, natural)]
         values += quantity(self.samples, 0).tolist()
         return min(values), max(values)
 
     @cached_property
     def drive_limits(self) -> tuple[Extreme, ...]:
         """Where the drive turns back: dead centres of the linkage for this drive."""
-        return self.extremes(lambda poses, order: poses.drive(order))
+        turns = all(drive.direction.startswith("R") for drive in self.system.lower.mechanism.drives)
+        return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
 
     @property
     def stretches(self) -> tuple[Stretch, ...]:

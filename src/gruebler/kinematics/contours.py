@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from math import log, pi
+from math import hypot, log, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +20,9 @@ __all__ = ["COEFFICIENTS", "Law", "cam_law", "geneva_law"]
 
 Reals = NDArray[np.float64]
 COEFFICIENTS = 12
-_EXACT = 5e-16  # of the largest value: what the last two terms of a piece may be
+_EXACT = 5e-16  # of the largest value: terms of a piece that are rounding
+_CONSTANT = 1e-14  # of the largest value: a law that varies by less between two joints varies by rounding only
+_NO_TURN = 1e-12  # radians: between joints of a law that are nearer lies nothing but rounding
 _SHORTEST = 0.04  # radians: shorter pieces would lose in their rates what they gain in themselves
 
 
@@ -31,12 +33,14 @@ class Law(NamedTuple):
     """Middle, half the width, coefficients on [-1, 1], by rising angle."""
     advance: float = 0.0
     """What it grows by in a turn."""
+    joints: tuple[float, ...] = ()
+    """The angles at which it is not smooth: where rises, falls, dwells and the pieces of their laws begin."""
 
     def scaled(self, size: float, logarithm: bool) -> Law:
         """The same in another unit of length: values by size, of a logarithm less its logarithm."""
         if logarithm:
-            return Law(tuple((m, h, c - log(size), *rest) for m, h, c, *rest in self.pieces))
-        return Law(tuple((m, h, *(c / size for c in rest)) for m, h, *rest in self.pieces))
+            return self._replace(pieces=tuple((m, h, c - log(size), *rest) for m, h, c, *rest in self.pieces))
+        return self._replace(pieces=tuple((m, h, *(c / size for c in rest)) for m, h, *rest in self.pieces))
 
 
 @lru_cache(maxsize=64)
@@ -59,21 +63,23 @@ def cam_law(disc: Disc) -> Law:
     breaks = [span.start for span in cam.lift.spans()] + [2 * pi]
     if disc.flat:
         bounds = [pi / 2 - phi for phi in reversed(breaks)]
-        return Law(_pieces(lambda t, _a, _b: disc.scale * (disc.base + cam.lift.at(pi / 2 - t)), bounds))
+        return _law(lambda t, _a, _b: disc.scale * cam.lift.at(pi / 2 - t), bounds, disc.scale * disc.base)
     grid = np.linspace(0, 2 * pi, 2881)
     if not (np.diff(_bearing(cam, disc, grid)) < 0).all():
         raise LinkageError(
             "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
         )
     bounds = _bearing(cam, disc, np.array(breaks[::-1]) - 1e-300).tolist()
+    circle = hypot(disc.offset, cam.start)
 
     def radius(t: Reals, low: float, high: float) -> Reals:
         ends = np.interp([low, high], bounds, breaks[::-1])
         phi = _turned(cam, disc, t, *ends)
-        out: Reals = np.log(disc.scale * np.hypot(disc.offset, cam.start + cam.lift.at(phi)))
+        lift = cam.lift.at(phi)  # of the squared radius the part beside that of the base circle, without cancelling
+        out: Reals = np.log1p(lift * (2 * cam.start + lift) / circle**2) / 2
         return out
 
-    return Law(_pieces(radius, bounds))
+    return _law(radius, bounds, log(disc.scale * circle))
 
 
 def _bearing(cam: Cam, disc: Disc, phi: Reals) -> Reals:
@@ -107,26 +113,38 @@ def geneva_law(driver: Driver, cross: Cross) -> Law:
     bounds = sorted({k * pitch + side * drive.engaged for k in range(driver.pins) for side in (-1, 1)})
     bounds = [*bounds, bounds[0] + 2 * pi]
     ends = drive.move(np.array([0.0, 2 * pi])).angle
-    return Law(_pieces(lambda t, _a, _b: drive.move(t).angle, bounds), float(ends[1] - ends[0]))
+    return _law(lambda t, _a, _b: drive.move(t).angle, bounds, advance=float(ends[1] - ends[0]))
 
 
-def _pieces(function: Callable[[Reals, float, float], Reals], bounds: Sequence[float]) -> tuple[tuple[float, ...], ...]:
-    """Polynomials through Chebyshev's points, each piece halved until it is exact."""
-    nodes = np.cos(pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS)
+def _law(
+    function: Callable[[Reals, float, float], Reals], bounds: Sequence[float], base: float = 0.0, advance: float = 0.0
+) -> Law:
+    """Polynomials for ``base + function``, through Chebyshev's points between the bounds, halved until they are exact.
+
+    Coefficients are sums in closed form, not the solution of a system, and those that are rounding are 0: a dwell
+    has one coefficient, so that velocities in it are exactly 0 on every machine.
+    """
+    angles = pi * (np.arange(COEFFICIENTS) + 0.5) / COEFFICIENTS
+    nodes, cosines = np.cos(angles), np.cos(np.outer(np.arange(COEFFICIENTS), angles))
     out: list[tuple[float, ...]] = []
 
     def add(low: float, high: float) -> None:
         middle, half = (low + high) / 2, (high - low) / 2
         values = function(middle + half * nodes, low, high)
-        series = np.polynomial.chebyshev.chebfit(nodes, values, COEFFICIENTS - 1)
-        if np.abs(series[-2:]).max() > _EXACT * max(1.0, float(np.abs(values).max())) and half > _SHORTEST:
+        first, size = float(values[0]), float(np.abs(values).max())
+        series = 2 / COEFFICIENTS * (cosines * (values - first)).sum(axis=1)
+        series[0] = base + first + series[0] / 2
+        if np.ptp(values) <= _CONSTANT * (abs(base) + size):
+            series[1:] = 0.0
+        elif np.abs(series[-2:]).max() > _EXACT * (abs(base) + size) and half > _SHORTEST:
             add(low, middle)
             add(middle, high)
-        else:
-            coefficients = np.polynomial.chebyshev.cheb2poly(series)
-            out.append((middle, half, *np.pad(coefficients, (0, COEFFICIENTS - len(coefficients))).tolist()))
+            return
+        series[1:][np.abs(series[1:]) <= 4 * _EXACT * size] = 0.0
+        coefficients = np.polynomial.chebyshev.cheb2poly(series)
+        out.append((middle, half, *np.pad(coefficients, (0, COEFFICIENTS - len(coefficients))).tolist()))
 
     for low, high in pairwise(bounds):
-        if high - low > 1e-12:
+        if high - low > _NO_TURN:
             add(low, high)
-    return tuple(out)
+    return Law(tuple(out), advance, tuple(bounds))

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import degrees, pi
 from typing import NamedTuple
 
@@ -14,17 +15,21 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.home import at_home
+from gruebler.kinematics.law_joints import law_joints
 from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Reals, Stop
 from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.runs import run_rows
+from gruebler.kinematics.runs import follow_path, run_rows
+from gruebler.kinematics.zeros import Samples
 from gruebler.linkages import Linkage
+from gruebler.views import Brief
 
 __all__ = ["Course", "Span", "follow"]
 
 _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
+_STILL = 1e-12  # of the natural size: a rate (of a turn, by the drive) below it is a rounding
 _BEND = 1e-3  # by how much a rate may differ from its cubic, of the usual rate
 _MOST_TURNS = 8  # after which a linkage must be back where it was
 _MOST_WITH_WHEELS = 720  # the same with wheels, whose tooth numbers make long cycles
@@ -35,6 +40,12 @@ _END = 0.3  # how far from an end (of pi for the range) the nodes for values at 
 _NODES = 10
 _NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
 _ROUND = 1e-11  # radians: a full turn less than that is none
+_LAW_NOISE = (
+    1e-11,
+    1e-9,
+    1e-6,
+    1e-3,
+)  # of the usual size: errors of the pieces of laws and their derivatives, and room
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
@@ -68,8 +79,8 @@ class Span(NamedTuple):
         return 0.0 if self.period - value < _ROUND else value
 
 
-@dataclass(frozen=True)
-class Course:
+@dataclass(frozen=True, repr=False)
+class Course(Brief):
     """A linkage on one branch over the whole range of its drive."""
 
     plan: Plan
@@ -88,6 +99,16 @@ class Course:
     def turning_drive(self) -> bool:
         """Whether the drive turns; else it slides."""
         return _turns(self.plan)
+
+    def samples(self, order: int = 1) -> Samples:
+        """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""
+        noise = _LAW_NOISE[order:] if self.joints else ()
+        return Samples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
+
+    @cached_property
+    def joints(self) -> tuple[float, ...]:
+        """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
+        return law_joints(self)
 
     def at(self, drives: Reals, order: int = 3) -> Motion:
         """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
@@ -139,6 +160,10 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
         )
     start = _begun(plan, branch)
     span = _span(plan, start)
+    for stop in span.stops:
+        if stop is not None and stop.reason == "open":
+            found = replace(start, stop=stop)
+            raise LinkageError(found.message(), found.message("de"))
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
@@ -163,7 +188,10 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
+    if plan.released:  # its independent part may have change points where it has none
+        motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
+    else:
+        motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
     if order:
         mend_rates(plan, motion, path, speeds, signs)
     return motion, rows
@@ -248,6 +276,7 @@ def _grid(course: Course) -> Reals:
     def drive(s: Reals) -> Reals:
         return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
 
+    least = _STILL / (1 if course.turning_drive else course.plan.lower.size)
     suspect = np.ones(len(s) - 1, bool)
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
@@ -256,7 +285,7 @@ def _grid(course: Course) -> Reals:
         usual = np.quantile(np.abs(speed), 0.9, axis=0)
         width = np.diff(drive(s))[:, None]
         cubic = (speed[:-1] + speed[1:]) / 2 + width / 8 * (change[:-1] - change[1:])
-        off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + 1e-12
+        off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + least
         bent = np.zeros(len(s) - 1, bool)
         bent[suspect] = off.any(axis=1)
         order = np.argsort(np.concatenate([s, middles]), kind="stable")

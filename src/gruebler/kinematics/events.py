@@ -6,7 +6,7 @@ respect to the drive. Definitions, method and errors: docs/theory/events.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import pi
 from typing import NamedTuple
 
@@ -19,25 +19,31 @@ from gruebler.kinematics.motion import Reals
 from gruebler.kinematics.outputs import Output
 from gruebler.kinematics.plan import Dyad
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.zeros import Zero, bracketed, zeros
+from gruebler.kinematics.redundancy import regular
+from gruebler.kinematics.zeros import Zero, bracketed, vanishing, zeros
 
 __all__ = [
     "ChangePoint",
     "Crossing",
     "DeadCentre",
+    "Dwell",
     "change_points",
     "crossings",
     "dead_centres",
     "drive_pivot",
+    "dwells",
     "dyad_change_points",
     "natural",
     "output_turns",
+    "stops",
     "transfer_function",
 ]
 
 _STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
-_BESIDE = pi / 360  # next to a zero of the output's velocity, where the output moves or dwells
-_DWELL = 1e-9  # the velocity (output by drive, in usual sizes) below which it dwells
+_ASIDE = np.array(
+    [0.5**k for k in range(6, 0, -1)]
+)  # of the way from a dwell to the next joint: where the output is seen to move
+_NEAR = 1e-9  # of the range: joints of a law that are nearer are one
 _EVEN = 1e-9  # the same for its derivatives
 _EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
 _THERE = 1e-5  # radians: a pose that differs by less is the same
@@ -57,6 +63,30 @@ class DeadCentre(NamedTuple):
     """Whether the second derivative vanishes as well, so that the output dwells."""
     side: str
     """``inner`` or ``outer`` for the two extreme ones, else empty."""
+
+
+class Dwell(NamedTuple):
+    """A stretch of the drive on which the output rests: behind a cam or a Geneva drive."""
+
+    begin: float
+    """The drive's value; of full turns in 0 to the period."""
+    end: float
+    """The same, larger than ``begin``: beyond the period if the dwell goes over its end."""
+    output: float
+    kind: str
+    """``maximum`` or ``minimum`` of the output, or ``flat``: it goes on in the same direction."""
+    side: str
+    """``inner`` or ``outer`` for the two extreme ones, dead centres among them, else empty."""
+
+    @property
+    def duration(self) -> float:
+        """How far the drive moves meanwhile."""
+        return self.end - self.begin
+
+    @property
+    def drive(self) -> float:
+        """The drive's value in the middle; it may lie beyond the period."""
+        return (self.begin + self.end) / 2
 
 
 class Crossing(NamedTuple):
@@ -107,7 +137,10 @@ def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...
             rows = [2 * sine, rows[1] * cosine, rows[2] * cosine - rows[1] ** 2 * sine / 2]
         return np.stack(rows[:3])
 
-    found = _inside(course, _moving(course, output, zeros(jet, course.grid, least)))
+    samples = course.samples(order)
+    if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
+        samples = samples._replace(period=None)
+    found = _inside(course, zeros(jet, samples, least))
     before = _before(course, output, found, order)
     words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
     return tuple(
@@ -127,31 +160,37 @@ def _inside(course: Course, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
     return tuple(sorted(found, key=lambda zero: course.span.wrapped(zero.at)))
 
 
-def _moving(course: Course, output: Output, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
-    """The zeros beside which the output moves: not those within a dwell behind a cam or a Geneva drive."""
-    if not found or not course.plan.dwelling:
-        return found
-    at = np.array([zero.at for zero in found])
-    rates = [np.abs(transfer_function(course, output, at + side * _BESIDE, 1)) for side in (-1, 1)]
-    moves = np.maximum(*rates) > _DWELL * natural(course, output)
-    return tuple(zero for zero, kept in zip(found, moves, strict=True) if kept)
-
-
 def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
-    """All positions in which the output stops, with the extreme ones told apart as inner and outer.
+    """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
 
-    A dead centre is a zero of psi'. The outer one is that in which the point that drives the output lies farther from
-    the pivot of the drive, be it the maximum or the minimum of the output. Where there is no such pivot or point, or
-    both lie as far, the maximum of an angle is the inner one, the maximum of a way the outer one. Error of the drive
+    A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
+    output lies farther from the pivot of the drive, be it the maximum or the minimum of the output. Where there is no
+    such pivot or point, or both lie as far, the maximum of an angle is the inner one, the maximum of a way the outer
+    one. Dwells at the largest or smallest output are inner and outer in the same sense. Error of the drive
     value: some 1e-15 by the curvature psi'', relative to its usual size; of multiple zeros some 1e-12.
     """
+    return stops(course, output)[0]
+
+
+def dwells(course: Course, output: Output) -> tuple[Dwell, ...]:
+    """The stretches on which the output rests; none of an output that never moves.
+
+    An output can only begin or end to rest where a cam or Geneva drive passes to the next piece of its law: between
+    these places the motion is analytic. Error of begin and end: some 1e-14 of a turn.
+    """
+    return stops(course, output)[1]
+
+
+def stops(course: Course, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
+    """`dead_centres` and `dwells`."""
 
     def jet(drives: Reals) -> Reals:
         motion = course.at(drives)
         return np.stack([output.track(motion, k) for k in (1, 2, 3)])
 
-    found = zeros(jet, course.grid, _STILL * natural(course, output))
-    found = _inside(course, _moving(course, output, found))
+    least, samples = _STILL * natural(course, output), course.samples(1)
+    found = _inside(course, zeros(jet, samples, least))
+    resting = vanishing(jet, samples, least) if course.joints else ()
     values = transfer_function(course, output, np.array([zero.at for zero in found])) if found else np.empty(0)
     centres = [
         DeadCentre(
@@ -163,19 +202,57 @@ def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
         )
         for zero, value in zip(found, values, strict=True)
     ]
-    sides = _sides(course, output, centres, [zero.at for zero in found])
-    return tuple(centre._replace(side=side) for centre, side in zip(centres, sides, strict=True))
+    rests = sorted(_dwell(course, output, begin, end) for begin, end in resting)
+    sides = _sides(course, output, [*centres, *rests])
+    return (
+        tuple(one._replace(side=side) for one, side in zip(centres, sides, strict=False)),
+        tuple(one._replace(side=side) for one, side in zip(rests, sides[len(centres) :], strict=True)),
+    )
 
 
-def _sides(course: Course, output: Output, centres: list[DeadCentre], at: list[float]) -> list[str]:
-    sides = [""] * len(centres)
-    turning = [k for k, centre in enumerate(centres) if centre.kind != "flat"]
-    kinds = {centres[k].kind for k in turning}
+def _dwell(course: Course, output: Output, begin: float, end: float) -> Dwell:
+    """The rest of the output between two joints of laws."""
+    span, joints = course.span, np.array(course.joints)
+    if span.full:
+        first = span.wrapped(begin)
+        begin, end = first, first + end - begin
+        joints = np.concatenate([joints + k * span.period for k in (-2, -1, 0, 1, 2)])
+    else:
+        begin, end = (span.low if begin == course.grid[0] else begin), (span.high if end == course.grid[-1] else end)
+        joints = np.concatenate([[span.low], joints, [span.high]])
+    near = _NEAR * span.width
+    before = _way(course, output, begin, joints[joints < begin - near].max(initial=-np.inf))
+    after = _way(course, output, end, joints[joints > end + near].min(initial=np.inf))
+    kinds = {(1, -1): "maximum", (1, 0): "maximum", (0, -1): "maximum", (-1, 1): "minimum", (-1, 0): "minimum"}
+    kind = "flat" if before == after else kinds.get((before, after), "minimum")
+    value = float(transfer_function(course, output, np.array([(begin + end) / 2]))[0])
+    return Dwell(begin, end, value, kind, "")
+
+
+def _way(course: Course, output: Output, edge: float, joint: float) -> int:
+    """In which direction the output moves beside a dwell, on the way to the next joint: 1, -1; 0 if there is none."""
+    if not np.isfinite(joint):
+        return 0
+    rates = transfer_function(course, output, np.asarray(edge + (joint - edge) * _ASIDE), 1)
+    return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
+
+
+def _sides(course: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
+    """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
+    sides = [""] * len(stops)
+    turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
+    kinds = {stops[k].kind for k in turning}
     if len(kinds) < 2 or _goes_round(course, output):
         return sides
-    top = max(turning, key=lambda k: centres[k].output)
-    bottom = min(turning, key=lambda k: centres[k].output)
-    far = _distances(course, output, np.array([at[top], at[bottom]]))
+    outputs = [stops[k].output for k in turning]
+    high, low = max(outputs), min(outputs)
+    near = _EQUAL * (high - low)
+
+    def first(value: float) -> int:
+        return min((k for k in turning if abs(stops[k].output - value) <= near), key=lambda k: stops[k].drive)
+
+    top, bottom = first(high), first(low)
+    far = _distances(course, output, np.array([stops[top].drive, stops[bottom].drive]))
     if far is None or abs(far[0] - far[1]) < _EQUAL * course.plan.lower.size:
         top_is_outer = not output.turning
     else:
@@ -255,6 +332,8 @@ def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
         mine = roots[:, dyad.number]
         for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
             found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
+    if course.plan.released and found:  # one of the independent part may be none of the linkage
+        found = [point for point in found if not regular(course.at(np.array([point.drive]), 0), 0)]
     return tuple(sorted(found))
 
 

@@ -6,10 +6,12 @@
 - ``span`` (`Span`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
 - ``ends``: the output at both ends of a range that is no full turn, else None;
 - ``dead_centres`` (tuple of `DeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
-- ``inner, outer`` (`DeadCentre` or None), ``travel`` (stroke or swing, None if the output goes round),
+- ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
+- ``inner, outer`` (`DeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
   ``output_turns`` (turns of the output per period);
-- ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back; None if not
-  defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed);
+- ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
+  output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
+  ``dwell_time``;
 - ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_notes`` say if some are not known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
 - ``transmission`` (`Transmission`: extremes, smallest, largest, legs, good; None if undefined, then
@@ -32,23 +34,26 @@ from gruebler.kinematics.events import (
     ChangePoint,
     Crossing,
     DeadCentre,
+    Dwell,
     change_points,
     crossings,
-    dead_centres,
     dyad_change_points,
     natural,
     output_turns,
+    stops,
     transfer_function,
 )
 from gruebler.kinematics.outputs import Output, find_output
 from gruebler.kinematics.transmission import NoTransmissionAngleError, Transmission, measure_transmission
+from gruebler.kinematics.zeros import sampled
 from gruebler.linkages import Linkage
 from gruebler.linkages.extremes import StrokeTimes
+from gruebler.views import Brief
 
 __all__ = ["Measures", "Transfer", "measures"]
 
 _UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
-_STILL = 1e-11
+_STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
 
 
 class Transfer(NamedTuple):
@@ -72,8 +77,8 @@ class Transfer(NamedTuple):
     """Extremes of psi'': zeros of psi'''."""
 
 
-@dataclass(frozen=True)
-class Measures:
+@dataclass(frozen=True, repr=False)
+class Measures(Brief):
     """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
 
     linkage: Linkage
@@ -84,6 +89,8 @@ class Measures:
     span: Span
     ends: tuple[float, float] | None
     dead_centres: tuple[DeadCentre, ...]
+    dwells: tuple[Dwell, ...]
+    """Where the output rests, behind a cam or a Geneva drive."""
     output_turns: int
     travel: float | None
     change_points: tuple[ChangePoint, ...]
@@ -101,32 +108,59 @@ class Measures:
         return self.transmission_notes["en"]
 
     @property
-    def inner(self) -> DeadCentre | None:
-        """The inner dead centre."""
-        return next((centre for centre in self.dead_centres if centre.side == "inner"), None)
+    def inner(self) -> DeadCentre | Dwell | None:
+        """The inner dead centre, or the dwell in its place."""
+        return self._extreme("inner")
 
     @property
-    def outer(self) -> DeadCentre | None:
-        """The outer dead centre."""
-        return next((centre for centre in self.dead_centres if centre.side == "outer"), None)
+    def outer(self) -> DeadCentre | Dwell | None:
+        """The outer dead centre, or the dwell in its place."""
+        return self._extreme("outer")
+
+    @property
+    def stops(self) -> tuple[DeadCentre | Dwell, ...]:
+        """Where the output stops: dead centres, then dwells."""
+        return (*self.dead_centres, *self.dwells)
+
+    def _extreme(self, side: str) -> DeadCentre | Dwell | None:
+        return next((stop for stop in self.stops if stop.side == side), None)
 
     @property
     def phi_forward(self) -> float | None:
-        """The drive angle from the inner to the next outer dead centre, in the positive sense."""
+        """The drive angle from the inner to the next outer dead centre, in the positive sense, less dwells between."""
         return self._way(self.inner, self.outer)
 
     @property
     def phi_back(self) -> float | None:
-        """The drive angle from the outer to the next inner dead centre, in the positive sense."""
+        """The drive angle from the outer to the next inner dead centre, in the positive sense, less dwells between."""
         return self._way(self.outer, self.inner)
 
-    def _way(self, start: DeadCentre | None, end: DeadCentre | None) -> float | None:
-        """How far the drive turns from one dead centre to the next that is like the other; None without full turns."""
+    def _way(self, start: DeadCentre | Dwell | None, end: DeadCentre | Dwell | None) -> float | None:
+        """How far the drive turns, while the output moves, from one stop to the next that is like the other."""
         if start is None or end is None or not self.span.full:
             return None
         near = 1e-9 * (self.travel or 0.0)
-        alike = (one for one in self.dead_centres if one.kind == end.kind and abs(one.output - end.output) <= near)
-        return min((one.drive - start.drive) % self.span.period for one in alike)
+        leaves = start.end if isinstance(start, Dwell) else start.drive
+
+        def ahead(drive: float) -> float:
+            return (drive - leaves) % self.span.period
+
+        alike = (stop for stop in self.stops if stop.kind == end.kind and abs(stop.output - end.output) <= near)
+        way = min(ahead(stop.begin if isinstance(stop, Dwell) else stop.drive) for stop in alike)
+        return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive) < way)
+
+    @property
+    def dwell_share(self) -> float:
+        """The part of the period, or of the drive's range, in which the output rests; 0 without a dwell."""
+        whole = self.span.period if self.span.full else self.span.width
+        return sum(dwell.duration for dwell in self.dwells) / whole
+
+    @property
+    def dwell_time(self) -> float | None:
+        """How long the output rests in one period at the speed given, in seconds."""
+        if self.speed_rpm is None or not self.span.full:
+            return None
+        return self.dwell_share * self.span.turns * 60 / abs(self.speed_rpm)
 
     @property
     def phi_max(self) -> float | None:
@@ -205,7 +239,7 @@ def measures(
     if not span.full:
         low, high = (course.end(looked_at.track, upper) for upper in (False, True))
         ends = low, high
-    centres = dead_centres(course, looked_at)
+    centres, rests = stops(course, looked_at)
     turns = output_turns(course, looked_at)
     try:
         changes, unknown = change_points(course), {"en": "", "de": ""}
@@ -224,8 +258,11 @@ def measures(
         span,
         ends,
         centres,
+        rests,
         turns,
-        None if turns else _travel(course, looked_at, centres, ends),
+        None
+        if turns
+        else _travel(course, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
         changes,
         unknown,
         _transfer(course, looked_at),
@@ -243,20 +280,19 @@ def _speed(rpm: float | None) -> float | None:
     return float(rpm)
 
 
-def _travel(course: Course, output: Output, centres: tuple[DeadCentre, ...], ends: tuple[float, float] | None) -> float:
-    values = [centre.output for centre in centres] + list(ends or ())
+def _travel(course: Course, output: Output, values: list[float]) -> float:
+    """The difference of the largest and the smallest output among its stops and ends."""
     if not values:  # it goes nowhere, or its motion has no end: what the grid shows
-        values = list(transfer_function(course, output, course.grid))
-        return float(max(values) - min(values)) if max(values) - min(values) > _STILL else 0.0
+        track = transfer_function(course, output, course.grid)
+        least = _STILL * (1.0 if output.turning else course.plan.lower.size)
+        return float(np.ptp(track)) if np.ptp(track) > least else 0.0
     return max(values) - min(values)
 
 
 def _transfer(course: Course, output: Output) -> Transfer:
     track = transfer_function(course, output, course.grid, 1)
-    scale = natural(course, output)
+    still, uniform = _kind(course, output)
     usual = float(np.median(track))
-    still = float(np.quantile(np.abs(track), 0.9)) <= _STILL * scale
-    uniform = not still and float(np.quantile(np.abs(track - usual), 0.9)) <= _UNIFORM * abs(usual)
     velocity = () if still or uniform else crossings(course, output, 2)
     acceleration = () if still or uniform else crossings(course, output, 3)
     values = [*track.tolist(), *(crossing.value for crossing in velocity)]
@@ -270,3 +306,13 @@ def _transfer(course: Course, output: Output) -> Transfer:
         velocity,
         acceleration,
     )
+
+
+def _kind(course: Course, output: Output) -> tuple[bool, bool]:
+    """Whether the output never moves, and whether psi' is constant: on each piece on which the motion is analytic."""
+    parts = sampled(lambda drives: transfer_function(course, output, drives, 1)[None], course.samples(1))
+    usual = float(np.median(np.concatenate([part[0] for part in parts])))
+    scale = _STILL * natural(course, output)
+    still = all(float(np.quantile(np.abs(part[0]), 0.9)) <= scale for part in parts)
+    varies = max(float(np.quantile(np.abs(part[0] - usual), 0.9)) for part in parts)
+    return still, not still and varies <= _UNIFORM * abs(usual)

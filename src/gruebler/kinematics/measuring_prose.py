@@ -7,6 +7,7 @@ from math import degrees
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from gruebler.kinematics.events import Dwell
     from gruebler.kinematics.measuring import Measures
     from gruebler.kinematics.transmission import Extreme
 
@@ -46,9 +47,29 @@ _TEXTS = {
     "outer": ("Outer dead centre at {at}: {output}.", "Äußere Totlage bei {at}: {output}."),
     "": ("Dead centre at {at}: {output}.", "Totlage bei {at}: {output}."),
     "flat": ("The output pauses at {at}: {output}.", "Der Abtrieb rastet kurz bei {at}: {output}."),
+    "dwell inner": (
+        "Dwell in the inner position from {begin} to {end}, {duration}: {output}.",
+        "Rast in der inneren Lage von {begin} bis {end}, {duration}: {output}.",
+    ),
+    "dwell outer": (
+        "Dwell in the outer position from {begin} to {end}, {duration}: {output}.",
+        "Rast in der äußeren Lage von {begin} bis {end}, {duration}: {output}.",
+    ),
+    "dwell": (
+        "Dwell from {begin} to {end}, {duration}: {output}.",
+        "Rast von {begin} bis {end}, {duration}: {output}.",
+    ),
+    "dwells": (
+        "The output rests for {share:.9g} % of the drive's motion.",
+        "Der Abtrieb rastet während {share:.9g} % der Antriebsbewegung.",
+    ),
     "strokes": (
         "Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
         "Antriebswinkel: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
+    ),
+    "strokes moving": (
+        "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
+        "Antriebswinkel ohne Rasten: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
     ),
     "slow forward": (
         "In the positive sense the way outward is the slow one.",
@@ -62,6 +83,7 @@ _TEXTS = {
         "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
         "Bei {rpm:g} Umdrehungen je Minute: {forward:.6g} s von innen nach außen, {back:.6g} s zurück.",
     ),
+    "dwell time": ("At rest: {time:.6g} s in a period.", "In Rast: {time:.6g} s je Periode."),
     "change": (
         "Change point of {form} {{{links}}} at {at}.",
         "Verzweigungslage (durchschlagend) von {form} {{{links}}} bei {at}.",
@@ -98,16 +120,7 @@ def explain(found: Measures, lang: str) -> Iterator[str]:
     elif found.travel is not None:
         key = "swing" if found.output.turning else "stroke"
         yield say(key, name=name, travel=_output(found, found.travel))
-    for centre in found.dead_centres:
-        key = "flat" if centre.kind == "flat" else centre.side
-        yield say(key, at=_drive(found, centre.drive), output=_output(found, centre.output))
-    if found.phi_forward is not None and found.phi_back is not None:
-        forward, back = (_drive(found, x) for x in (found.phi_forward, found.phi_back))
-        yield say("strokes", forward=forward, back=back, ratio=found.time_ratio)
-        if abs(found.phi_forward - found.phi_back) > _CONSTANT:
-            yield say("slow forward" if found.phi_forward > found.phi_back else "slow back")
-    if found.times is not None:
-        yield say("times", rpm=found.speed_rpm, forward=found.times.forward, back=found.times.back)
+    yield from _stop_lines(found, say)
     for point in found.change_points:
         yield say("change", form=point.form, links=", ".join(point.links), at=_drive(found, point.drive))
     if found.change_points_notes[lang]:
@@ -128,6 +141,28 @@ def explain(found: Measures, lang: str) -> Iterator[str]:
     yield say("good" if found.transmission.good else "poor")
 
 
+def _stop_lines(found: Measures, say: Any) -> Iterator[str]:
+    """Dead centres, dwells, and the ways between them."""
+    for centre in found.dead_centres:
+        key = "flat" if centre.kind == "flat" else centre.side
+        yield say(key, at=_drive(found, centre.drive), output=_output(found, centre.output))
+    for dwell in found.dwells:
+        begin, end, duration = (_drive(found, value) for value in (dwell.begin, _end(found, dwell), dwell.duration))
+        key = f"dwell {dwell.side}".strip()
+        yield say(key, begin=begin, end=end, duration=duration, output=_output(found, dwell.output))
+    if found.dwells:
+        yield say("dwells", share=100 * found.dwell_share)
+    if found.phi_forward is not None and found.phi_back is not None:
+        forward, back = (_drive(found, x) for x in (found.phi_forward, found.phi_back))
+        yield say("strokes moving" if found.dwells else "strokes", forward=forward, back=back, ratio=found.time_ratio)
+        if abs(found.phi_forward - found.phi_back) > _CONSTANT:
+            yield say("slow forward" if found.phi_forward > found.phi_back else "slow back")
+    if found.times is not None:
+        yield say("times", rpm=found.speed_rpm, forward=found.times.forward, back=found.times.back)
+    if found.dwells and found.dwell_time is not None:
+        yield say("dwell time", time=found.dwell_time)
+
+
 def _drive_lines(found: Measures, say: Any) -> Iterator[str]:
     span = found.span
     if span.full:
@@ -140,6 +175,12 @@ def _drive_lines(found: Measures, say: Any) -> Iterator[str]:
         if stop is not None:
             key = "limit" if stop.reason == "limit" else "singular"
             yield say(key, at=_drive(found, at), form=stop.form, links=", ".join(stop.links))
+
+
+def _end(found: Measures, dwell: Dwell) -> float:
+    """Where a dwell ends, as it is reported: within the period if it goes over its end."""
+    period = found.span.period
+    return dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
 
 
 def _angle(value: float) -> str:
@@ -188,6 +229,19 @@ def plain(found: Measures) -> dict[str, Any]:
             {"drive": turn(c.drive), "output": out(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
             for c in found.dead_centres
         ],
+        "dwells": [
+            {
+                "begin": turn(d.begin),
+                "end": turn(d.end),
+                "duration": turn(d.duration),
+                "output": out(d.output),
+                "kind": d.kind,
+                "side": d.side,
+            }
+            for d in found.dwells
+        ],
+        "dwell_share": found.dwell_share,
+        "dwell_time": found.dwell_time,
         "output_turns": found.output_turns,
         "travel": None if found.travel is None else out(found.travel),
         "phi_forward": angle(found.phi_forward),

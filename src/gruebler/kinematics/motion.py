@@ -13,6 +13,7 @@ from gruebler import views
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import Linkage, Named, Place
+from gruebler.views import Brief
 
 __all__ = ["Motion", "Stop"]
 
@@ -31,13 +32,14 @@ class Stop:
     links: tuple[str, ...]
     """The group that can no longer be assembled, or no longer be followed."""
     form: str
-    """The form of that group."""
+    """The form of that group; for ``open`` the name of the joint."""
     reason: str
-    """``limit`` (it can no longer be assembled), ``singular`` (it cannot be followed), ``start`` (not even begun)."""
+    """``limit`` (it can no longer be assembled), ``singular`` (it cannot be followed), ``start`` (not even begun),
+    ``open`` (the redundant conditions of a joint are not met)."""
 
 
-@dataclass(frozen=True)
-class Motion:
+@dataclass(frozen=True, repr=False)
+class Motion(Brief):
     """Poses of a linkage along a path of its drives, with derivatives.
 
     Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows behind a `stop` are not there:
@@ -86,7 +88,7 @@ class Motion:
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
         k = self._link(link)
-        out: Reals = np.angle(self.turns[:, k]) + 2 * np.pi * self.whole[:, k]
+        out: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
         return out
 
     def angular(self, link: str, order: int = 1) -> Reals:

@@ -15,6 +15,7 @@ from gruebler.kinematics.drive_rows import drive_path, drive_speeds
 from gruebler.kinematics.home import at_home, check_home
 from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Stop
+from gruebler.kinematics.openness import joint_openings
 from gruebler.kinematics.plan import Dyad, Larger, Plan, plan
 from gruebler.kinematics.runs import Rows, follow_path, run_rows, without_first
 from gruebler.linkages import Linkage
@@ -22,6 +23,8 @@ from gruebler.linkages import Linkage
 __all__ = ["motion_of", "move", "planned", "start_of"]
 
 Reals = NDArray[np.float64]
+_OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
+_DOUBTFUL = 1e-6  # a root below it may be wrong by as much as 1e-16 over it, and so may the pose
 _REASONS = {1: "limit", 2: "singular", 3: "start"}
 
 
@@ -147,7 +150,7 @@ def motion_of(made: Plan, path: Reals, rows: Rows) -> Motion:
         if len(path) > 1:
             drives = drives + (rows.at - last) * (path[last + 1] - drives)
         stop = _stop(made, rows.at, drives, part_at_fault(made, rows.fault), _REASONS[rows.status])
-    return Motion(
+    motion = Motion(
         made.linkage,
         made,
         path[: rows.reached],
@@ -158,6 +161,37 @@ def motion_of(made: Plan, path: Reals, rows: Rows) -> Motion:
         rows.roots,
         rows.unknowns,
         stop,
+    )
+    return _while_closed(motion) if made.released else motion
+
+
+def _while_closed(motion: Motion) -> Motion:
+    """The rows up to the first one in which a redundant condition is not met.
+
+    Next to a change point of the independent part its poses have lost digits; such rows are not judged.
+    """
+    made = motion.plan
+    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    sure = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _DOUBTFUL
+    opens = {number: sure & (joint_openings(motion, motion.linkage, number) > _OPEN) for number in made.released}
+    first = [(int(np.argmax(rows)), number) for number, rows in opens.items() if rows.any()]
+    if not first:
+        return motion
+    row, number = min(first)
+    chain = motion.linkage.mechanism.chain
+    stop = Stop(
+        float(row), tuple(motion.drives[row].tolist()), chain.joints[number].links, chain.joint_names()[number], "open"
+    )
+    return replace(
+        motion,
+        drives=motion.drives[:row],
+        places=motion.places[:, :row],
+        turns=motion.turns[:row],
+        rates=motion.rates[:, :row],
+        whole=motion.whole[:row],
+        roots=motion.roots[:row],
+        unknowns=motion.unknowns[:row],
+        stop=stop,
     )
 
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, geneva_law
-from gruebler.kinematics.motion import Complexes, Motion
-from gruebler.linkages import Circle, Cross, Disc, Driver, Line, Wheel
+from gruebler.kinematics.motion import Complexes, Motion, Reals
+from gruebler.linkages import Circle, Cross, Disc, Driver, Line, Linkage, Wheel
 from gruebler.linkages.wheels import arms, factors, round_joints
 
-__all__ = ["openness"]
+__all__ = ["joint_openings", "openness"]
 
 
 def openness(motion: Motion) -> float:
@@ -22,24 +22,38 @@ def openness(motion: Motion) -> float:
     largest = max(
         (_open_contact(motion, k) for k in round_joints(motion.linkage.mechanism, motion.linkage.elements)), default=0.0
     )
-    for number, joint in enumerate(lower.mechanism.chain.joints):
-        if number in wheels:
-            continue
-        first = joint.links[0]
-        for other in joint.links[1:]:
-            one, two = lower.elements[number, first], lower.elements[number, other]
-            gap = _at(motion, other, two.x, two.y) - _at(motion, first, one.x, one.y)
-            if isinstance(one, Line):
-                assert isinstance(two, Line)
-                turns = motion.turns
-                direction = turns[:, motion._link(first)] * rect(1, one.angle)
-                other_way = turns[:, motion._link(other)] * rect(1, two.angle)
-                gap = np.conj(direction) * gap
-                largest = max(largest, float(np.max(np.abs(gap.imag))) / lower.size)
-                largest = max(largest, float(np.max(np.abs(other_way - direction))))
-            else:
-                largest = max(largest, float(np.max(np.abs(gap))) / lower.size)
-    return largest
+    gaps = [
+        joint_openings(motion, linkage, number)
+        for linkage, numbers in (
+            (lower, set(range(len(lower.mechanism.chain.joints))) - set(wheels)),
+            (motion.linkage, motion.plan.released),
+        )
+        for number in numbers
+    ]
+    return max([largest, *(float(gap.max(initial=0.0)) for gap in gaps)])
+
+
+def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
+    """By how much a joint of pins and lines is open in each row, in sizes and radians; (rows,).
+
+    The linkage is that of the motion, or the one with lower pairs.
+    """
+    joint = linkage.mechanism.chain.joints[number]
+    out = np.zeros(len(motion))
+    for first, other in ((joint.links[0], other) for other in joint.links[1:]):
+        if not isinstance(linkage.elements[number, first], Line):
+            first, other = other, first  # noqa: PLW2901
+        one, two = linkage.elements[number, first], linkage.elements[number, other]
+        gap = (_at(motion, other, two.x, two.y) - _at(motion, first, one.x, one.y)) / linkage.size
+        if isinstance(one, Line):
+            line = motion.turns[:, motion._link(first)] * rect(1, one.angle)
+            if joint.pair.name != "double_slide":
+                out = np.maximum(out, np.abs((np.conj(line) * gap).imag))
+            if isinstance(two, Line):
+                out = np.maximum(out, np.abs(motion.turns[:, motion._link(other)] * rect(1, two.angle) - line))
+        else:
+            out = np.maximum(out, np.abs(gap))
+    return out
 
 
 def _open_contact(motion: Motion, number: int) -> float:

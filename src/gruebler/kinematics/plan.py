@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import radians
 
@@ -14,9 +14,11 @@ from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RR
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
+from gruebler.views import Brief
 
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
 
@@ -61,14 +63,14 @@ class Larger:
     """Whether wheels or circles are in it: then its modes are not searched for, and it is followed from the home."""
 
 
-@dataclass(frozen=True)
-class Plan:
+@dataclass(frozen=True, repr=False)
+class Plan(Brief):
     """The order of solving, in names and as arrays for the kernel."""
 
     linkage: Linkage
     """The linkage as it was given."""
     lower: Linkage
-    """The same with turning and sliding joints only."""
+    """The same with turning and sliding joints only, and without redundant conditions."""
     decomposition: Decomposition
     parts: tuple[Dyad | Larger, ...]
     """Dyads and larger groups in solving order."""
@@ -77,6 +79,8 @@ class Plan:
     """For each larger group its closing conditions."""
     keys: tuple[tuple[int, str], ...]
     """The joint and link of each element by number."""
+    released: tuple[int, ...] = ()
+    """The joints, by number in `linkage`, that are closed only if its sizes are right: redundant conditions."""
 
     @property
     def dyads(self) -> tuple[Dyad, ...]:
@@ -203,10 +207,19 @@ def plan(linkage: Linkage) -> Plan:
         raise LinkageError(
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )
-    parts = decompose(lower.mechanism)
+    parts, released = decompose(lower.mechanism), ()
+    if parts.overconstrained:
+        try:
+            part, released = independent_part(linkage)
+        except LinkageError as error:
+            raise LinkageError(
+                f"the linkage cannot be moved by its drives: constraints or drives work against one another. {error}"
+            ) from None
+        lower = with_lower_pairs(part)
+        parts = decompose(lower.mechanism)
     if not parts.complete:
         raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
-    return _Planner(linkage, lower, parts).made()
+    return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
 class _Planner:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages import Element, Line, Linkage, Named, Place
 from gruebler.linkages.wheels import sliding_joint
+from gruebler.views import Brief
 
 __all__ = ["Poses"]
 
@@ -19,8 +20,8 @@ Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 
-@dataclass(frozen=True, eq=False)
-class Poses:
+@dataclass(frozen=True, eq=False, repr=False)
+class Poses(Brief):
     """Positions on a circuit; ``order`` 0 is a value, 1 its derivative by the arc."""
 
     linkage: Linkage

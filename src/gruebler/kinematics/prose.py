@@ -20,6 +20,14 @@ _SAID = {
     ("limit", "de"): "Die Bewegung endet bei {drives}: dort lässt sich {form} {{{links}}} nicht mehr zusammenbauen.",
     ("singular", "en"): "The motion ends at {drives}: there two assembly modes of {form} {{{links}}} meet.",
     ("singular", "de"): "Die Bewegung endet bei {drives}: dort treffen sich zwei Einbaulagen von {form} {{{links}}}.",
+    ("open", "en"): (
+        "The motion ends at {drives}: there {form} is open. The sizes do not let this overconstrained linkage move on; "
+        "`gruebler freedoms` says what they allow."
+    ),
+    ("open", "de"): (
+        "Die Bewegung endet bei {drives}: dort klafft {form}. Die Abmessungen lassen das überbestimmte Getriebe nicht "
+        "weiter laufen; `gruebler freedoms` sagt, was sie zulassen."
+    ),
     ("start", "en"): "At the start, {drives}, {form} {{{links}}} cannot be assembled in this way.",
     ("start", "de"): "Am Anfang, {drives}, lässt sich {form} {{{links}}} so nicht zusammenbauen.",
 }

@@ -102,6 +102,12 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
 
     Raises `LinkageError` with a sentence that says why there is no transmission angle.
     """
+    if plan.released:
+        raise NoTransmissionAngleError(
+            "the linkage is overconstrained, and how its joints share the force depends on how they yield",
+            "das Getriebe ist überbestimmt, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
+            "Nachgiebigkeit ab",
+        )
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
     if group is None:
         raise NoTransmissionAngleError(
@@ -305,7 +311,7 @@ def _stationary(course: Course, leg: Leg) -> tuple[Reals, list[tuple[float, floa
     places = [
         zero.at
         for jet, floor in ((turning, slow), (sine, least), (cosine, least))
-        for zero in zeros(jet, course.grid, floor)
+        for zero in zeros(jet, course.samples(2), floor)
     ]
     if course.span.full:
         return np.array(places or [course.span.low]), []

@@ -95,7 +95,7 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
 
 
 def _row(made: Circuit, joint: int, links: tuple[str, str], freedom: str) -> Rotatability:
-    lowest, highest = made.range(_quantity(joint, links, freedom))
+    lowest, highest = made.range(_quantity(joint, links, freedom), 1.0 if freedom == "turn" else made.system.lower.size)
     turns, full = 0, False
     if freedom == "turn":
         ends = made.angle(links[1])[[0, -1]] - made.angle(links[0])[[0, -1]]

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 import tomllib
 from collections.abc import Callable, Mapping
 from difflib import get_close_matches
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
-__all__ = ["Failing", "fitted", "load"]
+__all__ = ["Failing", "fitted", "infinities_as_words", "load"]
 
 Failing = Callable[[str], Exception]
 """Makes the exception of a sentence."""
@@ -57,9 +59,25 @@ def _no_number(word: str) -> NoReturn:
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     out = dict(pairs)
     if len(out) < len(pairs):
-        twice = next(key for k, (key, _) in enumerate(pairs) if key in dict(pairs[:k]))
+        # The dictionary has each key where it stands first: the two part where one comes again.
+        twice = next(pair[0] for pair, key in zip_longest(pairs, out) if pair[0] != key)
         raise ValueError(f"the key {twice!r} stands twice in one object")
     return out
+
+
+def infinities_as_words(data: Any) -> Any:
+    """Plain data as JSON can hold it: an infinite number is the text ``"inf"`` or ``"-inf"``; O(size).
+
+    JSON has no infinity. Readers take the text back wherever a number may be infinite (the radius of a flat contour).
+
+    >>> infinities_as_words({"radii": [0, float("inf")]})
+    {'radii': [0, 'inf']}
+    """
+    if isinstance(data, Mapping):
+        return {key: infinities_as_words(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [infinities_as_words(value) for value in data]
+    return str(data) if isinstance(data, float) and math.isinf(data) else data
 
 
 def fitted(data: object, kind: type[Record], fail: Failing, where: str = "") -> Record:

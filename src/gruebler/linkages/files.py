@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages.angles import in_degrees
@@ -43,6 +44,11 @@ def read_linkage(path: Path | str) -> Linkage:
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError(f"{path}: a linkage is in a .toml or .json file")
     data = load(path, lambda text: LinkageError(f"{path}: {text}"))
+    if isinstance(data, Mapping) and "screws" in data:
+        raise LinkageError(
+            f"{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler freedoms "
+            f"{path}` says how it moves"
+        )
     try:
         return linkage_from_json(data)
     except LinkageError as error:
@@ -189,13 +195,11 @@ def check_linkage_path(path: Path) -> None:
 
 def write_linkage(path: Path | str, linkage: Linkage) -> None:
     """Write a ``.toml`` or ``.json`` file; it appears whole or not at all."""
-    from gruebler.enumeration.checkpoint import whole_file
-
     path = Path(path)
     check_linkage_path(path)
     if path.suffix.lower() == ".toml":
         text = to_toml(linkage)
     else:
         text = json.dumps(to_json(linkage), ensure_ascii=False, indent=2) + "\n"
-    with whole_file(path, durable=False) as file:
+    with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))

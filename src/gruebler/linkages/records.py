@@ -5,13 +5,15 @@ Lengths are in the unit that the file names, angles in degrees; docs/theory/link
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import msgspec
 
 from gruebler.errors import LinkageError, nearest
-from gruebler.linkages.angles import in_radians
+from gruebler.linkages.angles import in_degrees, in_radians
 from gruebler.linkages.documents import fitted
 from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Place, Wheel
 from gruebler.linkages.four_bar import FourBar
@@ -129,7 +131,8 @@ def dimensioned(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[s
     chosen = outputs or ()
     if way == "places":
         assert sizes.places is not None
-        places = _by_joint(mechanism, sizes.places, "places", slots=True)
+        places = _by_joint(mechanism, _aimed(mechanism, sizes.places), "places", slots=True)
+        _refuse_rounded_axes(mechanism, places)
         return Linkage.drawn(mechanism, places, points, unit=sizes.unit, outputs=chosen)
     assert sizes.elements is not None
     elements: dict[str, Mapping[str | int, object]] = {}
@@ -171,6 +174,50 @@ def _by_joint(
             raise LinkageError(f"{where}.{joint}: this joint stands there twice")
         out[number] = _element(raw, f"{where}.{joint}", slots)
     return out
+
+
+def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
+    """The places with degrees instead of the joint through which a slide passes: ``[x, y, "R(piston-boom)"]``."""
+    chain = mechanism.chain
+    by_number = {chain.find_joint(joint): raw for joint, raw in places.items()}
+    out = dict(places)
+    for joint, raw in places.items():
+        if not (isinstance(raw, list) and len(raw) == 3 and isinstance(raw[2], str) and "(" in raw[2]):
+            continue
+        where, target = f"places.{joint}", by_number.get(chain.find_joint(raw[2]))
+        if not isinstance(target, list):
+            raise LinkageError(f"{where}: {raw[2][:60]!r} has no place through which the slide could pass")
+        (x, y), (u, v) = _numbers(raw[:2], where, (2,)), _numbers(target[:2], f"places.{raw[2]}", (2,))
+        if (x, y) == (u, v):
+            raise LinkageError(f"{where}: {raw[2]} is at the slide's own point; give another point of its line")
+        out[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
+    return out
+
+
+_ROUNDED, _MEANT = 1e-9, 1e-3  # of the distance of two pins: what rounding to all digits and to three leaves open
+
+
+def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object]) -> None:
+    """Refuse a slide between moving links that all but passes through a pin of each: its angle has too few digits.
+
+    A cylinder drawn so would have an offset that nobody meant.
+    """
+    chain, names = mechanism.chain, mechanism.chain.joint_names()
+    pins = {k: raw for k, raw in places.items() if isinstance(raw, tuple) and len(raw) == 2}
+    for number, joint in enumerate(chain.joints):
+        raw = places.get(number)
+        if joint.pair.name != "prismatic" or mechanism.frame in joint.links or not isinstance(raw, tuple):
+            continue
+        angle = raw[2] if len(raw) == 3 else 0.0
+        on = [[k for k in pins if isinstance(k, int) and link in chain.joints[k].links] for link in joint.links]
+        for one, other in itertools.product(*on[:2]):
+            across = (pins[other][0] - pins[one][0], pins[other][1] - pins[one][1])
+            far, miss = math.hypot(*across), abs(math.cos(angle) * across[1] - math.sin(angle) * across[0])
+            if _ROUNDED * far < miss < _MEANT * far:
+                raise LinkageError(
+                    f"places.{names[number]}: the slide through {names[one]} misses {names[other]} by {miss:.2g}; "
+                    f'write "{names[other]}" instead of the angle, or the angle with all its digits'
+                )
 
 
 def _element(raw: Any, where: str, slots: bool) -> object:

@@ -10,7 +10,7 @@ from typing import Any
 from gruebler import notation, views
 from gruebler.chain import Chain
 from gruebler.errors import ChainError, NotationError
-from gruebler.isomorphism import code, decode
+from gruebler.isomorphism import DriveMark, code, decode
 from gruebler.pairs import Alphabet
 
 __all__ = ["Drive", "Mechanism"]
@@ -49,7 +49,7 @@ class Mechanism:
     frame: str
     drives: tuple[Drive, ...]
 
-    def __init__(self, chain: Chain, frame: str, drives: Iterable[int | str | Drive] = ()) -> None:
+    def __init__(self, chain: Chain, frame: str, drives: Iterable[int | str | Drive | DriveMark] = ()) -> None:
         chain.index(frame)
         made = tuple(sorted((_drive(chain, d) for d in drives), key=lambda d: (d.joint, d.direction, d.between)))
         keys = [(d.joint, d.direction, frozenset(d.between)) for d in made]
@@ -64,19 +64,28 @@ class Mechanism:
     def parse(cls, text: str) -> Mechanism:
         """The mechanism of a text or of a code with a marked frame.
 
-        Without ``frame=`` the first link named is the frame.
+        Without ``frame=`` the first link named is the frame. An ``output=`` is checked and left out.
 
         >>> Mechanism.parse("D(0-1) D(1-2) D(2-3) D(3-0); drive=D(0-1)").frame
         '0'
+        """
+        return cls.parse_with_output(text)[0]
+
+    @classmethod
+    def parse_with_output(cls, text: str) -> tuple[Mechanism, str | None]:
+        """The mechanism of a text, and the link of its mark ``output=``, None without one.
+
+        >>> Mechanism.parse_with_output("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1); output=3")[1]
+        '3'
         """
         if text.lstrip().startswith("gr"):
             marked = decode(text.strip())
             if marked.frame is None:
                 raise NotationError("the code marks no frame; a mechanism needs one: ...;frame=0")
-            return cls(marked.chain, marked.frame, marked.drives)
+            return cls(marked.chain, marked.frame, marked.drives), None
         body, *marks = _split_marks(text)
         chain = Chain.parse(body)
-        frame, drives = chain.links[0], []
+        frame, output, drives = chain.links[0], None, []
         for mark in marks:
             key, _, value = mark.partition("=")
             match key.strip():
@@ -84,11 +93,16 @@ class Mechanism:
                     frame = notation.link_name(value.strip())
                 case "drive":
                     drives.append(value.strip())
+                case "output":
+                    output = notation.link_name(value.strip())
+                    chain.index(output)
                 case _:
                     raise NotationError(
-                        f"{mark.strip()!r} is no mark of a mechanism: expected frame=LINK or drive=JOINT"
+                        f"{mark.strip()!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK"
                     )
-        return cls(chain, frame, drives)
+        if output == frame:
+            raise ChainError(f"the output {output!r} is the frame")
+        return cls(chain, frame, drives), output
 
     @classmethod
     def from_json(cls, document: Mapping[str, Any]) -> Mechanism:
@@ -128,15 +142,10 @@ class Mechanism:
     def code(self) -> str:
         """The canonical code: equal exactly for mechanisms of one structure.
 
-        A code marks joints, so it is only for drives of joints with one freedom and two links; `ChainError` for others.
+        >>> Mechanism.parse("spatial: C(a-b) R(b-c) R(c-a); drive=C(a-b):Tz").code()
+        'gr1:spatial:C(0-1)R(0-2)R(1-2);frame=0;drives=0:Tz'
         """
-        for drive in self.drives:
-            joint = self.chain.joints[drive.joint]
-            if joint.count > 1 or joint.pair.f(self.chain.space) > 1:
-                raise ChainError(
-                    f"the drive {_drive_text(self.chain, drive)} has no place in a code: codes mark whole joints"
-                )
-        return code(self.chain, frame=self.frame, drives=[drive.joint for drive in self.drives])
+        return code(self.chain, frame=self.frame, drives=[_mark(self.chain, drive) for drive in self.drives])
 
     def _repr_svg_(self) -> str | None:
         """The structure picture, for notebooks."""
@@ -174,9 +183,18 @@ def _split_marks(text: str) -> list[str]:
     return re.findall(r'(?:"(?:[^"\\]|\\.)*"|[^;"])+', text) or [text]
 
 
-def _drive(chain: Chain, raw: int | str | Drive) -> Drive:
+def _mark(chain: Chain, drive: Drive) -> int | DriveMark:
+    """What a code marks: the joint, or the part of it that is driven where it has others."""
+    joint = chain.joints[drive.joint]
+    several, multiple = joint.pair.f(chain.space) > 1, joint.count > 1
+    if not several and not multiple:
+        return drive.joint
+    return DriveMark(drive.joint, drive.direction if several else "", drive.between if multiple else ())
+
+
+def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
     links: tuple[str, ...] = ()
-    if isinstance(raw, Drive):
+    if isinstance(raw, Drive | DriveMark):
         number, direction, links = raw.joint, raw.direction, raw.between
     elif isinstance(raw, int):
         number, direction = raw, ""

@@ -1,10 +1,11 @@
-"""Idle freedoms: motions of one link alone that change nothing else, such as the spin of a rod between two balls.
+"""Idle freedoms: motions of a part alone that change nothing else, such as the spin of a rod between two balls.
 
 Two kinds are told apart. *Certain*: with all its neighbours held, the constraints at a link's joints leave it a
-freedom at a random placement. *If round*: a binary link on one revolute and one roll-slide joint (a cam
-roller) spins idly when its contour is a circle about the pin. Structure cannot know that: a planet wheel looks
-the same. The condition is therefore reported with the freedom, only where the chain has freedoms to spare
-(mobility of two or more) and only for links whose pin is not on the frame.
+freedom at a random placement; or several links hang together between two balls, such as the rod and the barrel of a
+hydraulic cylinder, and turn as one body about the line through the two centres, whatever joins them. *If round*: a
+binary link on one revolute and one roll-slide joint (a cam roller) spins idly when its contour is a circle about the
+pin. Structure cannot know that: a planet wheel looks the same. The condition is therefore reported with the freedom,
+only where the chain has freedoms to spare (mobility of two or more) and only for links whose pin is not on the frame.
 """
 
 from __future__ import annotations
@@ -13,9 +14,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from gruebler._numeric.prime_field import Row, echelon
+from gruebler.chain import Chain
 from gruebler.mobility.rank import Generic
 
-__all__ = ["IdleFreedom", "When", "idle_freedoms"]
+__all__ = ["IdleFreedom", "When", "between_balls", "idle_freedoms"]
 
 
 class When(StrEnum):
@@ -27,9 +29,9 @@ class When(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class IdleFreedom:
-    """Freedoms that belong to one link alone."""
+    """Freedoms that belong to one link alone, or to several that move as one body."""
 
-    link: str
+    links: tuple[str, ...]
     freedoms: int
     when: When
 
@@ -41,21 +43,60 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
     >>> from gruebler.mobility.rank import generic
     >>> rod = Chain.parse("spatial: R(frame-arm1) S(arm1-rod) S(rod-arm2) R(arm2-frame)")
     >>> idle_freedoms(generic(rod), "frame")
-    (IdleFreedom(link='rod', freedoms=1, when=<When.ALWAYS: 'always'>),)
+    (IdleFreedom(links=('rod',), freedoms=1, when=<When.ALWAYS: 'always'>),)
+    >>> ram = Chain.parse("spatial: R(frame-arm) S(arm-rod) P(rod-barrel) S(barrel-frame)")
+    >>> idle_freedoms(generic(ram), "frame")
+    (IdleFreedom(links=('rod', 'barrel'), freedoms=1, when=<When.ALWAYS: 'always'>),)
     """
     chain = rank.chain
     found = []
     for link in chain.links:
         mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
-        if len(mine) < 2:
+        if len(mine) < 2 or link == frame:
             continue
         rows: list[Row] = [dict(enumerate(f)) for k in mine for f in rank.placement.functionals[k]]
         left = chain.space.b - echelon(rows, chain.space.b).rank
         if left:
-            found.append(IdleFreedom(link, left, When.ALWAYS))
+            found.append(IdleFreedom((link,), left, When.ALWAYS))
         elif rank.mobility >= 2 and _may_be_roller(rank, mine, frame):
-            found.append(IdleFreedom(link, 1, When.ROUND))
-    return tuple(found)
+            found.append(IdleFreedom((link,), 1, When.ROUND))
+    found += [IdleFreedom(part, 1, When.ALWAYS) for part, _ in between_balls(chain, frame)]
+    return tuple(sorted(found, key=lambda idle: chain.index(idle.links[0])))
+
+
+def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple[int, int]]]:
+    """The parts of several links, joined by other pairs than balls, that two balls join to two links of the rest.
+
+    Each part with the numbers of its two balls. Cost O(joint elements).
+    """
+    balls = [k for k, joint in enumerate(chain.joints) if joint.pair.name == "spherical"]
+    part_of = {link: link for link in chain.links}
+
+    def part(link: str) -> str:
+        while part_of[link] != link:
+            part_of[link] = link = part_of[part_of[link]]
+        return link
+
+    for k, joint in enumerate(chain.joints):
+        if k not in balls:
+            for other in joint.links[1:]:
+                part_of[part(other)] = part(joint.links[0])
+    members: dict[str, list[str]] = {}
+    for link in chain.links:
+        members.setdefault(part(link), []).append(link)
+    at: dict[str, list[int]] = {}
+    for k in balls:
+        for link in chain.joints[k].links:
+            at.setdefault(part(link), []).append(k)
+    out = []
+    for root, links in members.items():
+        mine = at.get(root, [])
+        if len(links) < 2 or frame in links or len(mine) != 2 or mine[0] == mine[1]:
+            continue
+        outside = {link for k in mine for link in chain.joints[k].links} - set(links)
+        if len(outside) > 1:  # both balls on one and the same link make a hinge, and its turn is no idle one
+            out.append((tuple(links), (mine[0], mine[1])))
+    return out
 
 
 def _may_be_roller(rank: Generic, joints: list[int], frame: str) -> bool:

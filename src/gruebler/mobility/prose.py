@@ -135,6 +135,11 @@ SENTENCES: dict[str, tuple[str, str]] = {
         "Idle: {link} has {freedoms} of the {generic} freedoms for itself alone; it changes nothing else.",
         "Identisch: {link} hat {freedoms} der {generic} Freiheitsgrade für sich allein; sonst ändert sich nichts.",
     ),
+    "idle_part": (
+        "Idle: {link} turn as one body about the line through their two ball joints; it changes nothing else.",
+        "Identisch: {link} drehen sich als ein Körper um die Gerade durch ihre beiden Kugelgelenke; sonst ändert sich "
+        "nichts.",
+    ),
     "idle_round": (
         "Idle if round: {link} spins without effect when its contour is a circle about its pin.",
         "Identisch, falls rund: {link} dreht ohne Wirkung, wenn seine Kontur ein Kreis um den Zapfen ist.",
@@ -246,7 +251,8 @@ def _findings(report: MobilityReport, lang: str, say: Say) -> Iterator[str]:
         yield say("immobile", joints=_list(names, report.immobile_joints))
     for idle in report.idle_freedoms:
         key = "idle_always" if idle.when is When.ALWAYS else "idle_round"
-        yield say(key, link=idle.link, freedoms=idle.freedoms, generic=report.generic)
+        key = "idle_part" if len(idle.links) > 1 else key
+        yield say(key, link=", ".join(idle.links), freedoms=idle.freedoms, generic=report.generic)
     for link, k in chain.degrees.items():
         if k == 1:
             yield say("singular", link=link)

@@ -11,6 +11,7 @@ from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
 from gruebler.mobility.rank import Generic, generic
+from gruebler.views import Brief
 
 __all__ = ["MobilityReport", "Verdict", "mobility_report"]
 
@@ -30,8 +31,8 @@ class Verdict(StrEnum):
     """F > 1: as many drives are needed."""
 
 
-@dataclass(frozen=True)
-class MobilityReport:
+@dataclass(frozen=True, repr=False)
+class MobilityReport(Brief):
     """What `mobility_report` found. `explain` says it in words."""
 
     chain: Chain
@@ -97,7 +98,8 @@ class MobilityReport:
             "rigid_clusters": [list(cluster) for cluster in self.rigid_clusters],
             "immobile_joints": [names[k] for k in self.immobile_joints],
             "idle_freedoms": [
-                {"link": idle.link, "freedoms": idle.freedoms, "when": str(idle.when)} for idle in self.idle_freedoms
+                {"links": list(idle.links), "freedoms": idle.freedoms, "when": str(idle.when)}
+                for idle in self.idle_freedoms
             ],
         }
 

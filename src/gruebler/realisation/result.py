@@ -12,6 +12,7 @@ from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation.trial import range_path
+from gruebler.views import Brief
 
 __all__ = ["Realisation"]
 
@@ -36,8 +37,8 @@ _TEXT = {
 }
 
 
-@dataclass(frozen=True)
-class Realisation:
+@dataclass(frozen=True, repr=False)
+class Realisation(Brief):
     """Dimensions of a mechanism and how its drives move it, or why there are none."""
 
     mechanism: Mechanism

@@ -18,6 +18,7 @@ from gruebler.linkages import Linkage
 from gruebler.linkages.expressions import Expression
 from gruebler.sheets.derived import derive
 from gruebler.sheets.records import SheetRecord
+from gruebler.views import Brief
 
 __all__ = ["Sheet", "Sized", "Told"]
 
@@ -95,8 +96,8 @@ class Sized:
         return self.length / self.scale
 
 
-@dataclass(frozen=True)
-class Sheet:
+@dataclass(frozen=True, repr=False)
+class Sheet(Brief):
     """A mechanism on one page.
 
     >>> from gruebler.sheets import sheet

@@ -13,6 +13,7 @@ from gruebler.linkages.model import joint_number
 from gruebler.statics.equilibrium import Contact, Reactions, contacts, reactions
 from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, placed
 from gruebler.statics.rates import again, drive_speed
+from gruebler.views import Brief
 
 __all__ = ["Statics", "statics"]
 
@@ -32,8 +33,8 @@ _UNKNOWN = {
 _MOST_SAID = 6
 
 
-@dataclass(frozen=True)
-class Statics:
+@dataclass(frozen=True, repr=False)
+class Statics(Brief):
     """Drive efforts and joint forces of a linkage under loads, at each row of a motion.
 
     Torques are in force times the linkage's unit. Without friction and without inertia.

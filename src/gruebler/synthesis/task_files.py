@@ -14,6 +14,7 @@ from typing import Any
 
 import msgspec
 
+from gruebler.atomic_files import atomic_file
 from gruebler.errors import SynthesisError
 from gruebler.linkages.angles import in_degrees, in_radians
 from gruebler.linkages.documents import fitted, load
@@ -240,8 +241,6 @@ def write_task(path: Path | str, task: Task) -> None:
 
     Raises `SynthesisError` for a task that has more than the columns of a CSV file.
     """
-    from gruebler.enumeration.checkpoint import whole_file
-
     path = Path(path)
     document = task_to_json(task)
     match path.suffix.lower():
@@ -255,7 +254,7 @@ def write_task(path: Path | str, task: Task) -> None:
             raise SynthesisError(f"{path}: end the name with .toml, .json or .csv")
     if not path.parent.is_dir():
         raise SynthesisError(f"{path}: there is no folder {str(path.parent)!r}")
-    with whole_file(path, durable=False) as file:
+    with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))
 
 

@@ -1,0 +1,59 @@
+"""What the commands write: JSON and pictures on standard output, files; in characters that the output can carry."""
+
+from __future__ import annotations
+
+import codecs
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+from gruebler.atomic_files import atomic_file
+
+__all__ = ["print_json", "print_svg", "say_written", "write_file"]
+
+_WRITTEN = {"en": "Written: {path}{more}", "de": "Geschrieben: {path}{more}"}
+
+
+def print_json(document: Any, indent: int | None = 2) -> None:
+    """Print plain data as JSON, valid on any output: null for what is not finite, escapes where it is not UTF-8.
+
+    >>> print_json({"ratio": float("inf"), "name": "Kürbel"}, indent=None)
+    {"ratio": null, "name": "Kürbel"}
+    """
+    ascii_only = not _is_utf8()
+    try:
+        text = json.dumps(document, ensure_ascii=ascii_only, indent=indent, allow_nan=False)
+    except ValueError:
+        text = json.dumps(_finite(document), ensure_ascii=ascii_only, indent=indent, allow_nan=False)
+    print(text)
+
+
+def _finite(document: Any) -> Any:
+    if isinstance(document, dict):
+        return {key: _finite(value) for key, value in document.items()}
+    if isinstance(document, list | tuple):
+        return [_finite(value) for value in document]
+    return None if isinstance(document, float) and not math.isfinite(document) else document
+
+
+def print_svg(text: str) -> None:
+    """Print an SVG; where the output is not UTF-8, letters beyond ASCII as character references."""
+    sys.stdout.write(text if _is_utf8() else text.encode("ascii", "xmlcharrefreplace").decode("ascii"))
+
+
+def _is_utf8() -> bool:
+    return codecs.lookup(getattr(sys.stdout, "encoding", None) or "utf-8").name == "utf-8"
+
+
+def write_file(path: Path, content: bytes, lang: str) -> None:
+    """Write a file, complete or not at all, and say so on standard error; `RunError` if it cannot be written."""
+    with atomic_file(path, durable=False) as file:
+        file.write(content)
+    say_written(path, lang)
+
+
+def say_written(path: Path, lang: str, more: str = "") -> None:
+    """Say on standard error that a file was written."""
+    print(_WRITTEN[lang].format(path=path, more=more), file=sys.stderr)

@@ -1,0 +1,115 @@
+"""What the commands write: valid on every output, said when it goes into a file, safe in a spreadsheet."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from gruebler.cli import main
+from gruebler.cli.analysis_table import Column, as_csv
+
+CHAIN = "R(Kürbel-b) R(b-c) R(c-d) R(d-Kürbel)"
+FOUR_BAR = "four-bar:25,70,40,70"
+
+
+def run(encoding, *arguments):
+    environment = {**os.environ, "PYTHONIOENCODING": encoding}
+    command = [sys.executable, "-m", "gruebler", *arguments]
+    return subprocess.run(command, capture_output=True, check=True, env=environment).stdout
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252", "utf-8"])
+def test_json_is_valid_on_every_output(encoding):
+    found = json.loads(run(encoding, "check", CHAIN, "R(a-😀) R(😀-c) R(c-d) R(d-a)", "--json").decode("utf-8"))
+    assert [one["name"] for one in found] == [CHAIN, "R(a-😀) R(😀-c) R(c-d) R(d-a)"]
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "utf-8"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("draw", CHAIN, "--labels", "--lang", "de"),
+        ("plot", FOUR_BAR, "--kind", "transmission", "--lang", "de"),
+        ("animate", FOUR_BAR, "--lang", "de"),
+        ("sheet", "draw", "mzc", "--lang", "de"),
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_pictures_are_valid_on_every_output(encoding, arguments):
+    """The same picture, letter for letter, as XML reads it."""
+    expected = ElementTree.fromstring(run("utf-8", *arguments))
+    found = ElementTree.fromstring(run(encoding, *arguments))
+    assert "".join(found.itertext()) == "".join(expected.itertext())
+    assert [one.attrib for one in found.iter()] == [one.attrib for one in expected.iter()]
+    assert any(not letter.isascii() for letter in "".join(expected.itertext()))
+
+
+@pytest.mark.parametrize("start", ["=cmd|1", "+1", "-1", "@sum", "\tx", "\rx", "\nx"])
+def test_names_are_no_formulas_in_a_spreadsheet(start):
+    values = np.array([-1.5, 2.0])
+    head, *rows = csv.reader(as_csv([Column(f"{start} x", "mm", values), Column("C y", "mm", values)]).splitlines(True))
+    assert head == [f"'{start} x [mm]", "C y [mm]"]
+    assert rows == [["-1.5", "-1.5"], ["2.0", "2.0"]]
+
+
+WRITING = {
+    "draw": (["draw", "vcomp"], ".svg"),
+    "animate": (["animate", FOUR_BAR], ".svg"),
+    "plot": (["plot", FOUR_BAR, "--kind", "transmission"], ".svg"),
+    "sheet": (["sheet", "draw", "mzc"], ".svg"),
+    "gallery": (["gallery", "--links", "4"], ".html"),
+    "analyse": (["analyse", FOUR_BAR, "--drive", "0:90:30"], ".csv"),
+    "enumerate": (["enumerate", "--links", "6", "--count"], ".json"),
+    "realise": (["realise", "R(0-1) R(1-2) R(2-3) R(3-0)"], ".toml"),
+    "gears": (["gears", "a:20 b:40; a=1"], ".svg"),
+}
+
+
+@pytest.mark.parametrize(("name", "lang"), [*((name, "en") for name in WRITING), ("draw", "de")])
+def test_every_command_says_what_it_wrote(tmp_path, capsys, name, lang):
+    arguments, ending = WRITING[name]
+    path = tmp_path / f"out{ending}"
+    assert main([*arguments, "-o", str(path), "--lang", lang]) == 0
+    out, err = capsys.readouterr()
+    assert err == f"{'Written' if lang == 'en' else 'Geschrieben'}: {path}\n"
+    assert str(path) not in out
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("command", ["check", "draw", "inversions", "assur", "analyse", "freedoms", "gears"])
+def test_files_of_an_unknown_kind_are_refused_by_name(tmp_path, capsys, command):
+    path = tmp_path / "chains.parquet"
+    path.write_bytes(b"PAR1" + bytes(range(256)))
+    assert main([command, str(path)]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert len(err.splitlines()) == 1
+    assert "chains.parquet" in err
+
+
+def test_wrong_usage_is_quoted_in_short(capsys):
+    with pytest.raises(SystemExit) as stop:
+        main(["enumerate", "--links", "1" + "x" * 100_000])
+    assert stop.value.code == 2
+    assert len(capsys.readouterr().err) < 1000
+
+
+def test_too_little_memory_is_one_sentence(monkeypatch, capsys):
+    def exhausted(_):
+        raise MemoryError
+
+    monkeypatch.setattr("gruebler.cli.table.run", exhausted)
+    assert main(["table", "grashof"]) == 2
+    assert capsys.readouterr().err == "gruebler table: this needs more memory than there is\n"
+
+
+def test_json_of_what_cannot_be_assembled(capsys):
+    assert main(["analyse", "four-bar:25,70,40,150", "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert (found["complete"], found["rows"]) == (False, [])
+    assert "cannot be assembled" in found["message"]

@@ -1,0 +1,170 @@
+"""Overconstrained linkages that move: the independent part is solved, the rest is looked at in every row."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from gruebler.catalog import entry
+from gruebler.chain import Chain
+from gruebler.errors import LinkageError
+from gruebler.freedoms import freedoms
+from gruebler.kinematics import circuit, degrees, measures, move
+from gruebler.kinematics.batch import move_many
+from gruebler.kinematics.moving import planned
+from gruebler.linkages import Linkage, Named
+from gruebler.mechanism import Drive, Mechanism
+
+LOCOMOTIVE = Mechanism.parse(
+    "R(frame-crank) R(crank-rod) R(rod-second) R(frame-second) R(rod-third) R(frame-third); "
+    "frame=frame; drive=R(frame-crank)"
+)
+
+
+def locomotive(feet=((0, 0), (50, 0), (80, 10)), crank=20.0, angle=1.0, error=0.0, mechanism=LOCOMOTIVE):
+    """Three parallel cranks on a rod, the last one longer by an error."""
+    arms = [crank * np.exp(1j * angle)] * 2 + [(crank + error) * np.exp(1j * angle)]
+    pins = [complex(*foot) + arm for foot, arm in zip(feet, arms, strict=True)]
+    at = [feet[0], pins[0], pins[1], feet[1], pins[2], feet[2]]
+    return Linkage.drawn(mechanism, {k: (p.real, p.imag) if isinstance(p, complex) else p for k, p in enumerate(at)})
+
+
+def dixon(xs, ys, off=0.0):
+    """Dixon's linkage of the first kind: bars from each point of one line to each of another at right angles to it."""
+    bars = [[f"b{i}{j}" for j in range(len(ys))] for i in range(len(xs))]
+    joints = [f"R({'-'.join(row)})" for row in bars] + [f"R({'-'.join(column)})" for column in zip(*bars, strict=True)]
+    places = {k: (x, 0.0) for k, x in enumerate(xs)} | {len(xs) + j: (0.0, y) for j, y in enumerate(ys)}
+    places[len(xs) + len(ys) - 1] = (off, ys[-1])
+    mechanism = Mechanism(Chain.parse(" ".join(joints)), "b00", [Drive(0, "Rz", ("b00", "b01"))])
+    return Linkage.drawn(mechanism, places)
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.0, 2.5])
+@pytest.mark.parametrize("feet", [((0, 0), (50, 0), (80, 10)), ((0, 0), (50, 0), (120, 0))])
+def test_a_third_equal_crank_goes_round(feet, angle):
+    motion = move(locomotive(feet, angle=angle), degrees(0, 720, 1), speed=2)
+    assert motion.complete
+    assert motion.closure < 1e-9
+    for link in ("second", "third"):
+        assert motion.angle(link) - motion.angle(link)[0] == pytest.approx(motion.drives[:, 0], abs=1e-9)
+        assert motion.angular(link) == pytest.approx(np.full(721, 2.0), abs=1e-9)
+    assert np.ptp(motion.angle("rod")) < 1e-9
+
+
+@given(
+    st.floats(1e-3, 1e3),
+    st.floats(0, 6.28),
+    st.tuples(st.floats(-1, 1), st.floats(-1, 1)),
+)
+def test_neither_unit_nor_place_matters(scale, turn, shift):
+    def put(p):
+        z = scale * np.exp(1j * turn) * complex(*p) + scale * 50 * complex(*shift)
+        return z.real, z.imag
+
+    feet = [put(p) for p in ((0, 0), (50, 0), (80, 10))]
+    linkage = locomotive(feet, crank=20 * scale, angle=1.0 + turn)
+    made = planned(linkage)
+    assert made.released == planned(locomotive()).released
+    motion = move(linkage, linkage.home["crank"].angle + degrees(0, 360, 10))
+    assert motion.complete
+    assert motion.closure < 1e-9
+
+
+@pytest.mark.parametrize("count", [(3, 3), (3, 4), (4, 4)])
+def test_dixons_linkage_against_its_closed_form(count):
+    xs, ys = [1.0, -1.7, 2.6, 3.1][: count[0]], [1.3, 2.2, -0.9, -2.5][: count[1]]
+    linkage = dixon(xs, ys)
+    motion = move(linkage, linkage.home["b01"].angle + np.linspace(0, 0.3, 31))
+    assert motion.complete
+    assert motion.closure < 1e-12
+
+    def track(bar, joint):
+        element = linkage.elements[joint, bar]
+        return motion.complex_point(Named(bar, element.x, element.y))
+
+    a = [track(f"b{i}0", i) for i in range(len(xs))]
+    b = [track(f"b0{j}", len(xs) + j) for j in range(len(ys))]
+    u, v = (a[1] - a[0]) / abs(a[1] - a[0]), (b[1] - b[0]) / abs(b[1] - b[0])
+    assert np.abs((np.conj(u) * v).real).max() < 1e-12  # the lines stay at right angles
+    origin = a[0] + u * (np.conj(u) * (b[0] - a[0])).real
+    along = [(np.conj(u) * (p - origin)).real for p in a], [(np.conj(v) * (p - origin)).real for p in b]
+    shared = along[1][0] ** 2 - ys[0] ** 2  # x^2 falls by what y^2 grows by, the same for all
+    assert np.ptp(shared) > 0.1
+    for x, now in zip(xs, along[0], strict=True):
+        assert now**2 == pytest.approx(x**2 - shared, abs=1e-12)
+    for y, now in zip(ys, along[1], strict=True):
+        assert now**2 == pytest.approx(y**2 + shared, abs=1e-12)
+
+
+@pytest.mark.parametrize("id", ["loco3", "loco4", "toolbox2"])
+def test_machines_of_the_catalog_move_and_are_measured(id):
+    linkage = entry(id).linkage()
+    found = measures(linkage)
+    assert found.span.full
+    assert "overconstrained" in found.transmission_note
+    assert circuit(linkage).closed  # all joints at once, with other equations
+    assert freedoms(linkage).mobility == 1
+
+
+def test_change_points_are_those_of_the_linkage_not_of_its_part():
+    assert measures(locomotive()).change_points == ()  # the rod with two of the cranks alone has two
+    line = measures(locomotive(((0, 0), (50, 0), (120, 0))))
+    assert np.degrees([point.drive for point in line.change_points]) == pytest.approx([0, 180], abs=1e-6)
+
+
+def test_two_sides_that_repeat_each_other():
+    places = {
+        "R(base-a1)": (0, 0),
+        "G(base-a2)": (80, 0, 0, "base"),
+        "R(a1-a2)": (40, 30),
+        "G(a1-top)": (80, 60, 0, "top"),
+        "R(a2-top)": (0, 60),
+        "R(base-a3)": (120, 0),
+        "G(base-a4)": (200, 0, 0, "base"),
+        "R(a3-a4)": (160, 30),
+        "G(a3-top)": (200, 60, 0, "top"),
+        "R(a4-top)": (120, 60),
+    }
+    mechanism = Mechanism.parse(" ".join(places) + "; frame=base; drive=R(base-a1)")
+    linkage = Linkage.drawn(mechanism, places)
+    made = planned(linkage)
+    assert made.decomposition.class_number == 2  # both sides are solved by dyads
+    motion = move(linkage, degrees(10, 80, 1))
+    assert motion.complete
+    assert motion.closure < 1e-12
+    assert motion.point("R(a4-top)")[:, 1] == pytest.approx(100 * np.sin(motion.drives[:, 0]), abs=1e-10)
+
+
+def test_a_crank_that_is_too_long_is_refused_at_once():
+    with pytest.raises(LinkageError, match=r"leave 0 freedoms.*against the drives work .*R\(rod-third\).*gruebler free"):
+        move(locomotive(error=0.2), [1.0])
+    with pytest.raises(LinkageError, match="leave 0 freedoms"):
+        planned(dixon([1.0, -1.7, 2.6], [1.3, 2.2, -0.9], off=0.01))
+
+
+def test_a_shaky_linkage_ends_where_a_joint_opens():
+    feet, scales = ((0, 0), (50, 0), (80, 10)), (1.0, 1.8, 2.4)
+    arm = 20 * np.exp(1j)
+    pins = [complex(*foot) + s * arm for foot, s in zip(feet, scales, strict=True)]
+    places = {0: feet[0], 3: feet[1], 5: feet[2]} | {k: (p.real, p.imag) for k, p in zip((1, 2, 4), pins, strict=True)}
+    linkage = Linkage.drawn(LOCOMOTIVE, places)
+    motion = move(linkage, 1 + np.array([0.0, 1e-6, 1e-3, 1e-2]))
+    assert (len(motion), motion.stop.reason) == (2, "open")
+    assert "R(frame-crank) = 57.3" in motion.message()
+    assert f"{motion.stop.form} is open" in motion.message()
+    assert "gruebler freedoms" in motion.message("de")
+    with pytest.raises(LinkageError, match="is open"):
+        measures(linkage)
+    assert freedoms(linkage).mobility == 0
+
+
+def test_what_is_missing_is_said():
+    with pytest.raises(LinkageError, match=r"position in which its joints close \(\[home\] or \[places\]\)"):
+        move(locomotive().with_home(None), [1.0])
+    with pytest.raises(LinkageError, match="home position is a change point"):
+        move(locomotive(((0, 0), (50, 0), (120, 0)), angle=0.0), [0.0])
+    drives = Mechanism(LOCOMOTIVE.chain, "frame", [0, 3])
+    with pytest.raises(LinkageError, match=r"leave 1 freedoms, fewer than are driven \(2\)"):
+        move(locomotive(mechanism=drives), [(1.0, 1.0)])
+    with pytest.raises(LinkageError, match="one by one"):
+        move_many([locomotive(), locomotive()], [1.0])
