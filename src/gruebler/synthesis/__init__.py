@@ -12,6 +12,7 @@ from gruebler.synthesis.judging import Demands
 from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
 from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
+from gruebler.synthesis.structures import pareto, synthesise_structures
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 
@@ -29,12 +30,14 @@ __all__ = [
     "Verdict",
     "function_task",
     "minimax",
+    "pareto",
     "read_task",
     "structural_error",
     "synthesise_dead_centres",
     "synthesise_function",
     "synthesise_path",
     "synthesise_positions",
+    "synthesise_structures",
     "task_from_json",
     "task_to_json",
     "write_task",
