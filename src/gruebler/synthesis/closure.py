@@ -173,9 +173,9 @@ class Closure:
         places[self.linkage.mechanism.frame] = Place(0.0, 0.0, 0.0)
         return Linkage(
             self.linkage.mechanism,
-            elements,  # type: ignore[arg-type]
+            elements,
             points,
             unit=self.linkage.unit,
-            home={link: tuple(place) for link, place in places.items()},
+            home={link: tuple(place) for link, place in places.items()},  # type: ignore[misc]
             outputs=self.linkage.outputs,
         )
