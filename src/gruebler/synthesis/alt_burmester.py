@@ -181,14 +181,14 @@ def solutions(
     if again.any():
         ends[again], status[again] = follow(problem, base.z[again], base.parameters, p, CAREFUL, threads=threads)
     found = _distinct(problem, ends[status == ARRIVED])
-    lost = base.z[status != ARRIVED]
+    lost = base.z[(status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)]
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
         if len(found) >= problem.classes:
             break
         # A way that is bent a little meets no singular task that the straight one passes too closely.
         middle = (base.parameters + p) / 2 + bend * _random_task(base.parameters, p, rng)
-        whole = len(lost) == 0 or bend == _BENDS[-1]
+        whole = bend == _BENDS[-1]
         first, reached = follow(problem, base.z if whole else lost, base.parameters, middle, QUICK, threads=threads)
         more, reached = follow(problem, first[reached == ARRIVED], middle, p, QUICK, threads=threads)
         found = _distinct(problem, np.concatenate([found, more[reached == ARRIVED]]))
