@@ -141,7 +141,7 @@ def test_absurd_laws_are_refused(make, words):
     [
         ("rise 1e200 90; fall 1e200 90; dwell", "expected a number below 1e\\+70, not '1e200'"),
         ("rise 1e-200 90; fall 1e-200 90; dwell", "between 1e-70 and 1e\\+70"),
-        ("rise 10 1e-30; fall 10 90; dwell", "1e-09 rad at least"),
+        ("rise 10 1e-30; fall 10 90; dwell", "angle from 1e-09 to 2 pi"),
         ("rise 20 60 v1=1e90; fall 20 90; dwell", "below 1e\\+70"),
     ],
 )

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from gruebler.catalog import entry
 from gruebler.errors import LinkageError
 from gruebler.kinematics import degrees, measures, move
+from gruebler.kinematics.moving import planned
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
 
@@ -369,3 +370,15 @@ def test_the_change_points_of_a_scissor_lift_in_any_unit(scale: float) -> None:
     at = sorted((round(float(np.degrees(one.drive)), 6), one.form) for one in found.change_points)
     both = [(90.0, "RPR"), (90.0, "RRP"), (90.0, "RRR"), (270.0, "RPR"), (270.0, "RRP"), (270.0, "RRR")]
     assert at == [(0.0, "RRR"), *both[:3], (180.0, "RRR"), *both[3:]]
+
+
+def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
+    random = np.random.default_rng(20_261_122)
+    made = planned(FourBar(20, 80.62257748298549, 20, 80.62257748298549).linkage())
+    for _ in range(400):
+        before = -np.sort(10 ** random.uniform(-3, 0.7, 3))[::-1]
+        after = np.sort(10 ** random.uniform(-3, 0.7, 2))
+        path = np.radians(np.concatenate([[-20, -15, -10, -6], before, after, [10, 15]]))
+        motion = move(made, path, branch="-")
+        assert motion.complete
+        assert np.abs(np.exp(1j * (motion.angle("rocker") - path)) - 1).max() < 1e-6

@@ -12,8 +12,10 @@ from math import degrees, pi
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
+from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.home import at_home
 from gruebler.kinematics.law_joints import law_joints
 from gruebler.kinematics.mending import mend_rates
@@ -25,7 +27,7 @@ from gruebler.kinematics.zeros import Samples
 from gruebler.linkages import Linkage
 from gruebler.views import Brief
 
-__all__ = ["Course", "Span", "follow"]
+__all__ = ["Course", "PathCourse", "Span", "follow", "follow_path_of"]
 
 _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
@@ -173,6 +175,59 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
             f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
         )
     course = Course(plan, start, span, np.array([span.low, span.high]))
+    return replace(course, grid=_grid(course))
+
+
+@dataclass(frozen=True, repr=False)
+class PathCourse(Course):
+    """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
+
+    ends: Reals
+    """(2, drives): where the path begins and ends."""
+
+    @property
+    def turning_drive(self) -> bool:
+        """The part of a path is no angle."""
+        return False
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """None are sought along a path of several drives."""
+        return ()
+
+    def values(self, parts: Reals) -> Reals:
+        """The drive values at parts of the path; (n, drives)."""
+        return np.asarray(self.ends[0] + np.asarray(parts, np.float64)[:, None] * (self.ends[1] - self.ends[0]))
+
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at parts of the path, in any order; rates by the part."""
+        order_of = np.argsort(drives, kind="stable")
+        parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
+        found = move(
+            self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
+        )
+        if not found.complete:
+            raise LinkageError(found.message(), found.message("de"))
+        return _rows(found, 1 + np.argsort(order_of, kind="stable"))
+
+
+def follow_path_of(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCourse:
+    """The course of a linkage along a straight path of its drives, (rows, drives), from the first row to the last.
+
+    Raises `LinkageError` if the drives do not move, or if the linkage cannot be moved to the end of the path.
+    """
+    plan = planned(linkage)
+    rows = drive_path(plan, path)
+    ends = np.array([rows[0], rows[-1]])
+    if (ends[0] == ends[1]).all():
+        raise LinkageError(
+            "the path of the drives has no length: its first row is its last",
+            "der Weg der Antriebe hat keine Länge: seine erste Zeile ist seine letzte",
+        )
+    start = move(plan, ends[:1], branch=branch)
+    if not start.complete:
+        raise LinkageError(start.message(), start.message("de"))
+    course = PathCourse(plan, start, Span(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
     return replace(course, grid=_grid(course))
 
 

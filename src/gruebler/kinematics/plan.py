@@ -216,8 +216,10 @@ def plan(linkage: Linkage) -> Plan:
         try:
             part, released = independent_part(linkage)
         except LinkageError as error:
+            assert parts.report is not None
             raise LinkageError(
-                f"the linkage cannot be moved by its drives: constraints or drives work against one another. {error}"
+                "the linkage cannot be moved by its drives: constraints or drives work against one another. "
+                f"Mobility {parts.report.mobility}, drives {parts.report.drives}, at almost all sizes. {error}"
             ) from None
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)

@@ -104,8 +104,8 @@ def independent_part(linkage: Linkage) -> Independent:
     if freedoms < len(drives):
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
-            f"In its home position its joints leave {freedoms} freedoms, fewer than are driven ({len(drives)}); against "
-            f"the drives work {names or 'other drives'}. `gruebler freedoms` says what its sizes allow."
+            f"In its home position its joints leave {freedoms} freedoms, fewer than are driven ({len(drives)}); "
+            f"against the drives work {names or 'other drives'}. `gruebler freedoms` says what its sizes allow."
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
@@ -316,20 +316,17 @@ def regular(motion: Motion, row: int) -> bool:
     return bool(values[matrix.shape[1] - 1] > _SINGULAR * values[0])
 
 
-def _chosen(releases: Sequence[_Release], forces: Reals) -> list[_Release]:
+def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:
     """As many releases as leave the rest independent."""
     out: list[_Release] = []
     joints: dict[int, set[str]] = {}
-    members = {
-        number: max(2, len({one.link for one in releases if one.joint == number}))
-        for number in {one.joint for one in releases}
-    }
     while forces.shape[1]:
         here = [one.directed(forces) for one in releases]
         share = {}
         for k, one in enumerate(here):
             taken = joints.get(one.joint, set())
-            if one.link in taken or len(taken) + 1 >= members[one.joint] or len(one.functional) > forces.shape[1]:
+            emptied = len(taken) + 1 >= len(linkage.mechanism.chain.joints[one.joint].links)
+            if one.link in taken or emptied or len(one.functional) > forces.shape[1]:
                 continue
             share[k] = float(np.linalg.svd(one.functional @ forces, compute_uv=False)[-1])
         largest = max(share.values(), default=0.0)
@@ -346,7 +343,7 @@ def _chosen(releases: Sequence[_Release], forces: Reals) -> list[_Release]:
 
 def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:
     """As many releases as leave the rest independent, exchanged one by one as long as its groups get smaller."""
-    chosen = _chosen(releases, forces)
+    chosen = _chosen(linkage, releases, forces)
     cost = _cost(linkage, chosen)
     others = [one for one in releases if not one.turned]
     for _ in range(len(chosen)):

@@ -107,7 +107,7 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
     if plan.released:
         raise NoTransmissionAngleError(
             "the linkage is overconstrained, and how its joints share the force depends on how they yield",
-            "das Getriebe ist überbestimmt, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
+            "das Getriebe ist übergeschlossen, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
             "Nachgiebigkeit ab",
         )
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
