@@ -49,7 +49,7 @@ _FIRST_COMPILING = 2.0  # what numba makes ready before it compiles
 _COMPILING = 2e-3  # for each instruction of a kernel and of the kernels that it calls: 4 s to 70 s in all
 # A compiled kernel is kept: whoever needs as much as this will need it again, so we do not interpret on until
 # compiling would have been cheaper within this process.
-_PATIENCE = 5.0
+_PATIENCE = 3.0
 
 
 class _Recipe(NamedTuple):
@@ -104,7 +104,7 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     """The kernel in the tier that pays for a call that would take so many seconds if it were interpreted.
 
     The seconds of earlier calls count too: once a kernel has been interpreted for as long as it takes to load or to
-    compile (5 s are always enough), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`,
+    compile (3 s are always enough), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`,
     `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
 
     Raises:

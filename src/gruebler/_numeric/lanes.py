@@ -19,7 +19,7 @@ import numpy as np
 
 from gruebler._numeric.compiling import compiled, instead, njit
 
-__all__ = ["choose", "dot", "give_back", "lanes", "number", "square_root", "subtract", "taken", "tally"]
+__all__ = ["choose", "dot", "give_back", "lanes", "logarithm", "number", "square_root", "subtract", "taken", "tally"]
 
 
 @cache
@@ -39,6 +39,12 @@ def lanes(n: int) -> Iterable[int]:
 def square_root(x: float) -> float:
     """The square root of a number or, interpreted, of an array; NaN of what is negative."""
     return np.sqrt(x)  # type: ignore[no-any-return]
+
+
+@instead(lambda: math.log)
+def logarithm(x: float) -> float:
+    """The natural logarithm of a number or, interpreted, of an array; minus infinity of 0."""
+    return np.log(x)  # type: ignore[no-any-return]
 
 
 @instead(lambda: complex)

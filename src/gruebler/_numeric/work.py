@@ -67,7 +67,7 @@ def growing(loops: int, parents: int) -> float:
 
 def census(graphs: int) -> float:
     """Counting or listing the chains of contracted graphs."""
-    return 2e-3 * graphs
+    return 3.5e-3 * graphs
 
 
 def writing(chains: int, links: int) -> float:

@@ -355,11 +355,13 @@ def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> tuple[Real
     Along the curve the smallest singular value of the Jacobian, with the other sign behind it, goes through zero there:
     the place is the zero of a cubic through four values, the pose lies on cubics through four poses.
     """
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.tracing import settle
+    from gruebler._numeric.work import sampling
 
     def at(part: float) -> tuple[Reals, float]:
         pose = one + part * (two - one)
-        settle(made.conditions, pose, tangent.copy(), made.room)
+        for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent.copy(), made.room)
         return pose, float(np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2])
 
     before, behind = at(0.0)[1], at(1.0)[1]
