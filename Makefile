@@ -4,12 +4,13 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test slow wheel-test test-blas test-lowest test-newest bench clean
+.PHONY: help demo test slow wheel-test test-blas test-lowest test-newest torture bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
 	@echo "make test        ruff, mypy --strict, all fast tests and doctests"
 	@echo "make slow        the long tests"
+	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with two other kernels of OpenBLAS"
 	@echo "make test-lowest the fast tests with the lowest versions that pyproject.toml allows"
@@ -33,6 +34,9 @@ test: $(READY)
 
 slow: $(READY)
 	$(BIN)/python -m pytest -q -m slow
+
+torture: $(READY)
+	$(BIN)/python -m tests.torture --inputs 5000 --kills 300
 
 wheel-test: $(READY)
 	rm -rf build/wheel

@@ -1,6 +1,8 @@
 """Files that appear complete or not at all, and what killed processes leave behind."""
 
+import ast
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,10 +12,12 @@ from pathlib import Path
 
 import pytest
 
+import gruebler
 from gruebler import atomic_files
 from gruebler.atomic_files import PARTIAL, atomic_file, remove_abandoned_files, temporary_directory
 from gruebler.errors import RunError
 
+PACKAGE = Path(gruebler.__file__).parent
 locks = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no locks that end with their process")
 
 
@@ -69,6 +73,24 @@ def test_a_long_name_is_written(tmp_path):
     with atomic_file(path) as file:
         file.write(b"content")
     assert [one.name for one in tmp_path.iterdir()] == [path.name]
+
+
+def test_all_files_are_written_here():
+    """No other module opens a file to write; only the null device of a closed output."""
+    wrong = []
+    for path in sorted(PACKAGE.rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.Call):
+                continue
+            name = getattr(node.func, "attr", getattr(node.func, "id", ""))
+            modes = [
+                one.value for one in ast.walk(node) if isinstance(one, ast.Constant) and isinstance(one.value, str)
+            ]
+            opened = name == "open" and any(re.fullmatch(r"[rwaxbt+]*[wax+][rwaxbt+]*", mode) for mode in modes)
+            null = "devnull" in ast.unparse(node)
+            if name in ("write_text", "write_bytes", "mkstemp", "NamedTemporaryFile") or (opened and not null):
+                wrong.append(f"{path.relative_to(PACKAGE)}:{node.lineno}")
+    assert {one.partition(":")[0] for one in wrong} == {"atomic_files.py"}
 
 
 WRITES = """

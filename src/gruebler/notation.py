@@ -24,6 +24,7 @@ _BARE = r"""[^\s()\-",:;]+"""
 _NAME = rf'(?:"(?:[^"\\]|\\.)*"|{_BARE})'
 _SYMBOL = re.compile(r"\s*[,;]?\s*([^\W\d]\w*)\s*\(\s*")
 _LINK = re.compile(rf"({_NAME})\s*")
+_BLANKS = re.compile(r"\s*")
 _PREFIX = re.compile(r"\s*([a-z]\w*)\s*:", re.IGNORECASE)
 
 
@@ -49,7 +50,8 @@ def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple
     """
     where, position = _read_space(text, space)
     joints: list[tuple[str, tuple[str, ...]]] = []
-    while position < len(text.rstrip()):
+    end = len(text.rstrip())
+    while position < end:
         symbol, links, position = _read_joint(text, position)
         joints.append((symbol, links))
     if not joints:
@@ -88,7 +90,7 @@ def _read_joint(text: str, position: int) -> tuple[str, tuple[str, ...], int]:
             return head[1], tuple(links), position + 1
         if separator != "-":
             raise _unreadable(text, position, "'-' and another link, or ')'")
-        position = len(text) - len(text[position + 1 :].lstrip())
+        position = _BLANKS.match(text, position + 1).end()  # type: ignore[union-attr]  # it matches anywhere
 
 
 def link_name(text: str) -> str:

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numba import njit
 from numpy.typing import NDArray
 
 from gruebler._numeric.canonical import (
@@ -23,6 +22,7 @@ from gruebler._numeric.canonical import (
     label_graph,
     relabelled,
 )
+from gruebler._numeric.compiling import njit
 from gruebler._numeric.label_workspace import FACTOR, FACTORS, LABELLING, THOROUGH, Workspace, make_workspace
 
 Form = tuple[tuple[int, ...], tuple[tuple[int, int, int], ...]]
@@ -179,6 +179,7 @@ def test_group_is_the_group(graph: Graph) -> None:
     assert closure(graph.n, result.generators) == set(map(tuple, every.tolist()))
 
 
+@pytest.mark.large
 def test_atlas_has_one_form_for_each_graph() -> None:
     rng = np.random.default_rng(1)
     forms: Counter[Form] = Counter()
@@ -193,6 +194,7 @@ def test_atlas_has_one_form_for_each_graph() -> None:
     assert set(forms.values()) == {1}
 
 
+@pytest.mark.large
 def test_atlas_groups_by_brute_force() -> None:
     for entry in nx.graph_atlas_g()[::7]:
         graph = Graph.of(entry).shuffled(np.random.default_rng(2))
@@ -276,6 +278,7 @@ KNOWN: list[tuple[str, Callable[[], nx.Graph], int, int]] = [
 ]
 
 
+@pytest.mark.large
 @pytest.mark.parametrize(("make", "order", "orbits"), [row[1:] for row in KNOWN], ids=[row[0] for row in KNOWN])
 def test_known_groups(make: Callable[[], nx.Graph], order: int, orbits: int) -> None:
     graph = Graph.of(make())
@@ -290,6 +293,7 @@ def test_known_groups(make: Callable[[], nx.Graph], order: int, orbits: int) -> 
         assert len(set(result.orbits.tolist())) == orbits
 
 
+@pytest.mark.large
 def test_the_numbering_is_kept() -> None:
     """Codes are stored: who changes this digest changes the prefix of the codes (docs/theory/canonical-code.md).
 
@@ -321,6 +325,7 @@ def igraph_form(graph: Graph) -> Form:
     return tuple(there.vs["colour"]), tuple(edges)
 
 
+@pytest.mark.large
 def test_same_classes_as_igraph() -> None:
     rng = np.random.default_rng(4)
     pairs: set[tuple[Form, Form]] = set()
@@ -415,7 +420,7 @@ def test_too_little_room_is_said_and_mended() -> None:
     assert workspace.rows[LABELLING, : graph.n].tolist() == full.labelling.tolist()
 
 
-@njit
+@njit()
 def _order_of_each(
     edges: NDArray[np.int32], indptr: NDArray[np.int32], ends: NDArray[np.int32], workspace: Workspace
 ) -> NDArray[np.int64]:

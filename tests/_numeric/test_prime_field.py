@@ -1,15 +1,20 @@
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from gruebler._numeric import prime_field
 from gruebler._numeric.prime_field import (
+    CoreTooLarge,
     P,
     echelon,
     inverse,
     left_null_space,
+    left_null_spaces,
     null_space,
+    null_space_by_column,
     product,
+    random_solutions,
     reduced,
     transposed,
 )
@@ -75,3 +80,82 @@ def test_product_against_python_integers(size):
     a, b = random.integers(0, P, (3, size)), random.integers(0, P, (size, 2))
     want = [[sum(int(x) * int(y) for x, y in zip(row, column, strict=True)) % P for column in b.T] for row in a]
     assert product(a, b).tolist() == want
+
+
+def test_a_large_product_of_the_largest_residues():
+    """Sums of products of doubles stay exact: every entry is n (P - 1)^2 = n modulo P."""
+    n = 5000
+    a = np.full((150, n), P - 1)
+    assert (product(a, a.T) == n).all()
+    random = np.random.default_rng(4)
+    a, b = random.integers(0, P, (90, 200)), random.integers(0, P, (200, 60))
+    assert (product(a, b) == (a.astype(object) @ b.astype(object) % P).astype(np.int64)).all()
+
+
+@pytest.mark.parametrize(
+    ("m", "n", "rank"), [(230, 250, 230), (250, 230, 230), (260, 260, 131), (110, 300, 97), (300, 96, 96)]
+)
+def test_a_core_of_several_panels(m, n, rank):
+    """Low ranks leave panels without a pivot and pivots apart; a shuffled block of zeros makes rows change places."""
+    random = np.random.default_rng(m + n)
+    left, right = random.integers(0, P, (m, rank)), random.integers(0, P, (rank, n))
+    right[:, 3:110] *= random.random(right[:, 3:110].shape) < 0.02
+    matrix = product(left, right)
+    form = echelon(sparse(matrix), n)
+    assert form.rank == plain_rank(matrix)
+    basis = null_space(form)
+    assert len(basis) == n - form.rank
+    assert not product(matrix, basis.T).any()
+
+
+@pytest.mark.parametrize("dense", [True, False])
+@given(matrices())
+@settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_null_spaces_by_column_and_random_solutions(monkeypatch, dense, matrix):
+    monkeypatch.setattr(prime_field, "_DENSE_BASIS", 10**9 if dense else -1)
+    form = echelon(sparse(matrix), matrix.shape[1])
+    basis = null_space(form)
+    by_column = null_space_by_column(form)
+    written = np.zeros_like(basis)
+    for column, (members, values) in by_column.items():
+        assert len(members)
+        assert (np.diff(members) > 0).all()
+        written[members, column] = values
+    assert np.array_equal(written, basis)
+    some = random_solutions(form, 3)
+    assert not product(matrix, some).any()
+    assert np.array_equal(some.any(axis=1), basis.any(axis=0))
+    assert len(reduced(some.T)) == min(3, len(basis))
+
+
+def test_a_basis_with_too_many_entries_is_not_written_down(monkeypatch):
+    rows = [{0: 1, 1: 1, 2: 1}, {3: 1, 4: 1, 5: 1}]
+    monkeypatch.setattr(prime_field, "_DENSE_BASIS", 0)
+    assert len(null_space_by_column(echelon(rows, 6))) == 6
+    monkeypatch.setattr(prime_field, "_SPARSE_STEPS", 3)
+    assert null_space_by_column(echelon(rows, 6)) is None
+
+
+@given(st.integers(1, 6), st.integers(1, 40), st.integers(0, 2**32))
+@settings(max_examples=40)
+def test_left_null_spaces_side_by_side(height, many, seed):
+    random = np.random.default_rng(seed)
+    widths = random.integers(1, 6, many)
+    stack = [random.integers(0, P, (height, w)) * (random.random((height, w)) < 0.5) for w in widths]
+    stack += [product(m[:, :1], random.integers(0, P, (1, 3))) for m in stack]
+    for found, matrix in zip(left_null_spaces(stack), stack, strict=True):
+        assert np.array_equal(found, left_null_space(matrix))
+
+
+def test_inverses_of_many():
+    values = np.random.default_rng(1).integers(1, P, 1000)
+    assert (prime_field._inverses(values) * values % P == 1).all()
+
+
+def test_what_is_long_or_large_is_refused_unless_it_is_wanted(monkeypatch):
+    random = np.random.default_rng(2)
+    matrix = random.integers(0, P, (60, 70))
+    monkeypatch.setattr(prime_field, "_LARGE", 1000)
+    with pytest.raises(CoreTooLarge, match=r"60 equations"):
+        echelon(sparse(matrix), 70)
+    assert echelon(sparse(matrix), 70, large=True).rank == 60

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gruebler.cams import LAWS, Cam, CamError, Roller, boundary_law, law, polynomial_law, read_lift
@@ -66,9 +66,9 @@ def test_pieces_join(name):
 @given(st.sampled_from(RESTING), st.floats(0.001, 0.999), st.integers(0, 2))
 def test_derivatives(name, x, order):
     one, h = law(name), 1e-6
-    if min(abs(x - joint) for joint in one.joints) > 2 * h:
-        slope = (one.at(x + h, order) - one.at(x - h, order)) / (2 * h)
-        assert slope == pytest.approx(float(one.at(x, order + 1)), abs=1e-6 * 10 ** (order + 1))
+    assume(min(abs(x - joint) for joint in one.joints) > 2 * h)
+    slope = (one.at(x + h, order) - one.at(x - h, order)) / (2 * h)
+    assert slope == pytest.approx(float(one.at(x, order + 1)), abs=1e-6 * 10 ** (order + 1))
 
 
 values = st.lists(st.floats(-5, 5), min_size=1, max_size=4)
@@ -141,7 +141,7 @@ def test_absurd_laws_are_refused(make, words):
     [
         ("rise 1e200 90; fall 1e200 90; dwell", "expected a number below 1e\\+70, not '1e200'"),
         ("rise 1e-200 90; fall 1e-200 90; dwell", "between 1e-70 and 1e\\+70"),
-        ("rise 10 1e-30; fall 10 90; dwell", "1e-09 rad at least"),
+        ("rise 10 1e-30; fall 10 90; dwell", "angle from 1e-09 to 2 pi"),
         ("rise 20 60 v1=1e90; fall 20 90; dwell", "below 1e\\+70"),
     ],
 )

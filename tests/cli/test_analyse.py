@@ -4,12 +4,14 @@ import csv
 import json
 import math
 
+import numpy as np
 import pytest
 
-from gruebler.catalog import entries
+from gruebler.catalog import entries, entry
 from gruebler.cli import main
 from gruebler.freedoms.files import screws_to_json
-from gruebler.linkages import FourBar
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar, SliderCrank
 from gruebler.linkages.files import write_linkage
 
 CRANK_ROCKER = "four-bar:25,70,40,70"
@@ -232,6 +234,52 @@ def test_several_drives_with_speeds(capsys, tmp_path):
     status, _, err = run(capsys, *five, "--speed", "60")
     assert status == 2
     assert "once for each drive: 2 times, not 1" in err
+
+
+def test_acceleration_and_jerk_of_one_drive(capsys):
+    phi, w, a, j = math.radians(30), 2 * math.pi, 3.0, 7.0
+    arguments = ("--speed", "60", "--acceleration", "3", "--jerk", "7", "--at", "30")
+    _, columns = table(capsys, "slider-crank:20,50", *arguments, "--point", "R(crank-coupler)")
+    judge = SliderCrank(20, 50).motion([phi], omega=w, alpha=a, jerk=j, branch=1).output
+    for header, wanted in {
+        "v slider mm/s": judge.velocity,
+        "a slider mm/s²": judge.acceleration,
+        "j slider mm/s³": judge.jerk,
+    }.items():
+        assert columns[header] == pytest.approx(wanted.tolist(), rel=1e-12)
+    pin = 20 * complex(math.cos(phi), math.sin(phi))
+    rates = {"v": 1j * w, "a": 1j * a - w**2, "j": 1j * (j - w**3) - 3 * w * a}  # of a turning arm
+    for letter, order in (("v", ""), ("a", "²"), ("j", "³")):
+        for axis, wanted in (("x", (pin * rates[letter]).real), ("y", (pin * rates[letter]).imag)):
+            assert columns[f"R(crank-coupler) {letter}{axis} mm/s{order}"] == pytest.approx([wanted], rel=1e-12)
+    _, columns = table(capsys, "slider-crank:20,50", "--speed", "0", "--acceleration", "3", "--at", "30")
+    still = SliderCrank(20, 50).motion([phi], omega=0.0, alpha=a, jerk=0.0, branch=1).output
+    assert columns["a slider mm/s²"] == pytest.approx(still.acceleration.tolist(), rel=1e-12)
+    assert "j slider mm/s³" not in columns
+
+
+def test_acceleration_and_jerk_of_several_drives(capsys):
+    speeds = ("--speed", "10", "--speed", "20", "--acceleration", "1", "--acceleration", "2", "--jerk", "3")
+    _, columns = table(capsys, "pent", *speeds, "--jerk", "4", "--at", "10", "--at", "20", "--output", "2")
+    linkage = entry("pent").linkage()
+    rates = {"acceleration": [1, 2], "jerk": [3, 4]}
+    motion = move(linkage, np.radians([[10, 20]]), speed=np.array([10, 20]) * math.pi / 30, order=3, **rates)
+    for order, header in enumerate(("ω 2 rad/s", "α 2 rad/s²", "j 2 rad/s³"), 1):
+        assert columns[header] == pytest.approx(motion.angular("2", order).tolist(), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--acceleration", "3"], "--acceleration is given together with --speed"),
+        (["--speed", "1", "--jerk", "3", "--jerk", "4"], "--jerk is given once for each --speed: 1 times, not 2"),
+        (["--speed", "1", "--jerk", "nan"], "--jerk: expected a finite number"),
+    ],
+)
+def test_refused_accelerations(capsys, arguments, words):
+    status, _, err = run(capsys, CRANK_ROCKER, *arguments)
+    assert status == 2
+    assert words in err
 
 
 def test_a_file_of_screws_is_told_from_one_of_sizes(capsys, tmp_path):

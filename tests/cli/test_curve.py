@@ -5,10 +5,13 @@ import csv
 import json
 import math
 
+import numpy as np
 import pytest
 
+from gruebler.catalog import entry
 from gruebler.cli import curve, curve_commands
 from gruebler.errors import GrueblerError
+from gruebler.kinematics import move
 
 
 def run(capsys, *arguments):
@@ -98,3 +101,48 @@ def test_a_far_point_and_a_far_drive_value(capsys):
     assert (status, "not to 179°" in said) == (2, True)
     status, said = run(capsys, "four-bar:25,70,40,70", "coupler:45,40", "--tolerance", "1e9")
     assert (status, "tolerance must lie between" in said) == (2, True)
+
+
+def test_a_path_of_several_drives(capsys, tmp_path):
+    path = tmp_path / "path.csv"
+    arguments = ("pent", "R(3-4)", "--drive=0:90:5", "--drive=0:180:10")
+    status, out = run(capsys, *arguments, "-o", str(path))
+    assert status == 0
+    assert "The path goes from 0.000000° / 0.000000° to 90.000000° / 180.000000°: length 264.0282" in out
+    with path.open(encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    assert header == ["R(1-2) [°]", "R(1-5) [°]", "x [mm]", "y [mm]", "s [mm]"]
+    table = np.array(rows, float)
+    assert table[-1, :2].tolist() == [90, 180]
+    motion = move(entry("pent").linkage(), np.radians(table[:, :2]))  # the polygon, row by row
+    assert motion.point("R(3-4)") == pytest.approx(table[:, 2:4], abs=1e-9)
+    fine = move(entry("pent").linkage(), np.radians(np.linspace([0, 0], [90, 180], 20_001))).point("R(3-4)")
+    assert np.hypot(*np.diff(fine, axis=0).T).sum() == pytest.approx(264.028273, abs=1e-4)
+    _, out = run(capsys, *arguments, "--json", "--direction", "0")
+    turns = json.loads(out)["turning_points"]["0"]
+    assert [turn["drive"][1] for turn in turns] == pytest.approx([2 * turn["drive"][0] for turn in turns])
+    assert [turn["at"][0] for turn in turns] == pytest.approx([fine[:, 0].min(), fine[:, 0].max()], abs=1e-5)
+
+
+def test_a_drive_is_held_and_one_drive_goes_a_part(capsys):
+    _, out = run(capsys, "pent", "R(2-3)", "--drive=0:90:5", "--drive=40")
+    crank = entry("pent").linkage().length("2", "R(1-2)", "R(2-3)")
+    assert f"length {crank * math.pi / 2:.9g} mm" in out
+    _, out = run(capsys, "four-bar:25,70,40,70", "R(crank-coupler)", "--drive=30:90:5")
+    assert f"from 30.000000° to 90.000000°: length {25 * math.pi / 3:.9g} mm" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ([], "the linkage has 2 drives: give --drive FROM:TO:STEP once for each"),
+        (["--drive=0:90:5"], "the linkage has 2 drives, but --drive was given 1 times"),
+        (["--drive=0:90:5", "--drive=0:90:10"], "10 rows where another drive has 19"),
+        (["--drive=10", "--drive=20"], "has no length"),
+        (["--drive=0:90:5", "--drive=0:90:5", "--contact=3"], "leave --drive away"),
+    ],
+)
+def test_refused_paths(capsys, arguments, words):
+    status, out = run(capsys, "pent", "R(3-4)", *arguments)
+    assert status == 2
+    assert words in out

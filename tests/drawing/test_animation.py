@@ -13,14 +13,15 @@ import pytest
 from gruebler import GrueblerError
 from gruebler.catalog import entry
 from gruebler.cli import animate
-from gruebler.drawing.animation import animated_svg
+from gruebler.drawing.animation import animated_svg, scene
+from gruebler.drawing.animation_page import animated_page
 from gruebler.drawing.stage import staged
 from gruebler.errors import LinkageError
 from gruebler.linkages import FourBar, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
 
 SVG = "{http://www.w3.org/2000/svg}"
-ANIMATE = {"output": None, "curve": [], "seconds": 4.0, "branch": None, "lang": "en"}
+ANIMATE = {"output": None, "curve": [], "seconds": 4.0, "branch": None, "lang": "en", "drive": []}
 CRANK_ROCKER = FourBar(25, 70, 40, 70).linkage({"K": (35, 20)})
 
 
@@ -123,3 +124,16 @@ def test_the_command(capsys, tmp_path):
     assert (tmp_path / "x.html").read_text("utf-8").startswith("<!doctype html>")
     with pytest.raises(GrueblerError, match=r"end it with \.svg, \.html, \.gif, \.webp or \.png"):
         animate.run(Namespace(linkage="wiper", **(ANIMATE | {"output": tmp_path / "x.bmp"})))
+
+
+def test_a_path_of_several_drives():
+    linkage = entry("pent").linkage()
+    path = np.radians([[0, 0], [90, 180]])
+    text = animated_svg(linkage, drives=path, curves=["R(3-4)"])
+    assert "to and fro" in text
+    shown = scene(linkage, drives=path)
+    assert shown.stage.path.drives[[0, -1]] == pytest.approx(path)
+    assert '"low": 0.0, "high": 90.0' in animated_page(linkage, drives=path)
+    assert '"unit": " %"' in animated_page(linkage, drives=path[::-1])
+    with pytest.raises(LinkageError, match="one drive only"):
+        animated_svg(linkage)

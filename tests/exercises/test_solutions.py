@@ -319,9 +319,10 @@ def test_table_of_exercise_20():
 
 def test_scott_russell():
     table = {row[0]: row[1:] for row in solve(exercise("3.5.4-scott-russell")).tables[0].rows}
-    for phi, x, y in B4["Scott-Russell"]:
-        if phi in table:
-            assert table[phi] == pytest.approx((x, y), **CLOSE)
+    known = {phi: (x, y) for phi, x, y in B4["Scott-Russell"] if phi in table}
+    assert len(known) >= 3
+    for phi, place in known.items():
+        assert table[phi] == pytest.approx(place, **CLOSE)
 
 
 # --- literature: C, velocities -----------------------------------------------------------------------

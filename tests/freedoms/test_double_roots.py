@@ -126,3 +126,14 @@ def test_home_screws_with_several_drives():
 def test_values_for_each_drive():
     with pytest.raises(LinkageError, match="expected 1 drive value, one for each, but found 2"):
         freedoms(m.hooke(), at=[0.1, 0.2])
+
+
+@pytest.mark.parametrize("gap", [1e-7, 1e-9, 1e-10])
+def test_a_small_gap_is_a_gap(gap):
+    """Bars of 1 and 1 between pins that are a little more than 2 apart: no rounding, in no unit."""
+    home = {"0": (0, 0, 0), "1": (0, 0, 0), "2": (1, 0, 0)}
+    for scale in (1, 1e-6, 1e6):
+        for linkage in (triangle(1, 1, 2 + gap), triangle(1, 1, 2 + gap).with_home(home)):
+            with pytest.raises(LinkageError, match=r"closed|assembled"):
+                freedoms(linkage.scaled(scale))
+    assert freedoms(triangle(1, 1, 2).with_home(home)).mobility == 0

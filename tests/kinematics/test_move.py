@@ -7,8 +7,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from gruebler.catalog import entry
 from gruebler.errors import LinkageError
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import degrees, measures, move
+from gruebler.kinematics.moving import planned
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
 
@@ -347,3 +349,36 @@ def test_unknown_names_are_answered_with_the_nearest():
         motion.point("K", 2)
     with pytest.raises(LinkageError, match="no sliding joint"):
         motion.slide("R(frame-crank)")
+
+
+@pytest.mark.parametrize("scale", [1, 3, 10, 2.54, 1e-6, 1e6])
+def test_a_slide_through_two_pins_that_meet_goes_straight_on(scale: float) -> None:
+    """At 90 degrees all arms of the scissor lift are in line and the two pins of its platform coincide."""
+    lift = entry("scissor2").linkage().scaled(scale)
+    for drives in ([80, 89, 89.9999, 90, 90.0001, 91, 100], np.arange(5.38, 175), [200, 250, 280], [100, 90, 80]):
+        motion = move(lift, np.radians(drives), speed=1.0)
+        assert motion.complete
+        assert motion.closure < 1e-9
+        assert np.abs(np.sin(motion.angle("platform"))).max() < 1e-7
+        assert np.ptp(motion.angle("platform")) < 1e-7
+
+
+@pytest.mark.parametrize("scale", [1, 3, 1e-6])
+def test_the_change_points_of_a_scissor_lift_in_any_unit(scale: float) -> None:
+    found = measures(entry("scissor2").linkage().scaled(scale))
+    assert (found.travel, found.output_turns, found.transfer.still) == (0, 0, True)
+    at = sorted((round(float(np.degrees(one.drive)), 6), one.form) for one in found.change_points)
+    both = [(90.0, "RPR"), (90.0, "RRP"), (90.0, "RRR"), (270.0, "RPR"), (270.0, "RRP"), (270.0, "RRR")]
+    assert at == [(0.0, "RRR"), *both[:3], (180.0, "RRR"), *both[3:]]
+
+
+def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
+    random = np.random.default_rng(20_261_122)
+    made = planned(FourBar(20, 80.62257748298549, 20, 80.62257748298549).linkage())
+    for _ in range(400):
+        before = -np.sort(10 ** random.uniform(-3, 0.7, 3))[::-1]
+        after = np.sort(10 ** random.uniform(-3, 0.7, 2))
+        path = np.radians(np.concatenate([[-20, -15, -10, -6], before, after, [10, 15]]))
+        motion = move(made, path, branch="-")
+        assert motion.complete
+        assert np.abs(np.exp(1j * (motion.angle("rocker") - path)) - 1).max() < 1e-6

@@ -14,6 +14,7 @@ from gruebler.kinematics.batch import move_many
 from gruebler.kinematics.moving import planned
 from gruebler.linkages import Linkage, Named
 from gruebler.mechanism import Drive, Mechanism
+from gruebler.statics import Loads, statics
 
 LOCOMOTIVE = Mechanism.parse(
     "R(frame-crank) R(crank-rod) R(rod-second) R(frame-second) R(rod-third) R(frame-third); "
@@ -22,8 +23,8 @@ LOCOMOTIVE = Mechanism.parse(
 
 
 def locomotive(feet=((0, 0), (50, 0), (80, 10)), crank=20.0, angle=1.0, error=0.0, mechanism=LOCOMOTIVE):
-    """Three parallel cranks on a rod, the last one longer by an error."""
-    arms = [crank * np.exp(1j * angle)] * 2 + [(crank + error) * np.exp(1j * angle)]
+    """Three parallel cranks on a rod, the last one turned by an error."""
+    arms = [crank * np.exp(1j * angle)] * 2 + [crank * np.exp(1j * (angle + error))]
     pins = [complex(*foot) + arm for foot, arm in zip(feet, arms, strict=True)]
     at = [feet[0], pins[0], pins[1], feet[1], pins[2], feet[2]]
     return Linkage.drawn(mechanism, {k: (p.real, p.imag) if isinstance(p, complex) else p for k, p in enumerate(at)})
@@ -49,6 +50,13 @@ def test_a_third_equal_crank_goes_round(feet, angle):
         assert motion.angle(link) - motion.angle(link)[0] == pytest.approx(motion.drives[:, 0], abs=1e-9)
         assert motion.angular(link) == pytest.approx(np.full(721, 2.0), abs=1e-9)
     assert np.ptp(motion.angle("rod")) < 1e-9
+
+
+def test_a_path_may_start_in_a_change_point():
+    for start in (0, 180):
+        motion = move(locomotive(((0, 0), (50, 0), (120, 0))), degrees(start, start + 360, 5))
+        assert motion.complete
+        assert motion.closure < 1e-9
 
 
 @given(
@@ -135,9 +143,10 @@ def test_two_sides_that_repeat_each_other():
     assert motion.point("R(a4-top)")[:, 1] == pytest.approx(100 * np.sin(motion.drives[:, 0]), abs=1e-10)
 
 
-def test_a_crank_that_is_too_long_is_refused_at_once():
-    with pytest.raises(LinkageError, match=r"leave 0 freedoms.*against the drives work .*R\(rod-third\).*gruebler free"):
-        move(locomotive(error=0.2), [1.0])
+def test_a_crank_that_stands_askew_is_refused_at_once():
+    words = r"leave 0 freedoms.*the drives work .*R\(rod-third\).*gruebler freedoms"
+    with pytest.raises(LinkageError, match=words):
+        move(locomotive(error=0.05), [1.0])
     with pytest.raises(LinkageError, match="leave 0 freedoms"):
         planned(dixon([1.0, -1.7, 2.6], [1.3, 2.2, -0.9], off=0.01))
 
@@ -166,5 +175,7 @@ def test_what_is_missing_is_said():
     drives = Mechanism(LOCOMOTIVE.chain, "frame", [0, 3])
     with pytest.raises(LinkageError, match=r"leave 1 freedoms, fewer than are driven \(2\)"):
         move(locomotive(mechanism=drives), [(1.0, 1.0)])
+    with pytest.raises(LinkageError, match="depends on how they yield"):
+        statics(move(locomotive(), [1.0]), Loads(moments={"third": 1.0}))
     with pytest.raises(LinkageError, match="one by one"):
         move_many([locomotive(), locomotive()], [1.0])

@@ -1,16 +1,21 @@
 """Slow and obvious methods by another hand, against the report."""
 
+import dataclasses
 from fractions import Fraction
 from itertools import combinations, pairwise
 from random import Random
 
 import networkx as nx
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from gruebler import Chain, ChainError
-from gruebler.mobility import counted, generic_mobility, mobility_report
-from tests.strategies import PLANAR, chains
+from gruebler._numeric import prime_field
+from gruebler.mobility import counted, generic, generic_mobility, mobility_report, overconstrained
+from gruebler.mobility.idle import When
+from tests.mobility import slow_circuits
+from tests.strategies import PLANAR, SPATIAL, SPHERICAL, chains
 
 ATLAS = [g for g in nx.graph_atlas_g() if g.number_of_nodes() >= 3 and nx.is_connected(g)]
 
@@ -156,3 +161,56 @@ def test_counts_by_hand():
         counted(Chain.parse("spatial: R(0-1) C(1-2) P(2-0)"), b=2)
     with pytest.raises(ChainError, match=r"1 to 6, not 7"):
         counted(Chain.parse("R(0-1) R(1-2) R(2-0)"), b=7)
+
+
+ANY = st.one_of(
+    chains(pairs=PLANAR, most_links=12),
+    chains(pairs=SPHERICAL, space="spherical"),
+    chains(pairs=SPATIAL, space="spatial", most_links=7),
+)
+
+
+@given(ANY)
+@settings(max_examples=60)
+def test_circuits_and_clusters_against_whole_bases(chain):
+    rank = generic(chain)
+    fast = [dataclasses.astuple(part) for part in overconstrained(rank)]
+    assert fast == slow_circuits.supports(rank)
+    assert rank.clusters == slow_circuits.clusters(rank)
+
+
+@pytest.mark.parametrize("limit", ["_DENSE_BASIS", "_SPARSE_STEPS"])
+@given(chains(pairs=PLANAR, most_links=9))
+@settings(max_examples=30, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_circuits_with_a_sparse_basis_and_without_any(monkeypatch, limit, chain):
+    """A sparse basis changes nothing; without a basis parts may stay together, but nothing is lost or invented."""
+    rank = generic(chain)
+    slow = slow_circuits.supports(rank)
+    monkeypatch.setattr(prime_field, "_DENSE_BASIS", -1)
+    if limit == "_DENSE_BASIS":
+        assert [dataclasses.astuple(part) for part in overconstrained(rank)] == slow
+        return
+    monkeypatch.setattr(prime_field, "_SPARSE_STEPS", -1)
+    found = overconstrained(rank)
+    assert sum(part.redundancy for part in found) == rank.redundancy
+    links, joints = slow_circuits.loaded(rank)
+    assert {link for part in found for link in part.links} == links
+    assert {joint for part in found for joint in part.joints} == joints
+    for part in found:
+        inside = [one for one in slow if set(one[0]) <= set(part.links) and set(one[1]) <= set(part.joints)]
+        assert inside
+        if part.minimal:
+            assert dataclasses.astuple(part) in slow
+
+
+@given(ANY)
+@settings(max_examples=60)
+def test_idle_freedoms_by_the_rank_of_all_constraints_of_a_link(chain):
+    functionals = generic(chain).placement.functionals
+    idle = mobility_report(chain).idle_freedoms
+    always = {f.links[0]: f.freedoms for f in idle if f.when is When.ALWAYS and len(f.links) == 1}
+    for link in chain.links[1:]:  # the first one is the frame
+        mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+        rows = [dict(enumerate(f)) for k in mine for f in functionals[k]]
+        left = chain.space.b - prime_field.echelon(rows, chain.space.b).rank
+        assert always.get(link, 0) == (left if len(mine) > 1 else 0)

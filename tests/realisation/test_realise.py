@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from gruebler import Mechanism, Requirements, chains, driven_mechanisms, inversions, variants
 from gruebler.errors import LinkageError
-from gruebler.kinematics import move
+from gruebler.kinematics import measures, move
 from gruebler.linkages import Line
 from gruebler.realisation import realise, with_drives
 
@@ -132,12 +132,14 @@ def test_what_cannot_move_is_said(text):
 
 
 def test_a_spent_budget_is_said():
-    found = realise(Mechanism.parse(TURNING[4]), budget=1, seed=1)
-    if not found.found:
-        assert re.search(r"3 drawings", found.message())
-        assert "Zeichnungen" in found.message("de")
-    else:
-        check(found)
+    """One drawing in each of the three searches, none of which moves; with more drawings it is found."""
+    mechanism = Mechanism.parse(TURNING[6])
+    found = realise(mechanism, budget=1, seed=15)
+    assert not found.found
+    assert found.linkage is None
+    assert re.search(r"3 drawings tried \(seed 15\)", found.message())
+    assert "3 Zeichnungen" in found.message("de")
+    check(realise(mechanism, budget=600, seed=15))
 
 
 @pytest.mark.parametrize(
@@ -174,3 +176,14 @@ def test_one_slider_variants_move():
             found = realise(driven.mechanism)
             check(found)
             assert found.full == driven.mechanism.drives[0].direction.startswith("R")
+
+
+@pytest.mark.parametrize("text", SWINGING)
+def test_the_range_is_that_of_the_measures(text):
+    found = realise(Mechanism.parse(text), budget=300)
+    span = measures(found.linkage).span
+    assert found.span[:2] == span[:2]
+    (low, high), *_ = found.ranges
+    assert span.low <= low < high <= span.high
+    assert f"moves from {span.low:.7g} to {span.high:.7g} mm. Well conditioned" in found.message()
+    assert f"von {span.low:.7g} bis {span.high:.7g} mm. Mit guter Kondition" in found.message("de")

@@ -42,11 +42,12 @@ from gruebler._numeric.label_workspace import (
     Int32,
     Int64,
     Workspace,
+    signature,
 )
 from gruebler._numeric.partition import sort_words
 
 
-@njit(COUNT(TABLE, COUNT, COUNT), cache=True)
+@njit(signature(COUNT, TABLE, COUNT, COUNT), cache=True)
 def root(rows: Int32, row: int, v: int) -> int:
     """Return the least vertex of the orbit of v in a forest kept in one row, and shorten the way to it."""
     while rows[row, v] != v:
@@ -55,7 +56,7 @@ def root(rows: Int32, row: int, v: int) -> int:
     return v
 
 
-@njit(FLAG(TABLE, COUNT, COUNT, COUNT), cache=True)
+@njit(signature(FLAG, TABLE, COUNT, COUNT, COUNT), cache=True)
 def join(rows: Int32, row: int, v: int, w: int) -> bool:
     """Unite the orbits of v and w under the smaller root; return whether they were two."""
     v = root(rows, row, v)
@@ -67,7 +68,7 @@ def join(rows: Int32, row: int, v: int, w: int) -> bool:
     return v != w
 
 
-@njit(COUNT(COUNT, COUNT, COUNT, COUNT, ROW, ROW, ROW, WORKSPACE), cache=True)
+@njit(signature(COUNT, COUNT, COUNT, COUNT, COUNT, ROW, ROW, ROW, WORKSPACE), cache=True)
 def _write_row(
     v: int,
     names: int,
@@ -90,7 +91,7 @@ def _write_row(
     return count
 
 
-@njit(FLAG(COUNT, *COLOURED_GRAPH, WORKSPACE), cache=True)
+@njit(signature(FLAG, COUNT, *COLOURED_GRAPH, WORKSPACE), cache=True)
 def _respects(
     moved: int, vertex_colour: Int64, indptr: Int32, neighbour: Int32, edge_colour: Int32, ws: Workspace
 ) -> bool:
@@ -111,7 +112,7 @@ def _respects(
     return True
 
 
-@njit(NOTHING(COUNT, WORKSPACE), cache=True)
+@njit(signature(NOTHING, COUNT, WORKSPACE), cache=True)
 def _keep(moved: int, ws: Workspace) -> None:
     """Unite the orbits of the automorphism under trial and, if that made fewer of them, store it."""
     state, rows, pool = ws.state, ws.rows, ws.pool

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.motion import walk
 from gruebler._numeric.program import Memory, Poses, Program, Scratch, new_memory, new_scratch
 from gruebler._numeric.registers import REGISTERS
+from gruebler._numeric.work import walking
 
 __all__ = ["run_designs"]
 
@@ -54,7 +55,8 @@ def run_designs(
     )
     memory = new_memory(signs.shape[1], starts.shape[1], len(program.conditions) - 1)
     scratch = new_scratch(links, len(program.kinds), len(program.roots), path.shape[1])
-    _designs(program, sizes, path, speeds, signs, starts, kept, out, part, poses, memory, scratch, np.empty(REGISTERS))
+    move = for_work(_designs, (part[1] - part[0]) * walking(program, rows, order))
+    move(program, sizes, path, speeds, signs, starts, kept, out, part, poses, memory, scratch, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)

@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.label_workspace import (
     BEST_LAB,
     CELLS,
@@ -42,9 +42,11 @@ from gruebler._numeric.label_workspace import (
     Int64,
     Workspace,
     make_workspace,
+    signature,
 )
 from gruebler._numeric.partition import first_partition, refine, undo
 from gruebler._numeric.search_tree import search
+from gruebler._numeric.work import labelling
 
 
 class CanonicalResult(NamedTuple):
@@ -63,7 +65,7 @@ class CanonicalResult(NamedTuple):
     order: int
 
 
-@njit(FLAG(COUNT, *COLOURED_GRAPH, WORKSPACE), cache=True)
+@njit(signature(FLAG, COUNT, *COLOURED_GRAPH, WORKSPACE), cache=True)
 def label_graph(
     n: int, vertex_colour: Int64, indptr: Int32, neighbour: Int32, edge_colour: Int32, ws: Workspace
 ) -> bool:
@@ -179,9 +181,11 @@ def canonical_form(
     indptr = np.empty(n + 1, np.int32)
     neighbour = np.empty(2 * m, np.int32)
     row_colour = np.empty(2 * m, np.int32)
-    adjacency(n, ends, colours, indptr, neighbour, row_colour)
+    work = labelling(n, m)
+    for_work(adjacency, work / 20)(n, ends, colours, indptr, neighbour, row_colour)
     ws = make_workspace(n, m)
-    while not label_graph(n, vertices, indptr, neighbour, row_colour, ws):
+    label = for_work(label_graph, work)
+    while not label(n, vertices, indptr, neighbour, row_colour, ws):
         ws = make_workspace(n, m, 4 * ws.pool.shape[1])
     count = int(ws.state[GENERATORS])
     generators = np.tile(np.arange(n, dtype=np.int32), (count, 1))
@@ -283,5 +287,6 @@ def canonical_bulk(n: int, edges: NDArray[np.integer], bounds: Int64 | None = No
         raise ValueError(f"bounds must ascend from 0 to the number of edges {len(ends)}")
     widest = int(np.diff(limits).max(initial=0))
     labellings = np.empty((limits.size - 1, n), np.int32)
-    _label_all(n, ends, limits, widest, make_workspace(n, widest), labellings)
+    label = for_work(_label_all, len(labellings) * labelling(n, widest))
+    label(n, ends, limits, widest, make_workspace(n, widest), labellings)
     return labellings

@@ -26,12 +26,13 @@ Lengths of the equations are in the unit of the points, angles of a SLIDE are mu
 
 from __future__ import annotations
 
-from math import atan2, cos, floor, log, pi, sin
+from math import atan2, cos, floor, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.lanes import logarithm
 
 __all__ = [
     "EQUATIONS",
@@ -165,7 +166,7 @@ def closing(
         elif kind == POLAR:
             seen = line.conjugate() * gap
             radius, slope, _, _ = law(pieces, values[c], wound(seen, 0.0))
-            residual[row] = one * (log(abs(seen)) - radius)
+            residual[row] = one * (logarithm(abs(seen)) - radius)
             measure = one * (1 - 1j * slope) * gap / (gap * gap.conjugate()).real
             turn_a = one * slope
         elif kind == FACE:

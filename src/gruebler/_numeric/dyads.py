@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.lanes import square_root
 from gruebler._numeric.planar_jets import turned
 from gruebler._numeric.program import PRP, RPP, RPR, RRP, RRR
 
@@ -44,7 +45,7 @@ def dyad_square(kind: int, points: Complexes, lines: Complexes, size: float) -> 
     if kind == RRR:
         way = points[5, 0] - points[0, 0]
         first, second = points[2, 0] - points[1, 0], points[3, 0] - points[4, 0]
-        d, r, s = sqrt(_dot(way, way)), sqrt(_dot(first, first)), sqrt(_dot(second, second))
+        d, r, s = sqrt(_dot(way, way)), square_root(_dot(first, first)), square_root(_dot(second, second))
         square = (r + s - d) * (s + d - r) * (d + r - s) * (d + r + s) / (2 * r * s) ** 2  # Heron: no digits are lost
         noise = 4e-16 * (d + r + s) ** 2 / (r * s)
         return 0.0 if -noise < square < 0 else square

@@ -3,10 +3,10 @@
 A workspace is made once, by `make_workspace`, and then labels any number of graphs without allocating.
 """
 
-from typing import Final, NamedTuple
+from collections.abc import Callable
+from typing import Any, Final, NamedTuple
 
 import numpy as np
-from numba import typeof, types
 from numpy.typing import NDArray
 
 Int32 = NDArray[np.int32]
@@ -139,14 +139,36 @@ def make_workspace(n: int, m: int, support: int | None = None) -> Workspace:
 # Types for signatures. A kernel that is called from several places states its signature: left alone, numba
 # compiles it anew for every constant and every width of integer that some call hands it, which made the first
 # labelling of all take twice as long to compile.
-NOTHING: Final = types.void
-COUNT: Final = types.int64
-FLAG: Final = types.boolean
-WORD: Final = types.uint64
-ROW: Final = types.int32[::1]
-LONG_ROW: Final = types.int64[::1]
-TABLE: Final = types.int32[:, ::1]
-WORD_TABLE: Final = types.uint64[:, ::1]
-WORKSPACE: Final = typeof(make_workspace(1, 1))  # type: ignore[no-untyped-call, unused-ignore]
+NOTHING: Final = "void"
+COUNT: Final = "int64"
+FLAG: Final = "boolean"
+WORD: Final = "uint64"
+ROW: Final = "int32[::1]"
+LONG_ROW: Final = "int64[::1]"
+TABLE: Final = "int32[:, ::1]"
+WORD_TABLE: Final = "uint64[:, ::1]"
+WORKSPACE: Final = "workspace"
 ROWS_OF_GRAPH: Final = (ROW, ROW)  # indptr, neighbour
 COLOURED_GRAPH: Final = (LONG_ROW, ROW, ROW, ROW)  # vertex colours, indptr, neighbour, edge colours
+
+
+def signature(result: str, *arguments: str) -> Callable[[], Any]:
+    """A signature for `compiling.njit`, of the names of types above."""
+
+    def make() -> Any:
+        from numba import typeof, types
+
+        known = {
+            NOTHING: types.void,
+            COUNT: types.int64,
+            FLAG: types.boolean,
+            WORD: types.uint64,
+            ROW: types.int32[::1],
+            LONG_ROW: types.int64[::1],
+            TABLE: types.int32[:, ::1],
+            WORD_TABLE: types.uint64[:, ::1],
+            WORKSPACE: typeof(make_workspace(1, 1)),  # type: ignore[no-untyped-call, unused-ignore]
+        }
+        return known[result](*(known[name] for name in arguments))
+
+    return make

@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.dyads import dyad_square
 from gruebler._numeric.placing import attempt, commit, forget, set_drives, zero_ahead
 from gruebler._numeric.program import (
@@ -30,7 +30,6 @@ from gruebler._numeric.program import (
     NEAREST,
     PUSH,
     RPR,
-    RRR,
     SINGULAR,
     START,
     TURN,
@@ -43,10 +42,12 @@ from gruebler._numeric.program import (
 )
 from gruebler._numeric.registers import REGISTERS
 from gruebler._numeric.sweep import steady, sweep, swept_links
+from gruebler._numeric.work import walking
 
 __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
 
 Reals = NDArray[np.float64]
+_NOISE = 1e-14  # of squared roots: a hundred roundings
 _PAUSE = 16  # rows to walk after a sweep was stopped
 
 
@@ -100,8 +101,9 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + ratio * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    if least == np.inf or at >= reach - 1e-6 * (reach - memory.at[0]):
-        return reach, False  # still falling: nothing is decided yet
+    end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
+    if least == np.inf or end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
+        return reach if reach == len(path) - 1 else memory.at[0] + 0.9 * (reach - memory.at[0]), False
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
     return at, False
@@ -195,7 +197,8 @@ def run(
     """
     memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
     s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
-    return walk(program, path, speeds, signs, start, poses, memory, s, np.empty(REGISTERS))
+    move = for_work(walk, walking(program, len(path), len(poses.rates)))
+    return move(program, path, speeds, signs, start, poses, memory, s, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
@@ -318,13 +321,13 @@ def _walk_to(
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
-    """The number of a dyad near a change point whose first body a step has turned by more than a right angle, or -1.
+    """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
 
-    Where the outer joints meet, their line reverses; the body goes straight on, and it is the assembly mode that
+    Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
     changes. Steps are too short for any other turn like that.
     """
     for operation in program.operations:
-        if operation[0] == RRR or operation[0] == RPR:
+        if operation[0] == RPR:
             number, body = operation[9], operation[7]
             if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
                 continue  # it has only passed near a change point, and may turn fast
@@ -458,12 +461,16 @@ def _approach(
     at, now, past = memory.at[0], memory.roots[0, number], memory.roots[1, number]
     slope = (now - past) / (at - memory.at[1])
     ahead = abs(now / slope) if slope != 0 else step
+    memory.change[number] = np.nan
+    if now * now < _NOISE and at + ahead < len(path) - 1:  # an exact change point: squares do not tell its place
+        memory.change[number], memory.after[number] = at + ahead, -memory.signs[number]
+        return max(2 * ahead, 1e-12), np.inf
     reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), float(len(path) - 1))
     place, negative = _look_for_change(program, path, speeds, reach, number, memory, s)
     if negative:
         return place - at, place
     if not np.isnan(memory.change[number]):
         return max(2 * (place - at), 1e-12), np.inf
-    memory.change[number] = place  # falling all the way: as it was, up to there
-    memory.after[number] = memory.signs[number]
+    memory.change[number] = place  # falling all the way: as it was, up to there and no further
+    memory.after[number] = 0
     return place - at, np.inf

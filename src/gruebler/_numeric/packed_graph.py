@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.bits import lowest, popcount
-from gruebler._numeric.compiling import njit
+from gruebler._numeric.compiling import for_work, njit
+from gruebler._numeric.work import packed_labelling
 
 Int64 = NDArray[np.int64]
 
@@ -299,8 +300,8 @@ def canonical_rows(rows: Int64) -> Int64:
     """int64[16]: the canonical rows of one packed graph."""
     labels, near, degree = make_labels(), np.zeros(NODES, np.int64), np.zeros(NODES, np.int64)
     n = order_of(rows)
-    survey(n, rows, near, degree)
-    label(n, near, rows, labels)
+    for_work(survey, packed_labelling() / 10)(n, rows, near, degree)
+    for_work(label, packed_labelling())(n, near, rows, labels)
     labels.best[n:] = 0
     return labels.best
 
@@ -309,8 +310,8 @@ def find_automorphisms(rows: Int64) -> Int64:
     """int64[k, n]: the automorphisms of one packed graph, as images of its vertices."""
     labels, near, degree = make_labels(), np.zeros(NODES, np.int64), np.zeros(NODES, np.int64)
     n = order_of(rows)
-    survey(n, rows, near, degree)
-    found = label(n, near, rows, labels)
+    for_work(survey, packed_labelling() / 10)(n, rows, near, degree)
+    found = for_work(label, packed_labelling())(n, near, rows, labels)
     images = np.zeros((found, n), np.int64)
     images[:, labels.leaves[0, :n]] = labels.leaves[:found, :n]
     return images

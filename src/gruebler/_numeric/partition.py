@@ -46,6 +46,7 @@ from gruebler._numeric.label_workspace import (
     Int64,
     UInt64,
     Workspace,
+    signature,
 )
 
 GOLDEN: Final = np.uint64(0x9E3779B97F4A7C15)
@@ -72,7 +73,7 @@ def mix(x: np.uint64) -> np.uint64:
     return x ^ (x >> SHIFT)
 
 
-@njit(NOTHING(WORD_TABLE, COUNT, TABLE, COUNT, COUNT, COUNT, COUNT), cache=True)
+@njit(signature(NOTHING, WORD_TABLE, COUNT, TABLE, COUNT, COUNT, COUNT, COUNT), cache=True)
 def _sift(keys: UInt64, row: int, items: Int32, item_row: int, low: int, root: int, count: int) -> None:
     k = keys[row, low + root]
     t = items[item_row, low + root]
@@ -91,7 +92,7 @@ def _sift(keys: UInt64, row: int, items: Int32, item_row: int, low: int, root: i
     items[item_row, low + root] = t
 
 
-@njit(NOTHING(WORD_TABLE, COUNT, TABLE, COUNT, COUNT, COUNT), cache=True)
+@njit(signature(NOTHING, WORD_TABLE, COUNT, TABLE, COUNT, COUNT, COUNT), cache=True)
 def sort_words(keys: UInt64, row: int, items: Int32, item_row: int, low: int, high: int) -> None:
     """Sort `keys[row, low:high]` in place, ascending, and carry `items[item_row, low:high]` along.
 
@@ -244,7 +245,7 @@ def single_out(v: int, ws: Workspace) -> None:
     state[WAITING] += 1
 
 
-@njit(NOTHING(COUNT, WORKSPACE), cache=True)
+@njit(signature(NOTHING, COUNT, WORKSPACE), cache=True)
 def undo(mark: int, ws: Workspace) -> None:
     """Take back all splits after the first `mark` of the trail."""
     state, rows = ws.state, ws.rows
@@ -258,7 +259,7 @@ def undo(mark: int, ws: Workspace) -> None:
     state[TRAIL] = mark
 
 
-@njit(WORD(COUNT, *ROWS_OF_GRAPH, COUNT, FLAG, FLAG, WORKSPACE), cache=True)
+@njit(signature(WORD, COUNT, *ROWS_OF_GRAPH, COUNT, FLAG, FLAG, WORKSPACE), cache=True)
 def refine(
     n: int, indptr: Int32, neighbour: Int32, level: int, like_first: bool, bounded: bool, ws: Workspace
 ) -> np.uint64:

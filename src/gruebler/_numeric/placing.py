@@ -88,7 +88,8 @@ def _root(square: float, number: int, at: float, memory: Memory) -> tuple[int, f
     sign = memory.signs[number]
     change = memory.change[number]
     if not np.isnan(change):
-        return GOOD, root * (sign if at <= change else memory.after[number])
+        sign = sign if at <= change else memory.after[number]  # 0 if nothing is known of what lies there
+        return GOOD if sign != 0 else APPROACH, root * sign
     count = memory.filled[0]
     if count == 0:
         return GOOD, root * sign
@@ -394,5 +395,6 @@ def commit(at: float, memory: Memory) -> None:
     for number in range(len(memory.signs)):
         change = memory.change[number]
         if at >= change:  # not if it is NaN
-            memory.signs[number] = memory.after[number]
+            if memory.after[number] != 0:
+                memory.signs[number] = memory.after[number]
             memory.change[number] = np.nan

@@ -7,11 +7,13 @@ distance must not vanish.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.lanes import give_back, taken
 
 __all__ = ["closest", "crossing_segments", "relax", "symmetrise"]
 
@@ -19,10 +21,11 @@ _SMALLEST = 1e-12
 
 
 @njit(cache=True)
-def _offset(x: NDArray[np.float64], a: int, b: int, p: int) -> tuple[float, float, float]:
+def _offset(x: Any, a: int, b: int, p: int) -> tuple[float, float, float]:
     """The place t in [0, 1] on the segment that is nearest to the point, and the vector from there to the point."""
-    ux, uy = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1]
-    wx, wy = x[p, 0] - x[a, 0], x[p, 1] - x[a, 1]
+    start, end, point = x[a], x[b], x[p]
+    ux, uy = end[0] - start[0], end[1] - start[1]
+    wx, wy = point[0] - start[0], point[1] - start[1]
     square = ux * ux + uy * uy
     t = 0.0 if square == 0.0 else (ux * wx + uy * wy) / square
     t = min(1.0, max(0.0, t))
@@ -30,30 +33,23 @@ def _offset(x: NDArray[np.float64], a: int, b: int, p: int) -> tuple[float, floa
 
 
 @njit(cache=True)
-def _forces(
-    x: NDArray[np.float64],
-    segments: NDArray[np.int64],
-    pull: NDArray[np.float64],
-    watched: NDArray[np.int64],
-    power: float,
-    slope: NDArray[np.float64],
-    room: NDArray[np.float64],
-) -> float:
+def _forces(x: Any, segments: Any, pull: Any, watched: Any, power: float, slope: Any, room: Any) -> float:
     """Energy, its gradient, and for every point how far it may go; energy = sum pull |s|^2 + sum d^-power."""
-    slope[:] = 0.0
-    room[:] = np.inf
+    for p in range(len(x)):
+        slope[p][0] = slope[p][1] = 0.0
+        room[p] = np.inf
     energy = 0.0
     for k in range(len(segments)):
-        a, b = segments[k, 0], segments[k, 1]
-        ux, uy = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1]
+        a, b = segments[k][0], segments[k][1]
+        ux, uy = x[b][0] - x[a][0], x[b][1] - x[a][1]
         energy += pull[k] * (ux * ux + uy * uy)
-        slope[a, 0] -= 2.0 * pull[k] * ux
-        slope[a, 1] -= 2.0 * pull[k] * uy
-        slope[b, 0] += 2.0 * pull[k] * ux
-        slope[b, 1] += 2.0 * pull[k] * uy
+        slope[a][0] -= 2.0 * pull[k] * ux
+        slope[a][1] -= 2.0 * pull[k] * uy
+        slope[b][0] += 2.0 * pull[k] * ux
+        slope[b][1] += 2.0 * pull[k] * uy
     for k in range(len(watched)):
-        a, b = segments[watched[k, 0], 0], segments[watched[k, 0], 1]
-        p = watched[k, 1]
+        number, p = watched[k][0], watched[k][1]
+        a, b = segments[number][0], segments[number][1]
         t, dx, dy = _offset(x, a, b, p)
         d = max(math.sqrt(dx * dx + dy * dy), _SMALLEST)
         step = d / 3.0
@@ -63,32 +59,34 @@ def _forces(
         value = d**-power
         energy += value
         push = power * value / (d * d)
-        slope[p, 0] -= push * dx
-        slope[p, 1] -= push * dy
-        slope[a, 0] += (1.0 - t) * push * dx
-        slope[a, 1] += (1.0 - t) * push * dy
-        slope[b, 0] += t * push * dx
-        slope[b, 1] += t * push * dy
+        slope[p][0] -= push * dx
+        slope[p][1] -= push * dy
+        slope[a][0] += (1.0 - t) * push * dx
+        slope[a][1] += (1.0 - t) * push * dy
+        slope[b][0] += t * push * dx
+        slope[b][1] += t * push * dy
     return energy
 
 
 @njit(cache=True)
-def symmetrise(
-    x: NDArray[np.float64], images: NDArray[np.int64], turns: NDArray[np.float64], out: NDArray[np.float64]
-) -> None:
+def symmetrise(x: Any, images: Any, turns: Any, out: Any) -> None:
     """The mean of the layout over a group: point p goes to images[g, p] as the plane moves by turns[g]."""
-    out[:] = 0.0
+    for p in range(len(x)):
+        out[p][0] = out[p][1] = 0.0
     for g in range(len(images)):
+        turn = turns[g]
         for p in range(len(x)):
-            q = images[g, p]
-            out[p, 0] += turns[g, 0, 0] * x[q, 0] + turns[g, 1, 0] * x[q, 1]
-            out[p, 1] += turns[g, 0, 1] * x[q, 0] + turns[g, 1, 1] * x[q, 1]
-    out /= len(images)
+            image = x[images[g][p]]
+            out[p][0] += turn[0][0] * image[0] + turn[1][0] * image[1]
+            out[p][1] += turn[0][1] * image[0] + turn[1][1] * image[1]
+    for p in range(len(x)):
+        out[p][0] /= len(images)
+        out[p][1] /= len(images)
 
 
 @njit(cache=True)
 def relax(
-    x: NDArray[np.float64],
+    layout: NDArray[np.float64],
     segments: NDArray[np.int64],
     pull: NDArray[np.float64],
     watched: NDArray[np.int64],
@@ -101,47 +99,49 @@ def relax(
 
     Descent with momentum; a step that raises the energy is taken back, its length halved.
     """
-    n = len(x)
-    slope = np.empty((n, 2))
-    fresh = np.empty((n, 2))
-    room = np.empty(n)
-    new_room = np.empty(n)
-    move = np.zeros((n, 2))
-    trial = np.empty((n, 2))
-    mean = np.empty((n, 2))
-    energy = _forces(x, segments, pull, watched, power, slope, room)
+    n = len(layout)
+    x, bars, pulls, pairs, group, plane = (
+        taken(layout), taken(segments), taken(pull), taken(watched), taken(images), taken(turns),
+    )  # fmt: skip
+    slope, fresh = taken(np.empty((n, 2))), taken(np.empty((n, 2)))
+    room, new_room = taken(np.empty(n)), taken(np.empty(n))
+    move, trial, mean = taken(np.zeros((n, 2))), taken(np.empty((n, 2))), taken(np.empty((n, 2)))
+    energy = _forces(x, bars, pulls, pairs, power, slope, room)
     length = 0.05
     keep = 0.0
     for _ in range(rounds):
         for p in range(n):
             for c in range(2):
-                move[p, c] = keep * move[p, c] - length * slope[p, c]
-            size = math.sqrt(move[p, 0] ** 2 + move[p, 1] ** 2)
+                move[p][c] = keep * move[p][c] - length * slope[p][c]
+            size = math.sqrt(move[p][0] ** 2 + move[p][1] ** 2)
             if size > room[p]:
-                move[p, 0] *= room[p] / size
-                move[p, 1] *= room[p] / size
-            trial[p, 0] = x[p, 0] + move[p, 0]
-            trial[p, 1] = x[p, 1] + move[p, 1]
-        if len(images) > 1:
-            symmetrise(trial, images, turns, mean)
-            trial[:] = mean
-        value = _forces(trial, segments, pull, watched, power, fresh, new_room)
+                move[p][0] *= room[p] / size
+                move[p][1] *= room[p] / size
+            trial[p][0] = x[p][0] + move[p][0]
+            trial[p][1] = x[p][1] + move[p][1]
+        if len(group) > 1:
+            symmetrise(trial, group, plane, mean)
+            trial, mean = mean, trial
+        value = _forces(trial, bars, pulls, pairs, power, fresh, new_room)
         if value <= energy:
             done = energy - value <= 1e-7 * value and keep > 0.0
-            x[:] = trial
-            slope[:] = fresh
-            room[:] = new_room
+            for p in range(n):
+                x[p][0], x[p][1] = trial[p][0], trial[p][1]
+            slope, fresh = fresh, slope
+            room, new_room = new_room, room
             energy = value
             length *= 1.3
             keep = 0.8
             if done:
                 break
         else:
-            move[:] = 0.0
+            for p in range(n):
+                move[p][0] = move[p][1] = 0.0
             keep = 0.0
             length *= 0.4
             if length < 1e-14:
                 break
+    give_back(layout, x)
     return energy
 
 

@@ -124,7 +124,7 @@ class Memory(NamedTuple):
     determinants: Reals  # (4, groups)
     signs: Reals  # (dyads,) the sign that holds from here on
     change: Reals  # (dyads,) where the root goes through zero, NaN if that is not known
-    after: Reals  # (dyads,) the sign behind that
+    after: Reals  # (dyads,) the sign behind that; 0 if it is not known
     met: Reals  # (dyads,) the place on the path where the outer joints meet
     direction: Complexes  # (dyads,) the turn of the first body there
     singular: Ints  # (1,) 1 + the group whose singular place is jumped; -1 - the group that is placed at it; else 0

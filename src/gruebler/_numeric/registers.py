@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.lanes import choose, lanes, number, tally
 from gruebler._numeric.program import Poses
 
 __all__ = [
@@ -53,26 +54,26 @@ REGISTERS = 37 * LANES
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def load(source: Complexes, x: Reals, to: int) -> None:
     real, imag = x[to : to + LANES], x[to + LANES : to + PAIR]
-    for i in range(len(source)):
+    for i in lanes(len(source)):
         real[i], imag[i] = source[i].real, source[i].imag
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def store(x: Reals, at: int, target: Complexes) -> None:
     real, imag = x[at : at + LANES], x[at + LANES : at + PAIR]
-    for i in range(len(target)):
-        target[i] = complex(real[i], imag[i])
+    for i in lanes(len(target)):
+        target[i] = number(real[i], imag[i])
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def copy(source: Reals, target: Reals) -> None:
-    for i in range(min(len(source), len(target))):
+    for i in lanes(min(len(source), len(target))):
         target[i] = source[i]
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def rotate(x: Reals, turn: int, by: complex, to: int) -> None:
-    for i in range(LANES):
+    for i in lanes(LANES):
         a, b = x[turn + i], x[turn + LANES + i]
         x[to + i] = a * by.real - b * by.imag
         x[to + LANES + i] = a * by.imag + b * by.real
@@ -81,22 +82,22 @@ def rotate(x: Reals, turn: int, by: complex, to: int) -> None:
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def add_arm(order: int, sign: float, arm: int, rates: int, x: Reals, to: int) -> None:
     """Add a turning vector and its derivatives to a jet."""
-    for i in range(LANES):
+    for i in lanes(LANES):
         x[to + i] += sign * x[arm + i]
         x[to + LANES + i] += sign * x[arm + LANES + i]
     if order >= 1:
-        for i in range(LANES):
+        for i in lanes(LANES):
             w = sign * x[rates + i]
             x[to + PAIR + i] -= w * x[arm + LANES + i]
             x[to + PAIR + LANES + i] += w * x[arm + i]
     if order >= 2:
-        for i in range(LANES):
+        for i in lanes(LANES):
             w, a = x[rates + i], sign * x[rates + LANES + i]
             w *= sign * w
             x[to + 2 * PAIR + i] -= w * x[arm + i] + a * x[arm + LANES + i]
             x[to + 2 * PAIR + LANES + i] += a * x[arm + i] - w * x[arm + LANES + i]
     if order >= 3:
-        for i in range(LANES):
+        for i in lanes(LANES):
             w, a, j = x[rates + i], x[rates + LANES + i], x[rates + 2 * LANES + i]
             real, imag = -3 * sign * w * a, sign * (j - w * w * w)
             x[to + 3 * PAIR + i] += real * x[arm + i] - imag * x[arm + LANES + i]
@@ -153,13 +154,13 @@ _SHIFT = 6755399441055744.0  # adding it and taking it off again rounds to a who
 def circle(x: Reals) -> None:
     """Cosine and sine of register E into the pair A, to an ulp: quarter turns off, then the polynomials of fdlibm."""
     near = 0
-    for i in range(LANES):
-        near += int(abs(x[E + i]) < 1e5)
+    for i in lanes(LANES):
+        near += tally(abs(x[E + i]) < 1e5)
     if near < LANES:
         for i in range(LANES):
             x[A + i], x[A + LANES + i] = cos(x[E + i]), sin(x[E + i])
         return
-    for i in range(LANES):
+    for i in lanes(LANES):
         angle = x[E + i]
         n = (angle * (2 / pi) + _SHIFT) - _SHIFT
         r = ((angle - n * _HALF_PI[0]) - n * _HALF_PI[1]) - n * _HALF_PI[2]
@@ -176,6 +177,6 @@ def circle(x: Reals) -> None:
         high = 1 - half
         c = high + (((1 - high) - half) + z * z * c)
         odd = abs(quarter) == 1
-        real, imag = (s if odd else c), (c if odd else s)
-        x[A + i] = -real if quarter == 1 or abs(quarter) == 2 else real
-        x[A + LANES + i] = -imag if quarter == -1 or abs(quarter) == 2 else imag
+        real, imag, half_turn = choose(odd, s, c), choose(odd, c, s), abs(quarter) == 2
+        x[A + i] = choose((quarter == 1) | half_turn, -real, real)
+        x[A + LANES + i] = choose((quarter == -1) | half_turn, -imag, imag)

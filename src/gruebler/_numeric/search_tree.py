@@ -59,6 +59,7 @@ from gruebler._numeric.label_workspace import (
     Int32,
     Int64,
     Workspace,
+    signature,
 )
 from gruebler._numeric.partition import refine, single_out, undo
 
@@ -90,7 +91,7 @@ def _joins(begin: int, indptr: Int32, neighbour: Int32, ws: Workspace) -> int:
     return joins
 
 
-@njit(COUNT(COUNT, COUNT, WORKSPACE), cache=True)
+@njit(signature(COUNT, COUNT, COUNT, WORKSPACE), cache=True)
 def _list_candidates(level: int, n: int, ws: Workspace) -> int:
     """List the cells of two or more vertices that the latest step with such cells has split, or else all such.
 
@@ -120,7 +121,7 @@ def _list_candidates(level: int, n: int, ws: Workspace) -> int:
     return count
 
 
-@njit(COUNT(COUNT, COUNT, *ROWS_OF_GRAPH, WORKSPACE), cache=True)
+@njit(signature(COUNT, COUNT, COUNT, *ROWS_OF_GRAPH, WORKSPACE), cache=True)
 def _target_cell(level: int, n: int, indptr: Int32, neighbour: Int32, ws: Workspace) -> int:
     """Return the cell to take apart: of the candidates one joined in part to most cells, a smallest of such.
 
@@ -145,7 +146,7 @@ def _target_cell(level: int, n: int, indptr: Int32, neighbour: Int32, ws: Worksp
     return int(best)
 
 
-@njit(COUNT(COUNT, COUNT, COUNT, COUNT, WORKSPACE), cache=True)
+@njit(signature(COUNT, COUNT, COUNT, COUNT, COUNT, WORKSPACE), cache=True)
 def _next_root(level: int, last: int, eldest: int, forest: int, ws: Workspace) -> int:
     """Return the least vertex > `last` of the target cell that is the root of its orbit, or -1.
 
@@ -162,7 +163,7 @@ def _next_root(level: int, last: int, eldest: int, forest: int, ws: Workspace) -
     return int(best)
 
 
-@njit(COUNT(COUNT, COUNT, COUNT, WORKSPACE), cache=True)
+@njit(signature(COUNT, COUNT, COUNT, COUNT, WORKSPACE), cache=True)
 def _next_child(level: int, last: int, eldest: int, ws: Workspace) -> int:
     """Return the next vertex > `last` to single out at a node off the first path, or -1.
 
@@ -190,7 +191,7 @@ def _next_child(level: int, last: int, eldest: int, ws: Workspace) -> int:
     return _next_root(level, last, eldest, LOCAL, ws)
 
 
-@njit(COUNT(COUNT, FLAG, COUNT, *ROWS_OF_GRAPH, WORKSPACE), cache=True)
+@njit(signature(COUNT, COUNT, FLAG, COUNT, *ROWS_OF_GRAPH, WORKSPACE), cache=True)
 def _eldest_child(level: int, compare: bool, n: int, indptr: Int32, neighbour: Int32, ws: Workspace) -> int:
     """Return the vertex to single out first at a node.
 

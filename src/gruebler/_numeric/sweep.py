@@ -1,8 +1,8 @@
 """Many rows of a motion at once: what drives and dyads place.
 
-A sweep does for a block of rows what a walk does for one, operation by operation, in loops without branches. It makes
-no decisions: it tells how many of its rows may be trusted, by the same checks as the walk, and the walk goes on from
-there. docs/theory/kinematics.md has the equations.
+A sweep does for a block of rows what a walk does for one, operation by operation, in loops without branches (`lanes`).
+It makes no decisions: it tells how many of its rows may be trusted, by the same checks as the walk, and the walk goes
+on from there. docs/theory/kinematics.md has the equations.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.lanes import lanes, square_root, tally
 from gruebler._numeric.program import NEAR, RPR, RRP, RRR, TURN, Poses, Program
 from gruebler._numeric.registers import (
     LANES,
@@ -78,18 +79,18 @@ def _drive(
 ) -> None:
     """The turn and the rates of a link driven against another."""
     drives = path[row:end]
-    for i in range(len(drives)):
+    for i in lanes(len(drives)):
         x[E + i] = sign * drives[i, d]
     circle(x)
     load(poses.turns[link, row:end], x, E)
-    for i in range(LANES):
+    for i in lanes(LANES):
         c, s = x[A + i], x[A + LANES + i]
         a, b = x[E + i], x[E + LANES + i]
         x[T + i] = a * c - b * s
         x[T + LANES + i] = a * s + b * c
     for k in range(order):
         rates, fast = poses.rates[k, link, row:end], speeds[k, row:end]
-        for i in range(len(rates)):
+        for i in lanes(len(rates)):
             x[V + k * LANES + i] = rates[i] + sign * fast[i, d]
 
 
@@ -98,11 +99,11 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
     """Turns and rates of both bodies from P and Q; `first` and `second` are their vectors from outer to inner joint."""
     l1, l2 = first.real**2 + first.imag**2, second.real**2 + second.imag**2
     area, scale = sign * sqrt(l1) * sqrt(l2), 1 / l1 / l2
-    for i in range(LANES):
+    for i in lanes(LANES):
         dx, dy = x[Q + i] - x[P + i], x[Q + LANES + i] - x[P + LANES + i]
         d = dx * dx + dy * dy
         m = (d + l1 - l2) / 2
-        root = sqrt((l1 * d - m * m) * scale)
+        root = square_root((l1 * d - m * m) * scale)
         x[ROOT + i] = sign * root
         inverse = 1 / d
         along, across = m * inverse, area * root * inverse
@@ -113,14 +114,14 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
     rotate(x, A, first.conjugate() / l1, T)
     rotate(x, B, second.conjugate() / l2, U)
     if order >= 1:
-        for i in range(LANES):
+        for i in lanes(LANES):
             ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
             x[D + i] = d = 1 / (ax * by - ay * bx)
             tx, ty = x[Q + PAIR + i] - x[P + PAIR + i], x[Q + PAIR + LANES + i] - x[P + PAIR + LANES + i]
             x[V + i] = (tx * bx + ty * by) * d
             x[W + i] = (tx * ax + ty * ay) * d
     if order >= 2:
-        for i in range(LANES):
+        for i in lanes(LANES):
             ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
             v, w, d = x[V + i] ** 2, x[W + i] ** 2, x[D + i]
             tx = x[Q + 2 * PAIR + i] - x[P + 2 * PAIR + i] + v * ax - w * bx
@@ -128,7 +129,7 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
             x[V + LANES + i] = (tx * bx + ty * by) * d
             x[W + LANES + i] = (tx * ax + ty * ay) * d
     if order >= 3:
-        for i in range(LANES):
+        for i in lanes(LANES):
             ax, ay, bx, by = x[A + i], x[A + LANES + i], x[B + i], x[B + LANES + i]
             v, w, d = x[V + i], x[W + i], x[D + i]
             v1, w1, v2, w2 = v**3, w**3, 3 * v * x[V + LANES + i], 3 * w * x[W + LANES + i]
@@ -142,21 +143,21 @@ def _rrr(order: int, sign: float, first: complex, second: complex, x: Reals) -> 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _rpr(order: int, sign: float, lines: tuple[complex, complex], off: float, size: float, x: Reals) -> None:
     """Both bodies turn with the slide: Q - P = slide * (way + i off)."""
-    for i in range(LANES):
+    for i in lanes(LANES):
         dx, dy = x[Q + i] - x[P + i], x[Q + LANES + i] - x[P + LANES + i]
         d = dx * dx + dy * dy
-        way = sign * sqrt(d - off * off)
+        way = sign * square_root(d - off * off)
         x[ROOT + i], x[D + i] = way / size, 1 / way
         x[A + i], x[A + LANES + i] = (dx * way + dy * off) / d, (dy * way - dx * off) / d
     rotate(x, A, lines[0].conjugate(), T)
     rotate(x, A, lines[1].conjugate(), U)
     for k in range(order):
-        for i in range(LANES):
+        for i in lanes(LANES):
             dx = x[Q + (k + 1) * PAIR + i] - x[P + (k + 1) * PAIR + i]
             dy = x[Q + (k + 1) * PAIR + LANES + i] - x[P + (k + 1) * PAIR + LANES + i]
             along, across = x[A + i] * dx + x[A + LANES + i] * dy, x[A + i] * dy - x[A + LANES + i] * dx
             x[E + i], x[E + LANES + i] = along, across
-        for i in range(LANES):
+        for i in lanes(LANES):
             along, across, d = x[E + i], x[E + LANES + i], x[D + i]
             if k == 0:
                 w = across * d
@@ -168,7 +169,7 @@ def _rpr(order: int, sign: float, lines: tuple[complex, complex], off: float, si
             else:
                 w, a, way1, way2 = x[V + i], x[V + LANES + i], x[B + i], x[B + LANES + i]
                 x[V + 2 * LANES + i] = (across + 3 * (w * a * off - a * way1 - w * way2)) * d + w**3
-        for i in range(LANES):
+        for i in lanes(LANES):
             x[W + k * LANES + i] = x[V + k * LANES + i]
 
 
@@ -177,10 +178,10 @@ def _rrp(order: int, sign: float, line: complex, first: complex, second: complex
     """The second body slides along a line of the frame; Q is moved along to its point."""
     length = sqrt(first.real**2 + first.imag**2)
     u, v = line.real, line.imag
-    for i in range(LANES):
+    for i in lanes(LANES):
         rx, ry = x[Q + i] + second.real - x[P + i], x[Q + LANES + i] + second.imag - x[P + LANES + i]
         across = (u * ry - v * rx) / length
-        root = sign * sqrt(1 - across * across)
+        root = sign * square_root(1 - across * across)
         way = root * length - u * rx - v * ry
         x[ROOT + i], x[D + i] = root, 1 / (root * length)
         x[A + i], x[A + LANES + i] = rx + way * u, ry + way * v
@@ -189,10 +190,10 @@ def _rrp(order: int, sign: float, line: complex, first: complex, second: complex
         x[U + i], x[U + LANES + i] = turn.real, turn.imag
     rotate(x, A, first.conjugate() / (length * length), T)
     for k in range(order):
-        for i in range(LANES):
+        for i in lanes(LANES):
             px, py = x[P + (k + 1) * PAIR + i], x[P + (k + 1) * PAIR + LANES + i]
             x[E + i], x[E + LANES + i] = u * px + v * py, u * py - v * px
-        for i in range(LANES):
+        for i in lanes(LANES):
             ax, ay = x[A + i], x[A + LANES + i]
             d, along, across = x[D + i], u * ax + v * ay, u * ay - v * ax
             w, a, spin, push = x[V + i], x[V + LANES + i], x[E + LANES + i], x[E + i]
@@ -228,10 +229,10 @@ def _dyad(order: int, operation: Ints, program: Program, sign: float, x: Reals) 
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _goes_on(root: float, last: float, before: float) -> int:
-    """1 if a root is not small, and does not change too much."""
+def _goes_on(root: float, last: float, before: float) -> bool:
+    """Whether a root is not small, and does not change too much."""
     now, past = abs(root), abs(last)
-    return int(now > NEAR) & int(4 * now > past) & int(1.5 * past >= abs(before))
+    return (now > NEAR) & (4 * now > past) & (1.5 * past >= abs(before))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -239,8 +240,8 @@ def _trusted(roots: Reals, row: int, end: int) -> int:
     """The first row from `row` on whose root does not go on."""
     now, last, before = roots[row:end], roots[row - 1 : end - 1], roots[row - 2 : end - 2]
     good = 0
-    for i in range(len(now)):
-        good += _goes_on(now[i], last[i], before[i])
+    for i in lanes(len(now)):
+        good += tally(_goes_on(now[i], last[i], before[i]))
     if good == len(now):
         return end
     for i in range(len(now)):
@@ -272,10 +273,10 @@ def _near(path: Reals, most: Reals, row: int, end: int) -> int:
     near = moving = 0
     for d in range(len(most)):
         moved = 0
-        for i in range(len(now)):
+        for i in lanes(len(now)):
             way, past = now[i, d] - last[i, d], last[i, d] - before[i, d]
-            near += int(way * past >= 0) & int(abs(way) <= 1.5 * abs(past)) & int(abs(way) <= most[d])
-            moved += int(way != 0)
+            near += tally((way * past >= 0) & (abs(way) <= 1.5 * abs(past)) & (abs(way) <= most[d]))
+            moved += tally(way != 0)
         moving = max(moving, moved)
     if near == len(now) * len(most) and moving == len(now):
         return end
@@ -293,8 +294,8 @@ def _count_turns(turns: Complexes, whole: NDArray[np.int32], row: int, end: int)
     """Whole turns: the negative x axis is crossed upwards or downwards. They are 0 already."""
     now, last, mine = turns[row:end], turns[row - 1 : end - 1], whole[row:end]
     crossed = 0
-    for i in range(len(now)):
-        crossed += int((now[i].imag < 0) != (last[i].imag < 0)) & int(now[i].real + last[i].real < 0)
+    for i in lanes(len(now)):
+        crossed += tally(((now[i].imag < 0) != (last[i].imag < 0)) & (now[i].real + last[i].real < 0))
     count = whole[row - 1]
     if crossed == 0:
         if count != 0:

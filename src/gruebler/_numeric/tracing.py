@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.closure import EQUATIONS, closing
 from gruebler._numeric.compiling import njit
+from gruebler._numeric.lanes import dot, give_back, subtract, taken
 from gruebler._numeric.newton import factor
 
 __all__ = [
@@ -90,6 +91,7 @@ class Scratch(NamedTuple):
     free: Ints
     trial: Reals
     normal: Reals
+    lengths: Reals
 
 
 def scratch(c: Conditions) -> Scratch:
@@ -106,6 +108,7 @@ def scratch(c: Conditions) -> Scratch:
         np.zeros(rows, np.int64),
         np.zeros(n),
         np.zeros(n),
+        np.zeros(rows),
     )
 
 
@@ -127,41 +130,38 @@ def _reduce(count: int, n: int, first: int, s: Scratch) -> int:
         s.free[i] = 1
         for k in range(n):
             s.work[i, k] = s.rows[i, k]
-    for j in range(min(count, n)):
+    work, basis, shares, free, lengths = taken(s.work), taken(s.basis), taken(s.shares), taken(s.free), taken(s.lengths)
+    rank = min(count, n)
+    for i in range(count):
+        lengths[i] = dot(work[i], work[i])
+    for j in range(rank):
         best, longest = -1, DEPENDENT * DEPENDENT
         for i in range(count):
-            if s.free[i] == 1 and (j > 0 or first < 0 or i == first):
-                length = 0.0
-                for k in range(n):
-                    length += s.work[i, k] * s.work[i, k]
-                if length > longest:
-                    best, longest = i, length
+            if free[i] == 1 and (j > 0 or first < 0 or i == first) and lengths[i] > longest:
+                best, longest = i, lengths[i]
         if best < 0:
-            return j
-        s.free[best], s.order[j] = 0, best
+            rank = j
+            break
+        free[best], s.order[j] = 0, best
+        row = work[best]
         for i in range(j):  # a second time: rows that are nearly dependent have lost digits
-            share = 0.0
-            for k in range(n):
-                share += s.work[best, k] * s.basis[i, k]
-            s.shares[best, i] += share
-            for k in range(n):
-                s.work[best, k] -= share * s.basis[i, k]
-        length = 0.0
+            share = dot(row, basis[i])
+            shares[best][i] += share
+            subtract(row, share, basis[i])
+        length = sqrt(dot(row, row))
+        shares[best][j] = length
         for k in range(n):
-            length += s.work[best, k] * s.work[best, k]
-        length = sqrt(length)
-        s.shares[best, j] = length
-        for k in range(n):
-            s.basis[j, k] = s.work[best, k] / length
+            basis[j][k] = row[k] / length
         for i in range(count):
-            if s.free[i] == 1:
-                share = 0.0
-                for k in range(n):
-                    share += s.work[i, k] * s.basis[j, k]
-                s.shares[i, j] = share
-                for k in range(n):
-                    s.work[i, k] -= share * s.basis[j, k]
-    return min(count, n)
+            if free[i] == 1:
+                share = dot(work[i], basis[j])
+                shares[i][j] = share
+                if share != 0:
+                    subtract(work[i], share, basis[j])
+                    lengths[i] = dot(work[i], work[i])
+    give_back(s.basis, basis)
+    give_back(s.shares, shares)
+    return rank
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)

@@ -87,6 +87,12 @@ class Roller:
             raise CamError(f"arm {self.arm:g}, pivot distance {d:g} and base circle {radius:g} form no triangle")
         return math.acos(cosine)
 
+    def gain(self, start: float, lift: FloatArray) -> FloatArray:
+        """By how much a lift makes the square of the centre's distance from the axis larger; without cancellation."""
+        if not self.swings:
+            return np.asarray(lift * (2 * start + lift))
+        return np.asarray(4 * self.arm * abs(self.distance) * np.sin(start + lift / 2) * np.sin(lift / 2))
+
     def path(self, s: FloatArray) -> Path:
         """The centre."""
         if not self.swings:
@@ -124,6 +130,12 @@ class Flat:
         if not abs(radius + self.face) < abs(self.distance):
             raise CamError(f"a face {self.face:g} from its pivot at {self.distance:g} reaches no circle of {radius:g}")
         return math.asin((radius + self.face) / abs(self.distance))
+
+    def gain(self, start: float, lift: FloatArray) -> FloatArray:
+        """By how much a lift makes the face's distance from the axis larger; without cancellation."""
+        if not self.swings:
+            return np.asarray(lift)
+        return np.asarray(2 * abs(self.distance) * np.cos(start + lift / 2) * np.sin(lift / 2))
 
     def line(self, s: FloatArray) -> Line:
         """The face."""

@@ -19,6 +19,8 @@ __all__ = ["Jump", "Lift", "Segment", "Span", "dwell", "motion", "read_lift"]
 
 FloatArray = NDArray[np.float64]
 
+_LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
+
 
 class Segment(NamedTuple):
     """A part of the turn: the lift goes on by ``scale`` times the law; angle in radians. A dwell has no law."""
@@ -56,7 +58,6 @@ def dwell(angle: float) -> Segment:
 
 
 _LARGEST = 1e70  # of lengths, as everywhere: their squares and quotients by the square of an angle stay finite
-_SHORTEST = 1e-9  # rad: shorter parts are lost in the sum that must fill a turn, which is judged to that
 
 
 def motion(change: float, angle: float, name: str | Law = "3-4-5") -> Segment:
@@ -69,10 +70,8 @@ def motion(change: float, angle: float, name: str | Law = "3-4-5") -> Segment:
 
 
 def _angle(angle: float) -> float:
-    if not isinstance(angle, int | float) or not 0 < angle <= math.tau * (1 + 1e-12):
-        raise CamError(f"a part of the turn has an angle above 0 and up to 2 pi, not {angle!r} rad")
-    if angle < _SHORTEST:
-        raise CamError(f"a part of the turn has an angle of {_SHORTEST:g} rad at least, not {angle!r}")
+    if not isinstance(angle, int | float) or not _LEAST <= angle <= math.tau * (1 + 1e-12):
+        raise CamError(f"a part of the turn has an angle from {_LEAST:g} to 2 pi, not {angle!r} rad")
     return float(angle)
 
 
@@ -95,11 +94,15 @@ class Lift:
         if not self.segments:
             raise CamError("a lift has at least one part")
         turn = sum(segment.angle for segment in self.segments)
-        if abs(turn - math.tau) > 1e-9:
+        if abs(turn - math.tau) > _LEAST:
             raise CamError(f"the parts of a lift fill 360 degrees, not {math.degrees(turn):.6g}")
         left = sum(segment.change for segment in self.segments)
         if abs(left) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
             raise CamError(f"the lift ends where it began; {left:+.6g} is left over")
+
+    def scaled(self, factor: float) -> Lift:
+        """Every lift times a factor, as from degrees to radians."""
+        return Lift(one._replace(scale=one.scale * factor) for one in self.segments)
 
     @property
     def starts(self) -> tuple[float, ...]:

@@ -18,7 +18,7 @@ from gruebler.inversion import Driven, driven_mechanisms, inversions
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mobility import counted
 from gruebler.pairs import Pair, Space, read_symbols
-from gruebler.specialisation import Requirements, typed_chains
+from gruebler.specialisation import Requirements, expected_seconds, typed_chains
 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 
@@ -153,19 +153,32 @@ def structures(query: FeatureQuery) -> Iterator[Driven]:
     )
 
 
+def structures_time(query: FeatureQuery) -> float:
+    """About how many seconds `structures` takes for all of them."""
+    wanted = _requirements(query)
+    return expected_seconds(wanted, mechanisms=True, drives=_about_drives(query))
+
+
+def _about_output(query: FeatureQuery) -> bool:
+    return query.output_links == 1 or query.output_links_at_frame is not None
+
+
+def _about_drives(query: FeatureQuery) -> bool:
+    about = bool(query.drive_joints) or query.drive_joints_at_frame is not None or _about_output(query)
+    return about and query.drive_joints != 0
+
+
 def _outputs(driven: Driven) -> tuple[str, ...]:
     return () if driven.output is None else (driven.output,)
 
 
 def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Driven]:
-    about_output = query.output_links == 1 or query.output_links_at_frame is not None
-    about_drives = bool(query.drive_joints) or query.drive_joints_at_frame is not None or about_output
-    if query.drive_joints == 0 or not about_drives:
+    if not _about_drives(query):
         yield from (Driven(mechanism) for mechanism in inversions(chain))
         return
     at_frame = query.drive_joints_at_frame == mobility
     fixed: dict[Mechanism, bool] = {}
-    for driven in driven_mechanisms(chain, drives=mobility, at_frame=at_frame, output=about_output):
+    for driven in driven_mechanisms(chain, drives=mobility, at_frame=at_frame, output=_about_output(query)):
         mechanism = driven.mechanism
         if mechanism not in fixed:
             fixed[mechanism] = check_drives(mechanism).fixed

@@ -52,16 +52,17 @@ def _name(raw: str | int) -> str:
 def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tuple[Joint, ...]) -> tuple[str, ...]:
     """The names of the links, which must be those that the joints name."""
     declared = tuple(_name(link) for link in links)
-    if len(set(declared)) < len(declared):
+    known, joined = set(declared), set(named)
+    if len(known) < len(declared):
         twice = next(link for link, k in Counter(declared).items() if k > 1)
         raise ChainError(f"two links are called {twice!r}; every link needs a name of its own")
-    stranger = next((link for link in named if link not in set(declared)), None)
+    stranger = next((link for link in named if link not in known), None)
     if stranger is not None:
         where = next(j for j in joints if stranger in j.links)
         raise ChainError(
             f"the joint {where} names the link {stranger!r}, which is not among the links" + nearest(stranger, declared)
         )
-    lonely = next((link for link in declared if link not in set(named)), None)
+    lonely = next((link for link in declared if link not in joined), None)
     if lonely is not None:
         raise ChainError(f"the link {lonely!r} has no joint; every link of a chain carries at least one")
     return declared

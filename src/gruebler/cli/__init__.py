@@ -24,7 +24,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     arguments = build_parser().parse_args(argv)
     from importlib import import_module
 
+    from gruebler.cli.compiling_progress import show_compiling
+
     try:
+        show_compiling(getattr(arguments, "lang", "en"))
         status = int(import_module(arguments.run).run(arguments))
         sys.stdout.flush()
     except GrueblerError as error:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
-from gruebler.cli.linkage_inputs import linkage_of, tell_compiling
+from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
@@ -67,9 +67,11 @@ def run(arguments: argparse.Namespace) -> int:
     }
     linkage = linkage.with_points(added) if added else linkage
     turning = turning_drives(linkage)
-    tell_compiling(arguments.lang)
     plan = planned(linkage)
-    speeds = _speeds(arguments.speed, turning)
+    speeds = _speeds(arguments, turning)
+    accelerations = _higher("--acceleration", arguments.acceleration, speeds)
+    jerks = _higher("--jerk", arguments.jerk, speeds)
+    order = 3 if arguments.jerk else 2
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
     for name in arguments.point:
         linkage.named(name)
@@ -81,7 +83,18 @@ def run(arguments: argparse.Namespace) -> int:
             raise GrueblerError("--poles and --curvature are those of linkages with one drive")
         if given is None:
             raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
-        motion = move(linkage, given, branch=arguments.branch, speed=speeds or None)
+        if speeds:
+            motion = move(
+                linkage,
+                given,
+                branch=arguments.branch,
+                speed=speeds,
+                acceleration=accelerations,
+                jerk=jerks,
+                order=order,
+            )
+        else:
+            motion = move(linkage, given, branch=arguments.branch)
         made = columns(motion, outputs, arguments.point) if len(motion) else []
         return _tell(linkage, None, motion, made, arguments)
     try:
@@ -96,12 +109,12 @@ def run(arguments: argparse.Namespace) -> int:
             print(message)
         return 1
     rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
-    motion, before = _moved(linkage, found, rows, arguments.branch)
+    motion, before = _moved(linkage, found, rows, arguments.branch, order)
     made = []
     if len(motion):
         angle = None if found.transmission is None else transmission_angle(motion, found.output.name)
-        speed = speeds[0] if speeds else None
-        made = columns(motion, outputs, arguments.point, speed, angle, _WORDS[arguments.lang]["mu"])
+        rates = (speeds[0], accelerations[0], jerks[0]) if speeds else None
+        made = columns(motion, outputs, arguments.point, rates, angle, _WORDS[arguments.lang]["mu"])
         made += _geometry(motion, outputs, arguments)
     return _tell(linkage, found, motion, [column.without(before) for column in made], arguments)
 
@@ -109,14 +122,28 @@ def run(arguments: argparse.Namespace) -> int:
 # --- what was asked for ----------------------------------------------------------------------------
 
 
-def _speeds(given: Sequence[float], turning: Sequence[bool]) -> list[float]:
+def _speeds(arguments: argparse.Namespace, turning: Sequence[bool]) -> list[float]:
     """Of the drives, in radians a second, or lengths a second; given in revolutions a minute, or lengths a second."""
+    given, from_rest = arguments.speed, bool(arguments.acceleration or arguments.jerk)
     if given and len(given) != len(turning):
         raise GrueblerError(f"--speed is given once for each drive: {len(turning)} times, not {len(given)}")
     for speed in given:
-        if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1):
+        if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1 and not from_rest):
             raise GrueblerError(f"--speed: expected a number that is not 0, but found {speed:g}")
     return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
+
+
+def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> list[float]:
+    """Accelerations or jerks of the drives, in radians or lengths; 0 if they are not given."""
+    if not given:
+        return [0.0] * len(speeds)
+    if len(given) != len(speeds):
+        wanted = f"once for each --speed: {len(speeds)} times, not {len(given)}" if speeds else "together with --speed"
+        raise GrueblerError(f"{option} is given {wanted}")
+    for value in given:
+        if not math.isfinite(value) or not abs(value) < 1e12:
+            raise GrueblerError(f"{option}: expected a finite number below 1e12, but found {value:g}")
+    return list(given)
 
 
 # --- what is found ---------------------------------------------------------------------------------
@@ -125,17 +152,17 @@ def _speeds(given: Sequence[float], turning: Sequence[bool]) -> list[float]:
 def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argparse.Namespace) -> Measures:
     from gruebler.kinematics.measuring import measures
 
-    rpm = arguments.speed[0] if turning and arguments.speed else None
+    rpm = (arguments.speed[0] or None) if turning and arguments.speed else None
     return measures(linkage, rpm, arguments.branch, output.name)
 
 
-def _moved(linkage: Linkage, found: Measures, rows: Reals, branch: str | None) -> tuple[Motion, int]:
+def _moved(linkage: Linkage, found: Measures, rows: Reals, branch: str | None, order: int) -> tuple[Motion, int]:
     """The rows on the branch of the measures, reached from where these begin; else, if it can be, from the first row.
 
     Second comes how many rows at the beginning were not asked for.
     """
-    motion = move(linkage, np.concatenate([[[found.start]], rows]), branch=found.branch, speed=1.0)
-    return (motion, 1) if len(motion) > 1 else (move(linkage, rows, branch=branch, speed=1.0), 0)
+    motion = move(linkage, np.concatenate([[[found.start]], rows]), branch=found.branch, speed=1.0, order=order)
+    return (motion, 1) if len(motion) > 1 else (move(linkage, rows, branch=branch, speed=1.0, order=order), 0)
 
 
 def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Namespace) -> list[Column]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from math import pi
 from pathlib import Path
 from typing import NamedTuple
@@ -21,7 +22,7 @@ __all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]
 
 Reals = NDArray[np.float64]
 _POSE = ("x", "y")
-_RATES = (("vx", "vy"), ("ax", "ay"))
+_RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
@@ -50,17 +51,19 @@ def columns(
     motion: Motion,
     outputs: Sequence[Output],
     points: Iterable[str],
-    speed: float | None = None,
+    rates: Sequence[float] | None = None,
     transmission: Reals | None = None,
     word: str = "",
 ) -> list[Column]:
     """Drives, outputs with derivatives by the drive and in time, transmission angle, points.
 
     Args:
-        motion: of one drive solved for speed 1, of several for their speeds, to the second order; or to order 0.
+        motion: of one drive solved for speed 1, of several for their rates, to the second or third order; or to
+            order 0.
         outputs: what is looked at.
         points: names of points or joints.
-        speed: of one drive, in radians or units of length a second; None: rates by the drive only.
+        rates: velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
+            the drive only.
         transmission: (rows,) angle in radians, if there is one.
         word: the name of that column.
     """
@@ -71,33 +74,46 @@ def columns(
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].direction.startswith("R")
     per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
-    timed = len(mechanism.drives) > 1 or speed is not None
-    factor = speed if speed is not None else 1.0
+    timed = len(mechanism.drives) > 1 or rates is not None
+    v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
+    orders = range(1, motion.order + 1) if motion.order >= 2 else ()
+
+    def in_time(order: int, track: Callable[[int], Reals]) -> Reals:
+        """A derivative in time from those by the drive; of several drives they are in time already."""
+        if order == 1:
+            return track(1) * v
+        if order == 2:
+            return track(2) * v**2 + track(1) * a
+        return track(3) * v**3 + 3 * track(2) * v * a + track(1) * j
+
+    usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in outputs:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         out.append(_scaled(output.name, output.turning, linkage, output.track(motion)))
-        for order in (1, 2) if motion.order >= 2 and len(mechanism.drives) == 1 else ():
-            rates = output.track(motion, order)
-            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), rates, natural / unit**order))
-        for order, letter in enumerate("ωα" if output.turning else "va", 1) if motion.order >= 2 and timed else ():
-            rates = output.track(motion, order) * factor**order
-            name = f"{letter} {output.name}"
-            out.append(Column(name, f"{own}/{_seconds(order)}", rates, natural * (abs(factor) / unit) ** order))
+        for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
+            by_drive = output.track(motion, order)
+            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), by_drive, natural / unit**order))
+        for order in orders if timed else ():
+            name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
+            values = in_time(order, partial(output.track, motion))
+            out.append(Column(name, f"{own}/{_seconds(order)}", values, natural * usual[order - 1] / unit**order))
     if transmission is not None:
         out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))
     for name in points:
         at = motion.point(name)
         out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
-        for order, axes in enumerate(_RATES, 1) if motion.order >= 2 else ():
-            rates = motion.point(name, order) * factor**order
+        for order in orders:
+            values = in_time(order, partial(motion.point, name))
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
-            natural = linkage.size * (abs(factor) / unit) ** order
-            out += [Column(f"{name} {axis}", written, rates[:, k], natural) for k, axis in enumerate(axes)]
+            natural = linkage.size * usual[order - 1] / unit**order
+            out += [
+                Column(f"{name} {axis}", written, values[:, k], natural) for k, axis in enumerate(_RATES[order - 1])
+            ]
     return out
 
 
 def _seconds(order: int) -> str:
-    return "s" if order == 1 else "s²"
+    return ("s", "s²", "s³")[order - 1]
 
 
 def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gruebler.cli.draw import entry_of, picture_suffix, sized
+from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.output import print_svg, write_file
 from gruebler.drawing.animation import Options, animated_svg
 from gruebler.drawing.animation_page import animated_page
@@ -24,6 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     options = Options(
         branch=arguments.branch,
         between=between,
+        drives=driven_path(arguments.drive, linkage),
         curves=arguments.curve,
         seconds=arguments.seconds,
         lang=arguments.lang,

@@ -7,7 +7,9 @@ from typing import Any
 
 from gruebler.assur import AssurGroup, Decomposition, Group, assur_groups, decompose, drive_choices
 from gruebler.assur.forms import roman
+from gruebler.assur.listing import expected_seconds
 from gruebler.cli.inputs import mechanism_of
+from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
@@ -16,6 +18,7 @@ from gruebler.mechanism import Mechanism
 __all__ = ["run"]
 
 _GROUPS = {"en": ("form", "class", "order", "group"), "de": ("Form", "Klasse", "Ordnung", "Gruppe")}
+_PROGRESS = {"en": "{n} groups, {seconds:.0f} s", "de": "{n} Gruppen, {seconds:.0f} s"}
 _CHOICES = {"en": ("drive", "class", "formula"), "de": ("Antrieb", "Klasse", "Formel")}
 
 
@@ -24,7 +27,8 @@ def run(arguments: argparse.Namespace) -> int:
     if (arguments.list is None) == (arguments.mechanism is None):
         raise GrueblerError("name one mechanism, or ask for --list N: all groups with N links")
     if arguments.list is not None:
-        found = list(assur_groups(arguments.list))
+        ask_before(expected_seconds(arguments.list), arguments.yes)
+        found = list(progress(assur_groups(arguments.list), _PROGRESS[arguments.lang]))
         _print([_group_item(group) for group in found], arguments, lambda: _list(found, arguments.lang))
         return 0
     mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive)

@@ -16,7 +16,6 @@ from gruebler.cams import (
     Extreme,
     Flat,
     Follower,
-    Lift,
     Roller,
     Segment,
     SmoothContour,
@@ -97,7 +96,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise GrueblerError("a cam needs --base RADIUS, the radius of its base circle")
     lift = read_lift(arguments.lift)
     if follower.swings:
-        lift = Lift(one._replace(scale=math.radians(one.scale)) for one in lift.segments)
+        lift = lift.scaled(math.pi / 180)
     cam = Cam(lift, arguments.base, follower)
     table = _table(cam, turn_degrees(arguments.step)) if arguments.step is not None else None
     _picture(arguments, cam)

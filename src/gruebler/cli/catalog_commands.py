@@ -49,6 +49,7 @@ def _add_search(actions: Any) -> None:
     search.add_argument("--drive", metavar="P", help="symbol or name of a driven pair")
     search.add_argument("--claims", action="store_true", help="only where what really moves differs from the count")
     search.add_argument("--enumerate", action="store_true", help="every structure, not only the machines")
+    search.add_argument("--yes", action="store_true", help="with --enumerate: begin even if it will be long")
     search.add_argument("--limit", type=int, metavar="N", help="with --enumerate: end after so many")
     search.add_argument("--count", action="store_true", help="only how many")
     _finish(search, "search")

@@ -12,7 +12,6 @@ from typing import Any
 from gruebler.catalog import (
     Checked,
     Claims,
-    check,
     check_all,
     check_entry,
     check_exercise,
@@ -161,9 +160,8 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
 
 def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
     """A chain that claims nothing."""
-    if arguments.b is None:
-        return check(chain, Claims(), id=name, frame=arguments.frame)
-    return Checked(name, "", mobility_report(chain, b=arguments.b, frame=arguments.frame), Claims(), ())
+    report = mobility_report(chain, b=arguments.b, frame=arguments.frame, large=arguments.yes)
+    return Checked(name, "", report, Claims(), ())
 
 
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:

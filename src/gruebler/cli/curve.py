@@ -7,15 +7,21 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gruebler.cli.analysis_table import Column, as_csv, check_csv
+from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
+from gruebler.errors import GrueblerError
 from gruebler.geometry import Contact, CouplerCurve, coupler_curve
+from gruebler.kinematics.course import PathCourse
 
 __all__ = ["run"]
+
+Reals = NDArray[np.float64]
 
 _WORDS = {
     "en": {
@@ -67,13 +73,18 @@ def run(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
     check_csv(arguments.csv)
     linkage, _ = linkage_of(arguments.linkage)
-    found = coupler_curve(linkage, point_of(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance)
+    path = driven_path(arguments.drive, linkage)
+    if path is not None and arguments.contact:
+        raise GrueblerError("--contact is for the whole motion of one drive: leave --drive away")
+    found = coupler_curve(
+        linkage, point_of(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance, drives=path
+    )
     turning = found.trail.course.turning_drive
     drives = [math.radians(value) if turning else value for value in arguments.contact]
     contacts = [found.contact(drive) for drive in drives]
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
     if arguments.csv is not None:
-        write_file(arguments.csv, as_csv(_polygon(found, turning)).encode("utf-8"), arguments.lang)
+        write_file(arguments.csv, as_csv(_polygon(found)).encode("utf-8"), arguments.lang)
     if arguments.json:
         print_json(_document(found, contacts, directions))
     else:
@@ -81,16 +92,24 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _polygon(found: CouplerCurve, turning: bool) -> list[Column]:
-    unit, z = found.trail.course.linkage.unit, found.points
-    drives = np.degrees(found.drives) if turning else found.drives
-    name = found.trail.course.linkage.mechanism.drive_names()[0]
+def _polygon(found: CouplerCurve) -> list[Column]:
+    linkage, z = found.trail.course.linkage, found.points
+    values = _values(found, found.drives)
+    units = ["°" if drive.direction.startswith("R") else linkage.unit for drive in linkage.mechanism.drives]
     return [
-        Column(name, "°" if turning else unit, drives),
-        Column("x", unit, z.real),
-        Column("y", unit, z.imag),
-        Column("s", unit, found.arcs),
+        *(map(Column, linkage.mechanism.drive_names(), units, values.T)),
+        Column("x", linkage.unit, z.real),
+        Column("y", linkage.unit, z.imag),
+        Column("s", linkage.unit, found.arcs),
     ]
+
+
+def _values(found: CouplerCurve, at: Reals) -> Reals:
+    """The values of all drives, turning ones in degrees; (n, drives)."""
+    course = found.trail.course
+    values = course.values(at) if isinstance(course, PathCourse) else np.asarray(at)[:, None]
+    turning = [drive.direction.startswith("R") for drive in course.linkage.mechanism.drives]
+    return np.where(turning, np.degrees(values), values)
 
 
 # --- what is said ----------------------------------------------------------------------------------
@@ -149,20 +168,25 @@ def _axis(angle: float) -> float:
 
 
 def _drive(found: CouplerCurve, value: float) -> str:
-    if found.trail.course.turning_drive:
-        return f"{round(math.degrees(value), 9) + 0.0:.6f}°"
-    return f"{value:.9g} {found.trail.course.linkage.unit}"
+    linkage = found.trail.course.linkage
+    said = []
+    for drive, one in zip(linkage.mechanism.drives, _values(found, np.array([value]))[0], strict=True):
+        turning = drive.direction.startswith("R")
+        said.append(f"{round(one, 9) + 0.0:.6f}°" if turning else f"{one:.9g} {linkage.unit}")
+    return " / ".join(said)
 
 
 def _document(found: CouplerCurve, contacts: list[Contact], directions: tuple[float, ...]) -> dict[str, Any]:
-    turning = found.trail.course.turning_drive
+    path = isinstance(found.trail.course, PathCourse)
 
     def told(one: Any) -> dict[str, Any]:
         """An event as its fields, drives in degrees."""
         fields = {key: value for key, value in one._asdict().items() if key != "parameter"}
         for key in ("drive", "drives"):
-            if key in fields and turning:
-                fields[key] = np.degrees(fields[key]).tolist()
+            if key in fields:
+                values = _values(found, np.atleast_1d(fields[key]))
+                rows = values.tolist() if path else values[:, 0].tolist()
+                fields[key] = rows if key == "drives" else rows[0]
         for key in ("direction", "angle"):
             if key in fields:
                 fields[f"{key}_deg"] = math.degrees(fields.pop(key))

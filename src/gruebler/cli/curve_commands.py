@@ -23,6 +23,14 @@ def add(commands: Any) -> None:
         "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
     )
     curve.add_argument("point", metavar="POINT|LINK:X,Y", help="a named point, a joint, or a point of a link")
+    curve.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="a straight path of the drives, in degrees or the unit, for several drives once each with as many steps; "
+        "one number holds a drive still (default: the whole motion of one drive)",
+    )
     curve.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
     curve.add_argument("--direction", type=float, metavar="DEG", help="turning points along this, not along x and y")
     curve.add_argument(

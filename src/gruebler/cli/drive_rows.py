@@ -16,7 +16,7 @@ from gruebler.linkages import Linkage
 if TYPE_CHECKING:
     from gruebler.kinematics.course import Span
 
-__all__ = ["default_rows", "given_rows", "turning_drives"]
+__all__ = ["default_rows", "driven_path", "given_rows", "turning_drives"]
 
 Reals = NDArray[np.float64]
 
@@ -51,6 +51,17 @@ def given_rows(spans: Sequence[str], at: Sequence[float], turning: Sequence[bool
         if len(way) not in (1, longest):
             raise GrueblerError(f"--drive {text}: {len(way)} rows where another drive has {longest}")
     return np.column_stack([np.broadcast_to(way, longest) for way in ways])
+
+
+def driven_path(spans: Sequence[str], linkage: Linkage) -> Reals | None:
+    """(rows, drives) of --drive for a command that follows a straight path; None for the whole motion of one drive."""
+    turning = turning_drives(linkage)
+    if not spans and len(turning) > 1:
+        raise GrueblerError(
+            f"the linkage has {_drives(len(turning))}: give --drive FROM:TO:STEP once for each; one number holds a "
+            "drive still"
+        )
+    return given_rows(spans, (), turning)
 
 
 def _drives(count: int) -> str:

@@ -14,6 +14,7 @@ from typing import BinaryIO
 
 from gruebler.atomic_files import atomic_file
 from gruebler.cli.inputs import assortment_of
+from gruebler.cli.long_work import time_text
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.tables import print_table
 from gruebler.enumeration.estimates import Estimate, estimate
@@ -129,7 +130,7 @@ def _check_size(size: Estimate, arguments: argparse.Namespace) -> None:
     what = words["size"].format(about="" if size.exact else "~ ", chains=size.chains)
     if size.bytes:
         what += words["bytes"].format(size=_bytes(size.bytes))
-    what += words["time"].format(time=_time(seconds))
+    what += words["time"].format(time=time_text(seconds))
     if not arguments.yes:
         raise GrueblerError(words["refused"].format(what=what))
     print(f"gruebler enumerate: {what}", file=sys.stderr)
@@ -141,13 +142,6 @@ def _bytes(number: float) -> str:
             return f"{number:.0f} {unit}"
         number /= 1000
     return f"{number:.0f} PB"
-
-
-def _time(seconds: float) -> str:
-    for size, unit in ((86400, "d"), (3600, "h"), (60, "min")):
-        if seconds >= 2 * size:
-            return f"{seconds / size:.0f} {unit}"
-    return f"{seconds:.0f} s"
 
 
 def _count(
@@ -264,7 +258,7 @@ def _drawn(lang: str) -> Iterator[Callable[[Progress], None] | None]:
                 return
             shown = progress.seconds
             seconds = progress.seconds_left
-            left = "" if seconds is None else words["left"].format(time=_time(seconds))
+            left = "" if seconds is None else words["left"].format(time=time_text(seconds))
             line = words["progress"].format(
                 pieces=progress.pieces, chains=progress.chains, rate=progress.rate, left=left
             )

@@ -59,6 +59,16 @@ def _add_analyse(commands: _Commands) -> None:
         metavar="N",
         help="turns a minute; of a slide, lengths a second; of several drives once each",
     )
+    for option, unit, order in (("--acceleration", "s²", "second"), ("--jerk", "s³", "third")):
+        analyse.add_argument(
+            option,
+            action="append",
+            type=float,
+            default=[],
+            metavar="A" if order == "second" else "J",
+            help=f"with --speed: radians per {unit}; of a slide, lengths per {unit}; of several drives once each"
+            + ("; rates of the third order are told too" if order == "third" else ""),
+        )
     analyse.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
     analyse.add_argument(
         "--point", action="append", default=[], metavar="K", help="a named point, a joint, or LINK:X,Y; repeatable"
@@ -237,6 +247,17 @@ def _add_coupler_point(command: argparse.ArgumentParser) -> None:
     command.add_argument("--branch", type=int, choices=(1, -1), default=1, help="assembly branch (default: 1)")
 
 
+def _add_path(command: argparse.ArgumentParser) -> None:
+    command.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="a straight path of the drives, in degrees or the unit, for several drives once each with as many steps; "
+        "one number holds a drive still (default: the whole motion of one drive)",
+    )
+
+
 def _add_draw(commands: _Commands) -> None:
     draw = commands.add_parser(
         "draw",
@@ -318,6 +339,7 @@ def _add_animate(commands: _Commands) -> None:
         "--seconds", type=float, default=4.0, metavar="S", help="for a turn, or for there and back (default: 4)"
     )
     animate.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +-")
+    _add_path(animate)
     animate.add_argument("--dark", action="store_true", help="GIF, WebP and PNG on dark ground")
     _finish(animate, "animate")
 

@@ -2,34 +2,19 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 from gruebler.errors import GrueblerError
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 
-__all__ = ["linkage_of", "tell_compiling"]
-
-_COMPILING = {
-    "en": "The solver is compiled at its first start; that takes about a minute, once.",
-    "de": "Der Löser wird beim ersten Start übersetzt; das dauert etwa eine Minute, einmal.",
-}
+__all__ = ["linkage_of"]
 
 _DOORS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
     "four-bar": ("a,b,c,d", 4, FourBar),
     "slider-crank": ("a,b[,e]", 2, SliderCrank),
     "inverted-slider-crank": ("a,d[,e]", 2, InvertedSliderCrank),
 }
-
-
-def tell_compiling(lang: str = "en") -> None:
-    """Say on a terminal that the solver is compiled at its first start, since that takes a minute."""
-    if sys.stderr.isatty():
-        from gruebler._numeric.compiling import cache_folder
-
-        if not any(cache_folder().glob("*/motion.walk*")):
-            print(_COMPILING[lang], file=sys.stderr)
 
 
 def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:

@@ -81,6 +81,7 @@ def _add_check(commands: argparse._SubParsersAction[_Parser]) -> None:
     check.add_argument("--b", type=int, metavar="B", help="motions of a free link for the count (2 for a screw group)")
     check.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
     check.add_argument("--explain", action="store_true", help="say in words, step by step")
+    check.add_argument("--yes", action="store_true", help="begin even if it will be long or take much memory")
     check.add_argument("--json", action="store_true", help="a list of objects, one for each chain")
     _add_language(check)
     check.set_defaults(run="gruebler.cli.check")
@@ -178,6 +179,7 @@ def _add_variants(commands: argparse._SubParsersAction[_Parser]) -> None:
         "--output-at-drive", choices=("yes", "no"), help="whether the output is a driven link's neighbour"
     )
     variants.add_argument("--count", action="store_true", help="only how many")
+    variants.add_argument("--yes", action="store_true", help="begin even if it will be long")
     variants.add_argument("--json", action="store_true", help="an object with count and items")
     _add_language(variants)
     variants.set_defaults(run="gruebler.cli.variants")
@@ -202,6 +204,7 @@ def _add_assur(commands: argparse._SubParsersAction[_Parser]) -> None:
     assur.add_argument("--anywhere", action="store_true", help="without a drive: drives between moving links too")
     assur.add_argument("--list", type=int, metavar="N", help="all groups with N links instead")
     assur.add_argument("--count", action="store_true", help="only how many")
+    assur.add_argument("--yes", action="store_true", help="with --list: begin even if it will be long")
     assur.add_argument("--json", action="store_true", help="an object with count and items")
     _add_language(assur)
     assur.set_defaults(run="gruebler.cli.assur")

@@ -7,7 +7,6 @@ import math
 from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
-from gruebler.cli.linkage_inputs import tell_compiling
 from gruebler.cli.output import print_json, say_written
 from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
@@ -20,7 +19,6 @@ def run(arguments: argparse.Namespace) -> int:
     mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
     if arguments.output is not None:
         check_linkage_path(arguments.output)
-    tell_compiling(arguments.lang)
     found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
     if found.linkage is not None and (outputs := outputs_of(arguments.chain)):
         found = replace(found, linkage=found.linkage.with_outputs(outputs))
@@ -49,7 +47,9 @@ def _document(found: Realisation, lang: str) -> dict[str, object]:
             "full": found.full,
             "quality": found.quality,
             "drives": [
-                {"joint": name, ("range_deg" if turns else "range"): [math.degrees(v) for v in ends] if turns else ends}
+                {"joint": name}
+                | _range("range", found.span and found.span[:2], turns)
+                | _range("well_conditioned", ends, turns)
                 for name, ends, turns in zip(
                     found.mechanism.drive_names(),
                     found.ranges,
@@ -60,3 +60,8 @@ def _document(found: Realisation, lang: str) -> dict[str, object]:
             "linkage": to_json(found.linkage),
         }
     return out
+
+
+def _range(key: str, ends: tuple[float, float] | None, turns: bool) -> dict[str, object]:
+    """A range under its key; angles in degrees, None if it is not known."""
+    return {f"{key}_deg" if turns else key: ends and [math.degrees(v) if turns else v for v in ends]}

@@ -5,9 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Iterable, Iterator
 from itertools import islice
-from time import monotonic
 from typing import Any
 
 import msgspec
@@ -20,9 +18,11 @@ from gruebler.catalog.feature_query import (
     features_to_json,
     read_pairs,
     structures,
+    structures_time,
 )
 from gruebler.catalog.features import AccessFeatures
 from gruebler.cli.inversions import item
+from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
@@ -164,7 +164,9 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
         raise GrueblerError(f"--limit is 1 or more, not {arguments.limit}")
     words = _WORDS[arguments.lang]
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
-    found = _progress(structures(query), words["progress"] if quiet and sys.stderr.isatty() else "")
+    if arguments.limit is None:
+        ask_before(structures_time(query), arguments.yes)
+    found = progress(structures(query), words["progress"] if quiet else "")
     told = found if arguments.limit is None else islice(found, arguments.limit)
     items: list[dict[str, object]] = []
     number = 0
@@ -189,15 +191,3 @@ def _text(driven: Driven, lang: str) -> str:
         text += f"; {_WORDS[lang]['output']} {driven.output}"
     name = family(driven.mechanism, lang)
     return text if name is None else f"{text}  ({name})"
-
-
-def _progress(found: Iterable[Driven], words: str) -> Iterator[Driven]:
-    """What is found, counted on a terminal with these words; without words in silence."""
-    begun = last = monotonic()
-    for number, driven in enumerate(found, 1):
-        yield driven
-        if words and (now := monotonic()) - last > 0.2:
-            last = now
-            print("\r\033[K" + words.format(n=number, seconds=now - begun), end="", file=sys.stderr, flush=True)
-    if last > begun:
-        print("\r\033[K", end="", file=sys.stderr, flush=True)

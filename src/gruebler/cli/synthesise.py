@@ -11,7 +11,6 @@ from math import degrees, isnan, radians
 from pathlib import Path
 from typing import Any
 
-from gruebler.cli.linkage_inputs import tell_compiling
 from gruebler.cli.tables import print_table
 from gruebler.errors import SynthesisError
 from gruebler.linkages.files import check_linkage_path, write_linkage
@@ -87,7 +86,6 @@ def run(arguments: argparse.Namespace) -> int:
         _check_picture(arguments.draw)
     demands = _demands(arguments)
     task = _task(arguments)
-    tell_compiling(arguments.lang)
     found = _solved(arguments, task, demands)
     best = found.designs[0] if found.designs else None
     optimum = _minimax(arguments, found) if arguments.kind == "function" and arguments.minimax else None

@@ -13,8 +13,8 @@ __all__ = ["print_long_table", "print_table", "print_text", "terminal_width"]
 def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> None:
     """Print rows under headers; ``numbers`` are the columns set flush right.
 
-    A table wider than the terminal, or than 160 columns elsewhere, gets headers of several lines. On a terminal, what
-    is still wider is split into blocks, each with the first column.
+    A table wider than the terminal, or than 160 columns elsewhere, gets its long headers in several lines. On a
+    terminal, what is still wider is split into blocks, each with the first column.
 
     >>> print_table(["name", "n"], [["four-bar", "4"], ["five-bar", "5"]], numbers=[1])
     name      n
@@ -25,7 +25,8 @@ def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: 
     width = terminal_width() if terminal else _WIDE
     columns = [[header, *cells] for header, *cells in zip(headers, *rows, strict=True)]
     if _width(columns) > width:
-        columns = [[_folded(header, cells), *cells] for header, *cells in columns]
+        longest = 0 if terminal else _HEADER
+        columns = [[_folded(head, cells) if len(head) > longest else head, *cells] for head, *cells in columns]
     blocks = _blocks(columns, width) if terminal else [list(range(len(columns)))]
     for number, block in enumerate(blocks):
         if number:
@@ -57,6 +58,7 @@ def print_text(text: str) -> None:
 
 _WIDEST = 100  # of a paragraph that is read easily
 _WIDE = 160  # of a table in a file or a pipe
+_HEADER = 24  # of a header that is left in one line there
 _BETWEEN = 3  # columns of a terminal for each column of a table
 
 

@@ -9,14 +9,16 @@ import sys
 from gruebler.chain import Chain
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.inversions import item
+from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
 from gruebler.inversion import Driven
 from gruebler.isomorphism import code
-from gruebler.specialisation import Requirements, Wanted, variants
+from gruebler.specialisation import Requirements, Wanted, expected_seconds, variants
 
 __all__ = ["run"]
 
+_PROGRESS = {"en": "{n} found, {seconds:.0f} s", "de": "{n} gefunden, {seconds:.0f} s"}
 _FOUND = {"en": "{n} found.", "de": "{n} gefunden."}
 
 
@@ -36,18 +38,23 @@ def run(arguments: argparse.Namespace) -> int:
         output=None if arguments.output is None else Wanted.parse(arguments.output),
         output_at_drive={"yes": True, "no": False, None: None}[arguments.output_at_drive],
     )
+    seconds = expected_seconds(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
+    ask_before(seconds, arguments.yes)
+    quiet = arguments.count or arguments.json or not sys.stdout.isatty()
+    all_found = progress(variants(wanted), _PROGRESS[arguments.lang] if quiet else "")
     if arguments.count:
-        number = sum(1 for _ in variants(wanted))
+        number = sum(1 for _ in all_found)
         print(json.dumps({"count": number}) if arguments.json else number)
         return 0
-    found = list(variants(wanted))
     if arguments.json:
-        items = [_item(one) for one in found]
+        items = [_item(one) for one in all_found]
         print_json({"count": len(items), "items": items})
         return 0
-    for one in found:
+    number = 0
+    for one in all_found:
         print(one)
-    print(_FOUND[arguments.lang].format(n=len(found)), file=sys.stderr)
+        number += 1
+    print(_FOUND[arguments.lang].format(n=number), file=sys.stderr)
     return 0
 
 

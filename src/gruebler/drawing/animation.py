@@ -10,6 +10,7 @@ from itertools import groupby
 from typing import NamedTuple, TypedDict, Unpack
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.drawing.figure import MARGIN, Figure, Point, Shape, bounds
 from gruebler.drawing.linkage_bodies import PINS, Part, at_pose, parts
@@ -37,6 +38,7 @@ class Options(TypedDict, total=False):
 
     branch: str | Iterable[str] | None
     between: tuple[float, float] | None
+    drives: ArrayLike | None
     curves: Sequence[str]
     seconds: float
     lang: str
@@ -69,6 +71,7 @@ def scene(
     *,
     branch: str | Iterable[str] | None = None,
     between: tuple[float, float] | None = None,
+    drives: ArrayLike | None = None,
     curves: Sequence[str] = (),
     seconds: float = 4.0,
     lang: str = "en",
@@ -77,9 +80,10 @@ def scene(
     """What all kinds of animations show.
 
     Args:
-        linkage: with one drive.
+        linkage: with one drive, or with several and a path of them.
         branch: the assembly mode, as for `gruebler.kinematics.move`.
         between: drive values between which it is to move, if not the whole range.
+        drives: (rows, drives) a straight path of the drives, from its first row to its last.
         curves: points or joints whose paths are drawn.
         seconds: for a turn, or for there and back.
         lang: language of title and description, ``en`` or ``de``.
@@ -89,7 +93,7 @@ def scene(
     """
     if not 0 < seconds <= _LONGEST:
         raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
-    stage = staged(linkage, branch=branch, between=between)
+    stage = staged(linkage, branch=branch, between=between, drives=drives)
     turns = stage.driven().span.turns
     pieces = (*parts(stage), *drive_parts(stage))
     rows = range(0, len(stage.path), 2)

@@ -10,6 +10,8 @@ import math
 from html import escape
 from typing import TypedDict, Unpack
 
+import numpy as np
+
 from gruebler.drawing.animation import Options, Scene, scene, svg_of
 from gruebler.drawing.figure import Figure
 from gruebler.drawing.styles import COLOURS
@@ -102,9 +104,13 @@ def page_of(picture: str, about: Figure, settings: Settings, lang: str) -> str:
 
 def _settings(shown: Scene) -> Settings:
     """Those of a linkage."""
-    drives, stage = shown.stage.path.drives[:, 0], shown.stage
-    turning = stage.driven().turning_drive
-    low, high = (math.degrees(q) if turning else float(q) for q in (drives[0], drives[-1]))
+    stage = shown.stage
+    ends = stage.path.drives[[0, -1]]
+    rising = np.flatnonzero(ends[1] > ends[0])
+    if not len(rising):  # a path on which no drive grows: the part of it
+        return Settings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
+    turning = stage.linkage.mechanism.drives[rising[0]].direction.startswith("R")
+    low, high = (math.degrees(q) if turning else float(q) for q in ends[:, rising[0]])
     return Settings(
         low=round(low, 6),
         high=round(high, 6),

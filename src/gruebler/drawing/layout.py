@@ -125,31 +125,37 @@ class _Run:
         return min(layout, self._layout(x, 6.0, 300), key=lambda one: one.rank)
 
     def _layout(self, x: NDArray[np.float64], power: float, rounds: int) -> Layout:
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.planar_layout import closest, crossing_segments
+        from gruebler._numeric.work import comparing
 
         task = self._task(bent=False)
         self._relax(x, task, power, rounds)
         points = x[: self.bodies.size]
         points = points / np.ptp(points, axis=0).max()
         drawn = task.segments[task.pull > 0]
-        crossings = {(task.owners[i], task.owners[j]) for i, j in crossing_segments(points, drawn)}
+        crossing = for_work(crossing_segments, comparing(len(drawn) ** 2 // 2))
+        crossings = {(task.owners[i], task.owners[j]) for i, j in crossing(points, drawn)}
         outlines = self._outlines()
         return Layout(
             points,
             outlines,
             tuple(sorted({(min(pair), max(pair)) for pair in crossings})),
             _covered(points, outlines),
-            closest(points, task.segments, task.watched),
+            for_work(closest, comparing(len(task.watched)))(points, task.segments, task.watched),
             self.start.turns,
             tuple(image[: self.bodies.size] for image in self.start.images),
             () if crossings or self.crossed.strands else tuple(self._without_hubs(walk) for walk in self.start.inner),
         )
 
     def _relax(self, x: NDArray[np.float64], task: _Task, power: float, rounds: int) -> None:
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.planar_layout import relax
+        from gruebler._numeric.work import relaxing
 
         images = np.array(self.start.images, np.int64)
-        relax(x, task.segments, task.pull, task.watched, images, self.start.turns, power, rounds)
+        lower = for_work(relax, relaxing(len(task.watched), rounds))
+        lower(x, task.segments, task.pull, task.watched, images, self.start.turns, power, rounds)
 
     def _without_hubs(self, walk: tuple[int, ...]) -> tuple[int, ...]:
         return tuple(p for p in walk if p < self.bodies.size)

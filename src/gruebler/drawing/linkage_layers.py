@@ -26,6 +26,7 @@ from gruebler.drawing.symbols import RADIUS, straight_drive, turning_drive, wide
 from gruebler.drawing.thinning import FINE, thinned
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
+from gruebler.kinematics.course import PathCourse
 from gruebler.kinematics.events import stops
 from gruebler.kinematics.outputs import find_output
 from gruebler.kinematics.transmission import Leg, driving_legs
@@ -66,6 +67,8 @@ def coupler_curve(stage: Stage, name: str) -> list[Shape]:
     if stage.goes_round:
         drives = np.linspace(course.span.low, course.span.high, _SAMPLES * course.span.turns + 1)
         return [curve_of(stage, course.at(drives, 0).complex_point(point), "curve")]
+    if isinstance(course, PathCourse):
+        return [curve_of(stage, course.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
     rest = circuit(stage.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]), step=_STEP)
     return [
         curve_of(stage, rest.samples.complex_point(point), "curve-rest"),

@@ -40,8 +40,8 @@ def round_parts(stage: Stage) -> Iterator[RoundPart]:
         elif isinstance(element, elements.Driver | elements.Cross):
             found[link, joint] = _geneva(stage, joint, link, element)
     for (joint, link), element in stage.linkage.elements.items():
-        if isinstance(element, elements.Line) and (wide := _face(stage, joint)):
-            found[link, joint] = RoundPart(link, tuple(_flat(stage, link, element, wide)))
+        if isinstance(element, elements.Line) and (ends := _face(stage, joint, link, element)):
+            found[link, joint] = RoundPart(link, tuple(_flat(stage, link, element, ends)))
     yield from sorted(found.values(), key=lambda part: -_size(part))
     yield from _belts(stage)
 
@@ -69,17 +69,27 @@ def _disc(stage: Stage, link: str, element: elements.Wheel | elements.Circle) ->
     return RoundPart(link, tuple(shapes))
 
 
-def _face(stage: Stage, joint: int) -> float:
-    """How far a face or rack that touches a round part reaches to either side; 0 if nothing round is in the joint."""
-    for (number, _), element in stage.linkage.elements.items():
+def _face(stage: Stage, joint: int, link: str, line: elements.Line) -> tuple[float, float] | None:
+    """From where to where a face or rack that touches a round part reaches along its line; None if nothing is round.
+
+    That of a swinging follower goes from its point to beyond the cam's axis.
+    """
+    for (number, own), element in stage.linkage.elements.items():
         if number == joint and isinstance(element, elements.Disc):
-            return 0.7 * element.base * element.scale
+            wide = 0.7 * element.base * element.scale
+            if not element.distance:
+                return -wide, wide
+            k = stage.pose._link(link)
+            axis = complex(stage.pose.complex_point(elements.Named(own, element.x, element.y))[0])
+            seen = (axis - stage.pose.places[0, 0, k]) / stage.pose.turns[0, k] - complex(line.x, line.y)
+            way = float((seen * cmath.rect(1, -line.angle)).real)
+            return min(0.0, way - wide), max(0.0, way + wide)
         if number == joint and isinstance(element, elements.Wheel | elements.Circle):
-            return 1.5 * abs(element.radius)
-    return 0.0
+            return -1.5 * abs(element.radius), 1.5 * abs(element.radius)
+    return None
 
 
-def _flat(stage: Stage, link: str, line: elements.Line, wide: float) -> Iterator[Shape]:
+def _flat(stage: Stage, link: str, line: elements.Line, ends: tuple[float, float]) -> Iterator[Shape]:
     """A face or rack, and the rods that carry it."""
     foot, along = complex(line.x, line.y), cmath.rect(1, line.angle)
     if link != stage.linkage.mechanism.frame:
@@ -87,7 +97,7 @@ def _flat(stage: Stage, link: str, line: elements.Line, wide: float) -> Iterator
             if own == link and isinstance(other, elements.Pin | elements.Line):
                 rod = (stage.local(foot), stage.local(complex(other.x, other.y)))
                 yield from (Lines((rod,), "outline-rod"), Lines((rod,), "body-rod"))
-    yield Lines(((stage.local(foot - wide * along), stage.local(foot + wide * along)),), "rail")
+    yield Lines((tuple(stage.local(foot + way * along) for way in ends),), "rail")
 
 
 def _ring(at: Point, radius: float) -> tuple[Point, ...]:
@@ -103,10 +113,9 @@ def _contour(stage: Stage, centre: complex, angle: float, points: np.ndarray) ->
 
 def _cam(stage: Stage, disc: elements.Disc) -> Iterator[Shape]:
     """The profile of a cam, its base circle dashed."""
-    from gruebler.cams import Cam, Flat, Roller, read_lift
+    from gruebler.kinematics.contours import cam_of
 
-    follower = Flat() if disc.flat else Roller(disc.roller, disc.offset)
-    points = Cam(read_lift(disc.lift), disc.base, follower).profile(np.linspace(0, math.tau, _STEPS)[:-1])
+    points = cam_of(disc).profile(np.linspace(0, math.tau, _STEPS)[:-1])
     centre, scaled = complex(disc.x, disc.y), disc.scale * (points[:, 0] + 1j * points[:, 1])
     yield Lines((_contour(stage, centre, disc.angle, scaled),), "area", closed=True)
     yield Circle(stage.local(centre), stage.scale * disc.scale * disc.base, "dead")

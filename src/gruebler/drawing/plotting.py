@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import math
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from textwrap import wrap
 from typing import Any, BinaryIO
 
@@ -19,7 +18,7 @@ __all__ = ["gallery_pdf", "paint_on", "painted", "save"]
 _POINTS = 72 / 96  # of print, to a pixel
 
 
-def save(figure: Figure, file: str | Path | BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
+def save(figure: Figure, file: BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
     """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``, on light or dark ground.
 
     Raises `GrueblerError` if matplotlib is not installed.

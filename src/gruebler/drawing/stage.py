@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gruebler.drawing.figure import Point
 from gruebler.drawing.prose import in_language
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.course import Course, follow
+from gruebler.kinematics.course import Course, follow, follow_path_of
 from gruebler.kinematics.home import at_home
 from gruebler.kinematics.moving import planned
 from gruebler.linkages import Linkage, Named, Pin
@@ -119,8 +119,9 @@ def staged(
     *,
     branch: str | Iterable[str] | None = None,
     between: tuple[float, float] | None = None,
+    drives: ArrayLike | None = None,
 ) -> Stage:
-    """Follow a linkage through its range, or between two drive values, and stop it in a pose.
+    """Follow a linkage through its range, between two drive values, or along a path of its drives; stop it in a pose.
 
     Without a drive value the pose is the home; else a third of the way to a half turn; else a quarter of the range,
     since its middle and ends are often singular. A linkage that has one position only is shown in it, one without a
@@ -139,6 +140,10 @@ def staged(
     if not linkage.mechanism.drives:
         return _at_rest(linkage)
     plan = planned(linkage)
+    if drives is not None:
+        along = follow_path_of(linkage, drives, branch)
+        path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
+        return Stage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
     if len(linkage.mechanism.drives) == 1:
         try:
             course = follow(linkage, branch)

@@ -183,14 +183,16 @@ def _grown(loops: int) -> Iterator[Packed]:
         theta[0, :2] = 3 << 4, 3
         yield theta
         return
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.contracted import grow, make_nursery
+    from gruebler._numeric.work import growing
 
     memory = make_nursery()
     for parents in _grown(loops - 1):
         k = 0
         while k < len(parents):
             room = np.empty((_BLOCK, _NODES), np.int64)
-            total, k = grow(parents, k, room, memory)
+            total, k = for_work(grow, growing(loops, len(parents) - k))(parents, k, room, memory)
             if total:
                 yield room[:total]
 

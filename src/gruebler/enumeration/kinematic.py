@@ -118,9 +118,11 @@ def _ring(links: int, form: str) -> NDArray[np.uint8]:
     if form == "edges":
         return edges
     from gruebler._numeric.chain_lists import line_length, write_graph6
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.work import writing
 
     lines = np.empty((1, line_length(links)), np.uint8)
-    write_graph6(edges, links, lines)
+    for_work(write_graph6, writing(1, links))(edges, links, lines)
     return lines
 
 

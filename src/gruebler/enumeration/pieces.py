@@ -154,11 +154,14 @@ def count_piece(piece: Piece, orbits: bool = False) -> tuple[PieceCount, ...]:
         OverflowError: a number beyond 64 bits.
     """
     from gruebler._numeric.census import COLUMNS, DEGREES, DIGITS, make_bench, take_census
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.work import census
 
     loops = loop_number(piece.links, piece.mobility)
     assert loops is not None
     table = np.zeros((len(piece.graphs), COLUMNS), np.int64)
-    take_census(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_bench(loops, piece.mobility), table)
+    count = for_work(take_census, census(len(piece.graphs)))
+    count(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_bench(loops, piece.mobility), table)
     found = []
     for code in np.unique(table[:, DEGREES]):
         higher = []
@@ -184,6 +187,8 @@ def list_piece(piece: Piece, form: str = "edges") -> NDArray[np.uint8]:
 
 def _blocks(piece: Piece, form: str) -> Iterator[NDArray[np.uint8]]:
     from gruebler._numeric.chain_lists import line_length, list_chains, make_desk, write_graph6
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.work import census, writing
 
     loops, joints = loop_number(piece.links, piece.mobility), joint_number(piece.links, piece.mobility)
     assert loops is not None
@@ -191,13 +196,14 @@ def _blocks(piece: Piece, form: str) -> Iterator[NDArray[np.uint8]]:
     desk = make_desk(loops, piece.mobility)
     graphs = np.ascontiguousarray(piece.graphs)
     room = max(256, min(65536, piece.work // 4))
+    listed = for_work(list_chains, census(len(graphs)))
     while True:
         edges = np.empty((room, joints, 2), np.uint8)
-        found = list_chains(graphs, piece.mobility, desk, edges)
+        found = listed(graphs, piece.mobility, desk, edges)
         edges = edges[:found]
         if form == "graph6":
             lines = np.empty((found, line_length(piece.links)), np.uint8)
-            write_graph6(edges, piece.links, lines)
+            for_work(write_graph6, writing(found, piece.links))(edges, piece.links, lines)
             yield lines
         else:
             yield edges

@@ -21,11 +21,12 @@ __all__ = ["known", "placed"]
 
 Reals = NDArray[np.float64]
 
-_CLOSED = 1e-9  # joints that are open by more could not be closed
 _EXACT = 1e-15  # a home that is closed so well is meant as it is
 _NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
 _STARTS = 60  # random poses from which a linkage without a home is assembled
-_CLOSED, _NEARLY = 1e-12, 1e-8  # of the size: joints that are closed; that may be closed at a double root
+# Of the size: joints that are closed; that may be closed at a double root. Newton's method leaves some 1e-15, and at a
+# double root, where the pose is known to 1e-8 only, its square: so 1e-12 is rounding, and 1e-9 is a gap.
+_CLOSED, _NEARLY = 1e-12, 1e-8
 _PATIENT = 60  # steps of Newton's method: beside a double root each halves the error only
 _ENOUGH = 6  # closed poses among which the best is taken
 _GOOD = 0.01  # a smallest singular value, for each unknown, with which the search for a pose stops

@@ -7,6 +7,7 @@ from functools import cached_property
 from math import degrees, pi
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
 from gruebler.geometry.contact import Contact, tangent_contact
@@ -36,7 +37,7 @@ _TOLERANCE = 1e-4  # of the reach of linkage and path
 
 @dataclass(frozen=True, eq=False, repr=False)
 class CouplerCurve(Brief):
-    """The path of a point on one branch of a linkage with one drive. Everything is found when it is asked for.
+    """The path of a point on one branch of a linkage. Everything is found when it is asked for.
 
     Drive values are in radians (or the unit), those of a drive that turns fully from 0 to the period.
     """
@@ -144,16 +145,23 @@ class CouplerCurve(Brief):
 
 
 def coupler_curve(
-    linkage: Linkage, point: str | Named, *, branch: str | None = None, tolerance: float | None = None
+    linkage: Linkage,
+    point: str | Named,
+    *,
+    branch: str | None = None,
+    tolerance: float | None = None,
+    drives: ArrayLike | None = None,
 ) -> CouplerCurve:
     """The path of a named point, joint or `Named` of any linkage with one drive, over a full turn or the drive's range.
 
     Args:
-        linkage: a linkage with one drive.
+        linkage: a linkage with one drive, or with several and a path of them.
         point: a point that moves.
         branch: the assembly mode, as for `move`.
         tolerance: how far the polygon may be off; 1/10,000 of the linkage's size, or of the path's extent
             if that is larger, if it is left out.
+        drives: (rows, drives) a straight path of the drives, from its first row to its last; events then have the part
+            of it, 0 to 1, instead of a drive value.
 
     Error: events are exact to some 1e-13 of the parameter. Within 1/720 of the parameter's range from a limit of the
     drive none are looked for. Cost: some milliseconds; with double points some tens.
@@ -163,5 +171,5 @@ def coupler_curve(
     >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
     [80.56, 147.1, 212.9, 279.44]
     """
-    trail = trail_of(linkage, point, branch)
+    trail = trail_of(linkage, point, branch, drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

@@ -7,10 +7,11 @@ from functools import cached_property
 from math import asin, factorial, pi
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.kinematics.course import Course, follow
+from gruebler.kinematics.course import Course, follow, follow_path_of
 from gruebler.linkages import Linkage, Named
 from gruebler.views import Brief
 
@@ -108,8 +109,8 @@ def _by_parameter(z: list[Complexes], first: Reals, second: Reals) -> Complexes:
     return out
 
 
-def trail_of(linkage: Linkage, point: str | Named, branch: str | None = None) -> Trail:
-    """The path of a named point, joint or `Named` of a linkage with one drive, on one branch.
+def trail_of(linkage: Linkage, point: str | Named, branch: str | None = None, drives: ArrayLike | None = None) -> Trail:
+    """The path of a named point, joint or `Named` of a linkage with one drive, or along a path of its drives.
 
     Raises `LinkageError` for a point of the frame or one that does not move, and as `gruebler.kinematics.follow`.
     """
@@ -118,7 +119,8 @@ def trail_of(linkage: Linkage, point: str | Named, branch: str | None = None) ->
     places = [point] if isinstance(point, Named) else [p for p in linkage.named(point) if p.link != frame]
     if not places or places[-1].link == frame:
         raise LinkageError(f"the point {said} lies on the frame {frame!r}: it has no path")
-    trail = Trail(follow(linkage, branch), places[-1])
+    course = follow(linkage, branch) if drives is None else follow_path_of(linkage, drives, branch)
+    trail = Trail(course, places[-1])
     if np.abs(trail.at(trail.grid, 1)[1]).max() <= _STILL * trail.size:
         raise LinkageError(f"the point {said} does not move: it has no path")
     return trail

@@ -56,6 +56,8 @@ class ChangePoint(NamedTuple):
     """The drive value there; NaN without a drive."""
     pose: Poses
     """The position, exactly."""
+    several: bool = False
+    """Whether more than two curves meet there, or two that touch one another."""
 
 
 class Stretch(NamedTuple):
@@ -115,7 +117,9 @@ class Circuit(Brief):
 
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import Curve, evaluate
+        from gruebler._numeric.work import sampling
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
@@ -127,13 +131,19 @@ class Circuit(Brief):
         if len(place) and not (place.min() >= 0 and place.max() <= self.length):
             raise LinkageError(f"this circuit goes from 0 to {self.length:.9g} and is not closed, so no {arcs!r} on it")
         segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
-        x, t = np.empty((2, len(place), self.system.unknowns))
-        curve = Curve(*traced[:3], np.zeros(0))
-        found = evaluate(self.system.conditions, curve, place, segments, x, t, self.system.room)
-        if found < len(place):
-            raise LinkageError(
-                f"the position at {place[found]:.9g} of the circuit cannot be found: it is singular there"
+        x, t = traced.poses[segments], traced.tangents[segments]
+        between = np.flatnonzero(traced.arcs[segments] != place)
+        if len(between):
+            curve, n = Curve(*traced[:3], np.zeros(0)), self.system.unknowns
+            near, slopes = np.empty((2, len(between), n))
+            evaluated = for_work(evaluate, sampling(n, len(between)))
+            found = evaluated(
+                self.system.conditions, curve, place[between], segments[between], near, slopes, self.system.room
             )
+            if found < len(between):
+                where = place[between[found]]
+                raise LinkageError(f"the position at {where:.9g} of the circuit cannot be found: it is singular there")
+            x[between], t[between] = near, slopes
         x += laps[:, None] * (traced.poses[-1] - traced.poses[0])
         return self._poses(given, x, t)
 
@@ -240,7 +250,7 @@ class Circuit(Brief):
 
     def _change_points(self) -> Iterator[ChangePoint]:
         traced = self.traced
-        for pose, k in traced.changes:
+        for pose, k, several in traced.changes:
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
             arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
@@ -248,7 +258,7 @@ class Circuit(Brief):
             slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
             found = self._poses(np.array([arc]), pose[None], slopes)
             driven = bool(self.system.lower.mechanism.drives)
-            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found)
+            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found, several)
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""

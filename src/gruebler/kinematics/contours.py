@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from math import hypot, log, pi
+from math import log, pi
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geneva import Geneva
 from gruebler.linkages import Cross, Disc, Driver
 
-__all__ = ["COEFFICIENTS", "Law", "cam_law", "geneva_law"]
+__all__ = ["COEFFICIENTS", "Law", "cam_law", "cam_of", "geneva_law"]
 
 Reals = NDArray[np.float64]
 COEFFICIENTS = 12
@@ -44,58 +44,73 @@ class Law(NamedTuple):
 
 
 @lru_cache(maxsize=64)
+def cam_of(disc: Disc) -> Cam:
+    """The cam of an element, in its own unit; `LinkageError` for one that cannot be."""
+    try:
+        if disc.flat and (disc.roller or disc.offset or disc.arm):
+            raise CamError("a flat face has no roller, no offset and no arm")
+        if disc.face and not disc.flat:
+            raise CamError("only a flat face has a distance from its pivot")
+        follower: Flat | Roller = Flat(disc.distance, disc.face) if disc.flat else _roller(disc)
+        lift = read_lift(disc.lift)
+        cam = Cam(lift.scaled(pi / 180) if follower.swings else lift, disc.base, follower)
+        undercut = cam.findings().undercut
+    except GrueblerError as error:
+        raise LinkageError(f"cam: {error}") from None
+    if undercut:
+        raise LinkageError("cam: the profile crosses itself, so that the follower cannot follow the lift")
+    return cam
+
+
+def _roller(disc: Disc) -> Roller:
+    return Roller(disc.roller, disc.offset, disc.arm, disc.distance)
+
+
+@lru_cache(maxsize=64)
 def cam_law(disc: Disc) -> Law:
     """The curve of a cam.
 
     For a roller: the logarithm of the pitch curve's radius by its direction; for a flat face: its distance by the
     direction of its outward normal. `LinkageError` for a cam that cannot be.
     """
-    follower = Flat() if disc.flat else Roller(disc.roller, disc.offset)
-    try:
-        if disc.flat and (disc.roller or disc.offset):
-            raise CamError("a flat face has no roller and no offset")
-        cam = Cam(read_lift(disc.lift), disc.base, follower)
-        undercut = cam.findings().undercut
-    except GrueblerError as error:
-        raise LinkageError(f"cam: {error}") from None
-    if undercut:
-        raise LinkageError("cam: the profile crosses itself, so that the follower cannot follow the lift")
+    cam = cam_of(disc)
     breaks = [span.start for span in cam.lift.spans()] + [2 * pi]
-    if disc.flat:
-        bounds = [pi / 2 - phi for phi in reversed(breaks)]
-        return _law(lambda t, _a, _b: disc.scale * cam.lift.at(pi / 2 - t), bounds, disc.scale * disc.base)
-    grid = np.linspace(0, 2 * pi, 2881)
-    if not (np.diff(_bearing(cam, disc, grid)) < 0).all():
+    if not (np.diff(_bearing(cam, np.linspace(0, 2 * pi, 2881))[0]) < 0).all():
         raise LinkageError(
             "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
+            if isinstance(cam.follower, Roller)
+            else "cam: the face turns faster than the cam; less lift or a longer angle for it helps"
         )
-    bounds = _bearing(cam, disc, np.array(breaks[::-1]) - 1e-300).tolist()
-    circle = hypot(disc.offset, cam.start)
+    bounds = _bearing(cam, np.array(breaks[::-1]) - 1e-300)[0].tolist()
+    start = np.array([cam.start])
+    base = cam.follower.line(start).distance if isinstance(cam.follower, Flat) else abs(cam.follower.path(start).at)
+    length = disc.scale * float(base[0])
 
-    def radius(t: Reals, low: float, high: float) -> Reals:
+    def value(t: Reals, low: float, high: float) -> Reals:
         ends = np.interp([low, high], bounds, breaks[::-1])
-        phi = _turned(cam, disc, t, *ends)
-        lift = cam.lift.at(phi)  # of the squared radius the part beside that of the base circle, without cancelling
-        out: Reals = np.log1p(lift * (2 * cam.start + lift) / circle**2) / 2
+        gain = cam.follower.gain(cam.start, cam.lift.at(_turned(cam, t, *ends)))
+        out: Reals = np.log1p(gain / base**2) / 2 if isinstance(cam.follower, Roller) else disc.scale * gain
         return out
 
-    return _law(radius, bounds, log(disc.scale * circle))
+    return _law(value, bounds, log(length) if isinstance(cam.follower, Roller) else length)
 
 
-def _bearing(cam: Cam, disc: Disc, phi: Reals) -> Reals:
-    """The direction of the roller's centre in the cam's frame."""
-    out: Reals = np.arctan2(cam.start + cam.lift.at(phi), disc.offset) - phi
-    return out
+def _bearing(cam: Cam, phi: Reals) -> tuple[Reals, Reals]:
+    """The direction of the roller's centre, or of the face's normal, in the cam's frame; its derivative by phi."""
+    s, rate = cam.start + cam.lift.at(phi), cam.lift.at(phi, 1)
+    if isinstance(cam.follower, Roller):
+        path = cam.follower.path(s)
+        return np.angle(path.at) - phi, np.imag(path.first / path.at) * rate - 1
+    line = cam.follower.line(s)
+    return line.angle - phi, line.turn * rate - 1
 
 
-def _turned(cam: Cam, disc: Disc, t: Reals, high: float, low: float) -> Reals:
-    """The cam's angles at which the roller's centre lies in given directions; Newton's method."""
+def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:
+    """The cam's angles at which `_bearing` has given values; Newton's method."""
     phi: Reals = high + (low - high) * (t - t.min()) / max(float(np.ptp(t)), 1e-300)
     for _ in range(40):
-        s, rate = cam.start + cam.lift.at(phi), cam.lift.at(phi, 1)
-        off = np.arctan2(s, disc.offset) - phi - t
-        slope = disc.offset * rate / (s * s + disc.offset**2) - 1
-        step = off / slope
+        at, slope = _bearing(cam, phi)
+        step = (at - t) / slope
         phi -= step
         if np.abs(step).max() < 1e-14:
             break

@@ -12,20 +12,22 @@ from math import degrees, pi
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
+from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.home import at_home
 from gruebler.kinematics.law_joints import law_joints
 from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Reals, Stop
 from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.runs import follow_path, run_rows
+from gruebler.kinematics.runs import follow_path
 from gruebler.kinematics.zeros import Samples
 from gruebler.linkages import Linkage
 from gruebler.views import Brief
 
-__all__ = ["Course", "Span", "follow"]
+__all__ = ["Course", "PathCourse", "Span", "follow", "follow_path_of"]
 
 _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
@@ -176,6 +178,59 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
     return replace(course, grid=_grid(course))
 
 
+@dataclass(frozen=True, repr=False)
+class PathCourse(Course):
+    """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
+
+    ends: Reals
+    """(2, drives): where the path begins and ends."""
+
+    @property
+    def turning_drive(self) -> bool:
+        """The part of a path is no angle."""
+        return False
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """None are sought along a path of several drives."""
+        return ()
+
+    def values(self, parts: Reals) -> Reals:
+        """The drive values at parts of the path; (n, drives)."""
+        return np.asarray(self.ends[0] + np.asarray(parts, np.float64)[:, None] * (self.ends[1] - self.ends[0]))
+
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at parts of the path, in any order; rates by the part."""
+        order_of = np.argsort(drives, kind="stable")
+        parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
+        found = move(
+            self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
+        )
+        if not found.complete:
+            raise LinkageError(found.message(), found.message("de"))
+        return _rows(found, 1 + np.argsort(order_of, kind="stable"))
+
+
+def follow_path_of(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCourse:
+    """The course of a linkage along a straight path of its drives, (rows, drives), from the first row to the last.
+
+    Raises `LinkageError` if the drives do not move, or if the linkage cannot be moved to the end of the path.
+    """
+    plan = planned(linkage)
+    rows = drive_path(plan, path)
+    ends = np.array([rows[0], rows[-1]])
+    if (ends[0] == ends[1]).all():
+        raise LinkageError(
+            "the path of the drives has no length: its first row is its last",
+            "der Weg der Antriebe hat keine Länge: seine erste Zeile ist seine letzte",
+        )
+    start = move(plan, ends[:1], branch=branch)
+    if not start.complete:
+        raise LinkageError(start.message(), start.message("de"))
+    course = PathCourse(plan, start, Span(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
+    return replace(course, grid=_grid(course))
+
+
 def _turns(plan: Plan) -> bool:
     return plan.lower.mechanism.drives[0].direction.startswith("R")
 
@@ -188,10 +243,7 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    if plan.released:  # its independent part may have change points where it has none
-        motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
-    else:
-        motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
+    motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
     if order:
         mend_rates(plan, motion, path, speeds, signs)
     return motion, rows

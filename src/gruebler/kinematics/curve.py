@@ -6,7 +6,7 @@ docs/theory/circuits.md has the method, its tolerances and what it may miss.
 from __future__ import annotations
 
 from cmath import phase, rect
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, NamedTuple
@@ -30,6 +30,10 @@ Reals = NDArray[np.float64]
 
 _SHORT = 0.02  # a change point is passed by a step of at most this length
 _EXACT = 1e-12  # a change point is open by less; if by more, the linkage only passes near one
+_BESIDE = np.array([-2.0, -1.0, 1.0, 2.0])  # places about a meeting of curves, in widths
+_NEARER = (0.1, 0.02, 0.02)  # the widths, in parts of the way between two samples
+_BORDER = 1e-6  # parts of a way between samples, sizes and radians: meetings at a sample are one
+_LOST = 1e-5  # of the singular value a width away: less is zero
 _SMALL = 0.2  # below this gauge a redundantly constrained linkage is looked at for change points
 
 
@@ -80,18 +84,22 @@ class System:
 
     def linearised(self, x: Reals) -> tuple[Reals, Reals]:
         """Residual and Jacobian: (equations,) and (equations, unknowns)."""
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import jacobian
+        from gruebler._numeric.work import closing_work
 
-        m = jacobian(self.conditions, x, self.room)
+        m = for_work(jacobian, closing_work(self.unknowns))(self.conditions, x, self.room)
         return self.room.residual[:m].copy(), self.room.rows[:m].copy()
 
     def independent(self, x: Reals) -> NDArray[np.int64]:
         """The numbers of equations on which the others depend at a pose on the curve."""
         if not self.redundant:
             return np.arange(self.equations)
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.tracing import settle
+        from gruebler._numeric.work import sampling
 
-        settle(self.conditions, x.copy(), np.ones(self.unknowns), self.room)
+        for_work(settle, sampling(self.unknowns, 1))(self.conditions, x.copy(), np.ones(self.unknowns), self.room)
         return np.sort(self.room.order[: self.unknowns - 1])
 
 
@@ -100,6 +108,8 @@ class Change(NamedTuple):
 
     pose: Reals
     sample: int
+    several: bool = False
+    """Whether more than one other curve goes through it, or one that touches this one."""
 
 
 class Traced(NamedTuple):
@@ -209,12 +219,14 @@ def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:
 
     The error is raised for a pose that is off by more than 0.05, in sizes and radians.
     """
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.tracing import settle
+    from gruebler._numeric.work import sampling
 
     pose = x.copy()
     _, matrix = made.linearised(pose)
     tangent = np.linalg.svd(matrix)[2][-1].copy()
-    arrived, miss, gauge, rank = settle(made.conditions, pose, tangent, made.room)
+    arrived, miss, gauge, rank = for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent, made.room)
     if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == made.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
@@ -227,8 +239,8 @@ def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: 
         return ahead
     back = _follow(made, pose, -tangent, step, most)
     length, last = back.arcs[-1], len(back.arcs) - 1
-    changes = [Change(c.pose, last - 1 - c.sample) for c in reversed(back.changes)]
-    changes += [Change(c.pose, last + c.sample) for c in ahead.changes]
+    changes = [c._replace(sample=last - 1 - c.sample) for c in reversed(back.changes)]
+    changes += [c._replace(sample=last + c.sample) for c in ahead.changes]
     return Traced(
         np.concatenate([length - back.arcs[:0:-1], length + ahead.arcs]),
         np.concatenate([back.poses[:0:-1], ahead.poses]),
@@ -241,26 +253,35 @@ def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: 
 
 
 def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: float) -> Traced:
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle, trace
+    from gruebler._numeric.work import sampling
 
-    curve = _room(1024, made.unknowns)
+    curve = _room(64, made.unknowns)
     curve.poses[0], curve.tangents[0] = pose, tangent
-    curve.gauges[0] = settle(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
+    put = for_work(settle, sampling(made.unknowns, 1))
+    curve.gauges[0] = put(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
     count, step, changes = 1, longest / 4, list[Change]()
     while True:
-        status, count, step = trace(made.conditions, curve, count, step, longest, most, made.room)
+        follow = for_work(trace, sampling(made.unknowns, len(curve.arcs) - count))
+        status, count, step = follow(made.conditions, curve, count, step, longest, most, made.room)
         if status == FULL:
             curve = _larger(curve)
         elif status == FLIP:
             way = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
-            found = _change(made, curve.poses[count - 1], curve.poses[count]) if way <= _SHORT else None
+            ends = curve.poses[count - 1], curve.poses[count]
+            found = _change(made, *ends) if way <= _SHORT else None
+            several = False
+            if found is None and way <= _SHORT:
+                found, lost = _meeting(made, *ends, curve.tangents[count - 1])
+                several = lost > 1
             if found is None:
                 step = way / 2
                 if step < SHORTEST:
                     status = -1
                     break
                 continue
-            changes.append(Change(found, count - 1))
+            changes.append(Change(found, count - 1, several))
             count += 1
             if _is_start(curve, count - 1):
                 status = CLOSED
@@ -271,6 +292,9 @@ def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: flo
     samples = Traced(arcs, poses, tangents, status == CLOSED, "", tuple(changes), 0.0)
     if made.redundant:
         samples = samples._replace(changes=_quiet_changes(made, samples, curve.gauges[:count]))
+    else:
+        touches = [*changes, *_touches(made, samples, curve.gauges[:count])]
+        samples = samples._replace(changes=tuple(sorted(touches, key=lambda change: change.sample)))
     return samples._replace(ended="" if status == CLOSED else "long" if status == LONG else "singular")
 
 
@@ -323,6 +347,57 @@ def _change(made: System, one: Reals, two: Reals) -> Reals | None:
     return None
 
 
+def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
+    """The pose between two neighbouring samples in which other curves meet this one, and how many ranks are lost there.
+
+    The pose is None if there is none.
+
+    Along the curve the smallest singular value of the Jacobian, with the other sign behind it, goes through zero there:
+    the place is the zero of a cubic through four values, the pose lies on cubics through four poses.
+    """
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.tracing import settle
+    from gruebler._numeric.work import sampling
+
+    def at(part: float) -> tuple[Reals, float]:
+        pose = one + part * (two - one)
+        for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent.copy(), made.room)
+        return pose, float(np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2])
+
+    before, behind = at(0.0)[1], at(1.0)[1]
+    place = before / max(before + behind, 1e-300)
+    for width in _NEARER:
+        places = place + width * _BESIDE
+        found = [at(float(part)) for part in places]
+        values = np.array([value for _, value in found])
+        line = np.polynomial.Polynomial.fit(_BESIDE, np.sign(_BESIDE) * values, 3)
+        roots = [root.real for root in line.roots() if abs(root.imag) < 1e-9 and abs(root.real) < 1]
+        if not roots:
+            return None, 0
+        shift = float(min(roots, key=abs))
+        place += width * shift
+    weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
+    pose = weights @ np.array([one for one, _ in found])
+    singular = np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[: made.unknowns - 1]
+    lost = int((singular < _LOST * values.min()).sum())
+    return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost
+
+
+def _touches(made: System, samples: Traced, gauges: Reals) -> Iterator[Change]:
+    """Change points at which the determinant is zero without a change of its sign."""
+    size = np.abs(gauges)
+    wide = np.concatenate([[np.inf], size, [np.inf]])
+    lowest = np.flatnonzero((size <= wide[:-2]) & (size <= wide[2:]) & (size < _SMALL * size.max()))
+    last = None
+    for k in sorted({part for low in lowest.tolist() for part in (low - 1, low) if 0 <= part < len(size) - 1}):
+        if gauges[k] * gauges[k + 1] < 0:
+            continue
+        pose, _ = _meeting(made, samples.poses[k], samples.poses[k + 1], samples.tangents[k])
+        if pose is not None and (last is None or np.abs(pose - last).max() > _BORDER):
+            last = pose
+            yield Change(pose, k, True)
+
+
 def _curvature(made: System, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
     """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
     out, h = np.empty((len(x), len(x))), 1e-5
@@ -341,8 +416,12 @@ def _quiet_changes(made: System, samples: Traced, gauges: Reals) -> tuple[Change
     for k in range(1, len(gauges) - 1):
         if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
             pose = _change(made, samples.poses[k - 1], samples.poses[k + 1])
-            if pose is None or np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[-2] > 1e-9:
+            several = False
+            if pose is None:
+                pose, lost = _meeting(made, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
+                several = lost > 1
+            if pose is None or np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2] > 1e-9:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
-            out.append(Change(pose, k if ahead else k - 1))
+            out.append(Change(pose, k if ahead else k - 1, several))
     return tuple(out)

@@ -6,7 +6,7 @@ respect to the drive. Definitions, method and errors: docs/theory/events.md.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import pi
 from typing import NamedTuple
 
@@ -47,6 +47,8 @@ _NEAR = 1e-9  # of the range: joints of a law that are nearer are one
 _EVEN = 1e-9  # the same for its derivatives
 _EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
 _THERE = 1e-5  # radians: a pose that differs by less is the same
+_TOGETHER = 1e-8  # radians or sizes: change points that are nearer are one
+_LOST = 1e-6  # of the largest singular value: less is zero
 _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
 _STEP = 0.02  # radians, or parts of the size
 
@@ -106,6 +108,8 @@ class ChangePoint(NamedTuple):
     drive: float
     links: tuple[str, ...]
     form: str
+    several: bool = False
+    """Whether more than two curves of positions meet there, or two that touch one another."""
 
 
 def transfer_function(course: Course, output: Output, drives: Reals, order: int = 0) -> Reals:
@@ -141,6 +145,9 @@ def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...
     if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
         samples = samples._replace(period=None)
     found = _inside(course, zeros(jet, samples, least))
+    if order == 0 and output.turning and found:  # that sine falls where the angle rises through an odd multiple
+        turned = np.round(transfer_function(course, output, np.array([zero.at for zero in found])) / (2 * pi)) % 2 == 1
+        found = tuple(zero._replace(rises=zero.rises != odd) for zero, odd in zip(found, turned.tolist(), strict=True))
     before = _before(course, output, found, order)
     words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
     return tuple(
@@ -317,11 +324,26 @@ def change_points(course: Course) -> tuple[ChangePoint, ...]:
 
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
     near by, so the zero is that of a polynomial of degree 7 through eight poses around it; error some 1e-12. Those of
-    larger groups are the places where another curve crosses the `circuit`; one where more than two curves meet is not
-    found. Raises `LinkageError` if there are larger groups whose circuit cannot be followed.
+    larger groups are the places where another curve meets the `circuit`. Where several groups have one at once, more
+    than two curves meet. Raises `LinkageError` if there are larger groups whose circuit cannot be followed.
     """
     larger = _of_larger_groups(course) if course.plan.larger else ()
-    return tuple(sorted([*larger, *dyad_change_points(course)]))
+    return _meetings(course, [*larger, *dyad_change_points(course)])
+
+
+def _meetings(course: Course, found: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
+    """The same in order, with those marked that several groups have at the same place."""
+    near = _TOGETHER * (1 if course.turning_drive else course.plan.lower.size)
+
+    def gap(one: ChangePoint, other: ChangePoint) -> float:
+        way = abs(one.drive - other.drive)
+        return min(way, abs(course.span.period - way))
+
+    ordered = sorted(found)
+    return tuple(
+        one._replace(several=one.several or any(other is not one and gap(one, other) < near for other in ordered))
+        for one in ordered
+    )
 
 
 def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
@@ -334,39 +356,42 @@ def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
             found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
     if course.plan.released and found:  # one of the independent part may be none of the linkage
         found = [point for point in found if not regular(course.at(np.array([point.drive]), 0), 0)]
-    return tuple(sorted(found))
+    return _meetings(course, found)
 
 
 def _of_larger_groups(course: Course) -> Iterator[ChangePoint]:
     made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
     for change in made.change_points:
-        group = _singular(course, made, change.pose)
-        if group is None:
-            continue
+        groups = list(_singular(course, made, change.pose))
         for turn in range(course.span.turns) if course.span.full else range(-1, 2) if course.turning_drive else (0,):
             drive = float(change.drive % (2 * pi) + 2 * pi * turn if course.turning_drive else change.drive)
             if course.span.low <= drive <= course.span.high or course.span.full:
                 here = course.at(np.array([drive]), 0)
                 away = [here.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
                 if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
-                    yield ChangePoint(course.span.wrapped(drive), group.links, group.form())
+                    for group in groups:
+                        yield ChangePoint(course.span.wrapped(drive), group.links, group.form(), change.several)
 
 
-def _singular(course: Course, made: Circuit, pose: Poses) -> Group | None:
-    """The larger group that can move there while the drive stands: the first that has two ways to move on."""
+def _singular(course: Course, made: Circuit, pose: Poses) -> Iterator[Group]:
+    """The larger groups that can move there while everything before them stands."""
     plan, bodies, size = course.plan, list(made.system.bodies), course.plan.lower.size
     rows = [
         (z.real / size, z.imag / size, angle[0])
         for z, angle in ((pose.places[0, 0, pose._link(link)], pose.angle(link)) for link in bodies)
     ]
     _, matrix = made.system.linearised(np.array(rows).ravel())
-    ways = np.linalg.svd(matrix)[2][-2:].reshape(2, -1, 3)
+    _, values, vectors = np.linalg.svd(matrix)
+    lost = int((values[: matrix.shape[1] - 1] < _LOST * values[0]).sum())
+    ways = vectors[-1 - max(lost, 1) :].reshape(-1, len(bodies) + len(made.system.arms), 3)
     placed: list[int] = []
+    known = 1  # the motion of the circuit itself
     for number, group in enumerate(plan.decomposition.groups):
         placed += [bodies.index(link) for link in group.links if link in bodies]
-        if np.linalg.svd(ways[:, placed].reshape(2, -1))[1][-1] > _THERE if placed else False:
-            return group if any(part.group == number for part in plan.larger) else None
-    return None
+        rank = int((np.linalg.svd(ways[:, placed].reshape(len(ways), -1))[1] > _THERE).sum()) if placed else 0
+        if rank > known and any(part.group == number for part in plan.larger):
+            yield group
+        known = max(known, rank)
 
 
 def _change_point(course: Course, dyad: Dyad, cell: Reals) -> ChangePoint:

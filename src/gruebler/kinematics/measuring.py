@@ -136,18 +136,28 @@ class Measures(Brief):
         return self._way(self.outer, self.inner)
 
     def _way(self, start: DeadCentre | Dwell | None, end: DeadCentre | Dwell | None) -> float | None:
-        """How far the drive turns, while the output moves, from one stop to the next that is like the other."""
+        """How far the drive turns, while the output moves, from one stop to the next that is like the other.
+
+        Of several stops like the first before that one the last counts: the ways are those of a mirror image, too.
+        """
         if start is None or end is None or not self.span.full:
             return None
-        near = 1e-9 * (self.travel or 0.0)
-        leaves = start.end if isinstance(start, Dwell) else start.drive
+        period, near = self.span.period, 1e-9 * (self.travel or 0.0)
 
-        def ahead(drive: float) -> float:
-            return (drive - leaves) % self.span.period
+        def alike(one: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
+            return [stop for stop in self.stops if stop.kind == one.kind and abs(stop.output - one.output) <= near]
 
-        alike = (stop for stop in self.stops if stop.kind == end.kind and abs(stop.output - end.output) <= near)
-        way = min(ahead(stop.begin if isinstance(stop, Dwell) else stop.drive) for stop in alike)
-        return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive) < way)
+        def ahead(drive: float, of: float) -> float:
+            return (drive - of) % period
+
+        leaves = [stop.end if isinstance(stop, Dwell) else stop.drive for stop in alike(start)]
+        first = start.end if isinstance(start, Dwell) else start.drive
+        arrives = first + min(
+            ahead(stop.begin if isinstance(stop, Dwell) else stop.drive, first) for stop in alike(end)
+        )
+        way = min(ahead(arrives, leave) for leave in leaves)
+        begins = arrives - way
+        return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < way)
 
     @property
     def dwell_share(self) -> float:

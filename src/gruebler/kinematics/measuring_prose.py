@@ -84,6 +84,7 @@ _TEXTS = {
         "Bei {rpm:g} Umdrehungen je Minute: {forward:.6g} s von innen nach außen, {back:.6g} s zurück.",
     ),
     "dwell time": ("At rest: {time:.6g} s in a period.", "In Rast: {time:.6g} s je Periode."),
+    "several": ("More than two curves of positions meet there.", "Dort treffen sich mehr als zwei Lagenkurven."),
     "change": (
         "Change point of {form} {{{links}}} at {at}.",
         "Verzweigungslage (durchschlagend) von {form} {{{links}}} bei {at}.",
@@ -122,7 +123,8 @@ def explain(found: Measures, lang: str) -> Iterator[str]:
         yield say(key, name=name, travel=_output(found, found.travel))
     yield from _stop_lines(found, say)
     for point in found.change_points:
-        yield say("change", form=point.form, links=", ".join(point.links), at=_drive(found, point.drive))
+        line = say("change", form=point.form, links=", ".join(point.links), at=_drive(found, point.drive))
+        yield f"{line} {say('several')}" if point.several else line
     if found.change_points_notes[lang]:
         yield say("unknown changes", why=found.change_points_notes[lang])
     if found.transmission is None:
@@ -250,7 +252,8 @@ def plain(found: Measures) -> dict[str, Any]:
         "speed_rpm": found.speed_rpm,
         "times": None if found.times is None else {"forward": found.times.forward, "back": found.times.back},
         "change_points": [
-            {"drive": turn(c.drive), "links": list(c.links), "form": c.form} for c in found.change_points
+            {"drive": turn(c.drive), "links": list(c.links), "form": c.form, "several": c.several}
+            for c in found.change_points
         ],
         "transfer": {
             "still": transfer.still,

@@ -28,6 +28,7 @@ _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
 _LONGEST_TURN = radians(5)
 _LONGEST_PUSH = 0.03  # of the linkage's size
+_ONE = 1e-9  # of the linkage's size: shortest ways of a slide that differ by less are one
 
 
 @dataclass(frozen=True)
@@ -162,7 +163,7 @@ class Plan(Brief):
         There a dyad may be impossible for so short a way that steps would pass it unseen.
         """
         program = self.program
-        out = []
+        out: list[tuple[int, float]] = []
         for _, k, near, far, sign in (o for o in self.operations if o[0] == PUSH):
             line = program.lines[near]
             turn = line * np.conj(program.lines[far])
@@ -177,7 +178,9 @@ class Plan(Brief):
                         + turn * (program.points[other] - program.points[far])
                         - program.points[one]
                     )
-                    out.append((k, float(-sign * (np.conj(line) * gap).real)))
+                    value = float(-sign * (np.conj(line) * gap).real)
+                    if not any(k == number and abs(value - known) <= _ONE * self.lower.size for number, known in out):
+                        out.append((k, value))
         return tuple(out)
 
     def element_arrays(self, lower: Linkage) -> tuple[np.ndarray, np.ndarray]:
@@ -207,13 +210,16 @@ def plan(linkage: Linkage) -> Plan:
         raise LinkageError(
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )
-    parts, released = decompose(lower.mechanism), ()
+    parts = decompose(lower.mechanism)
+    released: tuple[int, ...] = ()
     if parts.overconstrained:
         try:
             part, released = independent_part(linkage)
         except LinkageError as error:
+            assert parts.report is not None
             raise LinkageError(
-                f"the linkage cannot be moved by its drives: constraints or drives work against one another. {error}"
+                "the linkage cannot be moved by its drives: constraints or drives work against one another. "
+                f"Mobility {parts.report.mobility}, drives {parts.report.drives}, at almost all sizes. {error}"
             ) from None
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)

@@ -25,8 +25,8 @@ _SAID = {
         "`gruebler freedoms` says what they allow."
     ),
     ("open", "de"): (
-        "Die Bewegung endet bei {drives}: dort klafft {form}. Die Abmessungen lassen das überbestimmte Getriebe nicht "
-        "weiter laufen; `gruebler freedoms` sagt, was sie zulassen."
+        "Die Bewegung endet bei {drives}: dort klafft {form}. Die Abmessungen lassen das übergeschlossene Getriebe "
+        "nicht weiter laufen; `gruebler freedoms` sagt, was sie zulassen."
     ),
     ("start", "en"): "At the start, {drives}, {form} {{{links}}} cannot be assembled in this way.",
     ("start", "de"): "Am Anfang, {drives}, lässt sich {form} {{{links}}} so nicht zusammenbauen.",

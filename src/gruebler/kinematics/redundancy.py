@@ -104,8 +104,8 @@ def independent_part(linkage: Linkage) -> Independent:
     if freedoms < len(drives):
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
-            f"In its home position its joints leave {freedoms} freedoms, fewer than are driven ({len(drives)}); against "
-            f"the drives work {names or 'other drives'}. `gruebler freedoms` says what its sizes allow."
+            f"In its home position its joints leave {freedoms} freedoms, fewer than are driven ({len(drives)}); "
+            f"against the drives work {names or 'other drives'}. `gruebler freedoms` says what its sizes allow."
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
@@ -191,9 +191,7 @@ class _Conditions:
             raise LinkageError(f"home: the joints are not closed there; {worst} is open by {far.max():.1e} sizes")
         return x
 
-    def _conditions(
-        self, x: Reals, number: int, joint: Joint, links: tuple[str, str]
-    ) -> Iterator[tuple[float, Reals]]:
+    def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:
         first, other = links
         if joint.pair.name == "revolute":
             yield self._way(x, number, links, 1 + 0j, "")
@@ -217,9 +215,7 @@ class _Conditions:
                 out[3 * self.bodies.index(link) + 2] = sign
         return out
 
-    def _way(
-        self, x: Reals, number: int, links: tuple[str, str], along: complex, carried: str
-    ) -> tuple[float, Reals]:
+    def _way(self, x: Reals, number: int, links: tuple[str, str], along: complex, carried: str) -> tuple[float, Reals]:
         """The way from the first to the second link's point along a direction that a link carries, or none does."""
         size, out = self.linkage.size, np.zeros(3 * len(self.bodies))
         gap = 0j
@@ -320,17 +316,17 @@ def regular(motion: Motion, row: int) -> bool:
     return bool(values[matrix.shape[1] - 1] > _SINGULAR * values[0])
 
 
-def _chosen(releases: Sequence[_Release], forces: Reals) -> list[_Release]:
+def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:
     """As many releases as leave the rest independent."""
     out: list[_Release] = []
     joints: dict[int, set[str]] = {}
-    members = {number: max(2, len({one.link for one in releases if one.joint == number})) for number in {one.joint for one in releases}}
     while forces.shape[1]:
         here = [one.directed(forces) for one in releases]
         share = {}
         for k, one in enumerate(here):
             taken = joints.get(one.joint, set())
-            if one.link in taken or len(taken) + 1 >= members[one.joint] or len(one.functional) > forces.shape[1]:
+            emptied = len(taken) + 1 >= len(linkage.mechanism.chain.joints[one.joint].links)
+            if one.link in taken or emptied or len(one.functional) > forces.shape[1]:
                 continue
             share[k] = float(np.linalg.svd(one.functional @ forces, compute_uv=False)[-1])
         largest = max(share.values(), default=0.0)
@@ -347,7 +343,7 @@ def _chosen(releases: Sequence[_Release], forces: Reals) -> list[_Release]:
 
 def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:
     """As many releases as leave the rest independent, exchanged one by one as long as its groups get smaller."""
-    chosen = _chosen(releases, forces)
+    chosen = _chosen(linkage, releases, forces)
     cost = _cost(linkage, chosen)
     others = [one for one in releases if not one.turned]
     for _ in range(len(chosen)):

@@ -16,6 +16,7 @@ __all__ = ["Rows", "follow_path", "run_rows", "without_first"]
 
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
+_AT_IT = 1e-12  # of the size: a row so near to the shortest way of a slide is there
 _AT_CHANGE = 1e-7  # below this root a path that turns back is taken to turn back in a change point
 
 
@@ -190,7 +191,8 @@ def _passed(made: Plan, path: Reals) -> Reals:
     places = []
     for k, value in made.shortest if len(path) > 1 else ():
         before, behind = path[:-1, k] - value, path[1:, k] - value
-        rows = np.flatnonzero(before * behind < 0)
+        far = np.minimum(np.abs(before), np.abs(behind)) > _AT_IT * made.lower.size
+        rows = np.flatnonzero((before * behind < 0) & far)
         places.append(rows + before[rows] / (before[rows] - behind[rows]))
     return np.unique(np.concatenate(places)) if places else np.empty(0)
 

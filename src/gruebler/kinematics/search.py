@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from numbers import Integral, Number
 from typing import Literal, NamedTuple
 
@@ -155,7 +156,9 @@ class Solver:
 
     def __init__(self, group: Conditions) -> None:
         from gruebler._numeric.closure import closing
+        from gruebler._numeric.compiling import for_work
         from gruebler._numeric.newton import newton
+        from gruebler._numeric.work import closing_work, newton_work
 
         self.size, n = group.size, 3 * group.bodies
         self._group = group
@@ -168,7 +171,8 @@ class Solver:
             group.lines,
         )
         self._residual, self._jacobian, self._pivots = np.zeros(n), np.zeros((n, n)), np.zeros(n, np.int64)
-        self._closing, self._newton = closing, newton
+        self._closing = partial(for_work, closing, closing_work(n))
+        self._newton = partial(for_work, newton, newton_work(n))
         self._widest = max(self.size, float(np.abs(group.points).max()))
         self._leaders, self._offsets = _parallel_bodies(group)
 
@@ -180,7 +184,7 @@ class Solver:
     def settle(self, pose: Reals) -> bool:
         """Improve a pose, in place, by Newton's method; whether it then satisfies the conditions."""
         work = self._residual, self._jacobian
-        self._newton(*self._arguments, pose, self.size, *work, self._pivots, _STEPS)
+        self._newton()(*self._arguments, pose, self.size, *work, self._pivots, _STEPS)
         return self._is_closed(pose)
 
     def settle_singular(self, pose: Reals) -> bool:
@@ -191,7 +195,7 @@ class Solver:
         return self._is_closed(pose)
 
     def _is_closed(self, pose: Reals) -> bool:
-        gap = self._closing(*self._arguments, pose, self.size, self._residual, self._jacobian)
+        gap = self._closing()(*self._arguments, pose, self.size, self._residual, self._jacobian)
         if not gap <= _CLOSED * max(self._widest, _farthest(pose)):
             return False
         turns = np.exp(1j * np.append(pose[2::3], 0.0))
@@ -231,7 +235,7 @@ class Solver:
 
     def _slope(self, pose: Reals) -> tuple[Reals, Reals]:
         """The Jacobian, without unit, and the units of the pose; the residual is left behind."""
-        self._closing(*self._arguments, pose, self.size, self._residual, self._jacobian)
+        self._closing()(*self._arguments, pose, self.size, self._residual, self._jacobian)
         reach = max(self.size, _farthest(pose))
         unit = np.tile([reach, reach, 1.0], len(pose) // 3)
         return self._jacobian * (unit / self.size), unit

@@ -34,7 +34,9 @@ __all__ = [
 GOOD = radians(40)
 """The rule of thumb: the transmission angle should not fall below."""
 
-_SLOW = 1e-7  # of the size (per unit of the drive): a velocity below it has no direction of its own
+_SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
+_LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
+_CONSTANT = 1e-8  # radians: an angle that varies by less is constant; next to change points half the digits are lost
 
 
 class NoTransmissionAngleError(LinkageError):
@@ -105,7 +107,7 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
     if plan.released:
         raise NoTransmissionAngleError(
             "the linkage is overconstrained, and how its joints share the force depends on how they yield",
-            "das Getriebe ist überbestimmt, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
+            "das Getriebe ist übergeschlossen, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
             "Nachgiebigkeit ab",
         )
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
@@ -234,7 +236,10 @@ def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Comp
     origin, speed, change = (motion.places[m, :, k] for m in range(3))
     way = speed + 1j * w * (point[0] - origin)
     rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
-    rest = np.abs(way) < _SLOW * motion.plan.lower.size
+    fastest = np.maximum(
+        np.abs(motion.places[1]).max(axis=1), motion.plan.lower.size * np.abs(motion.rates[0]).max(axis=1)
+    )
+    rest = np.abs(way) < _SLOW * fastest
     return np.where(rest, rate, way), np.where(rest, 0, rate)
 
 
@@ -306,12 +311,13 @@ def _stationary(course: Course, leg: Leg) -> tuple[Reals, list[tuple[float, floa
     def cosine(drives: Reals) -> Reals:
         return product(course.at(drives, 2)).real[None]
 
-    least = 1e-10
-    slow = least / (1 if course.turning_drive else course.plan.lower.size)
+    slow = _LEAST / (1 if course.turning_drive else course.plan.lower.size)
+    angles = _folded(_lines(course.at(course.grid, 2), leg))
+    constant = not course.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
     places = [
         zero.at
-        for jet, floor in ((turning, slow), (sine, least), (cosine, least))
-        for zero in zeros(jet, course.samples(2), floor)
+        for jet, floor in ((turning, slow), (sine, _LEAST), (cosine, _LEAST))
+        for zero in (() if constant else zeros(jet, course.samples(2), floor))
     ]
     if course.span.full:
         return np.array(places or [course.span.low]), []

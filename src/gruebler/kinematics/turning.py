@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from math import pi
 from typing import NamedTuple
 
@@ -94,6 +95,7 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
                 yield number, (two, one) if two == mechanism.frame else (one, two), freedom
 
 
+@lru_cache(maxsize=32)
 def _row(made: Circuit, joint: int, links: tuple[str, str], freedom: str) -> Rotatability:
     lowest, highest = made.range(_quantity(joint, links, freedom), 1.0 if freedom == "turn" else made.system.lower.size)
     turns, full = 0, False

@@ -68,7 +68,9 @@ class Disc(NamedTuple):
     """A disc cam, by the lift that it gives a follower (`gruebler.cams`): a roller, or a flat face across its motion.
 
     ``x, y`` is the axis; the cam's own frame is turned by the angle; lengths, those of the lift too, are multiplied by
-    ``scale``.
+    ``scale``. The follower slides in a guide, or it swings: then the lift is in degrees, against the line of centres,
+    the pivot lies at ``distance`` on the x axis (negative: on the left), the roller's centre on an arm, the flat face
+    ``face`` from the pivot.
     """
 
     x: float
@@ -80,6 +82,9 @@ class Disc(NamedTuple):
     offset: float = 0.0
     flat: bool = False
     scale: float = 1.0
+    arm: float = 0.0
+    distance: float = 0.0
+    face: float = 0.0
 
 
 class Driver(NamedTuple):

@@ -78,6 +78,9 @@ class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     offset: float = 0.0
     flat: bool = False
     scale: float = 1.0
+    arm: float = 0.0
+    distance: float = 0.0
+    face: float = 0.0
     pins: int | None = None
     slots: int | None = None
     internal: bool = False
@@ -85,7 +88,7 @@ class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
 
 _KINDS = {
     "circle": {"circle"},
-    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale"},
+    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"},
     "pins": {"pins", "angle"},
     "slots": {"slots", "angle", "internal"},
 }
@@ -244,7 +247,7 @@ def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Wheel |
         if record.base is None:
             raise LinkageError(f"{where}.base: the radius of the base circle is missing")
         sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
-        return Disc(x, y, angle, record.cam, *sizes)
+        return Disc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
     if record.pins is not None:
         return Driver(x, y, angle, record.pins)
     assert record.slots is not None

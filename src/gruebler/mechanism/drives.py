@@ -69,7 +69,7 @@ def check_drives(mechanism: Mechanism) -> DriveReport:
     locks = [Lock(d.joint, d.direction, d.between) for d in mechanism.drives]
     free, locked = generic(chain), generic(chain, locks)
     first = len(locked.placement.rows) - len(locks)
-    still = locked.motions[:, chain.index(mechanism.frame)]
-    moving = tuple(link for i, link in enumerate(chain.links) if (locked.motions[:, i] != still).any())
-    redundant = tuple(k for k in range(len(locks)) if locked.stresses[:, first + k].any())
+    still = set(next(cluster for cluster in locked.clusters if mechanism.frame in cluster))
+    moving = tuple(link for link in chain.links if link not in still)
+    redundant = tuple(k for k in range(len(locks)) if locked.redundancy and locked.some_stresses[first + k].any())
     return DriveReport(free.mobility, len(locks), locked.mobility, moving, redundant)

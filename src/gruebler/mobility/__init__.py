@@ -3,7 +3,7 @@
 from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count, counted
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
-from gruebler.mobility.rank import Generic, generic, generic_mobility
+from gruebler.mobility.rank import Generic, TooLargeError, generic, generic_mobility
 from gruebler.mobility.report import MobilityReport, Verdict, mobility_report
 from gruebler.mobility.sparsity import License, pebble_mobility, pebble_rank, theorem
 
@@ -14,6 +14,7 @@ __all__ = [
     "License",
     "MobilityReport",
     "Overconstrained",
+    "TooLargeError",
     "Verdict",
     "count",
     "counted",

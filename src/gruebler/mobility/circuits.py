@@ -14,11 +14,21 @@ search has a budget; what it did not take apart is handed back whole with ``mini
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.prime_field import P, left_null_space, product, reduced
+from gruebler._numeric.prime_field import (
+    P,
+    Support,
+    echelon,
+    left_null_space,
+    left_null_spaces,
+    null_space_by_column,
+    product,
+    reduced,
+)
 from gruebler.mobility.rank import Generic
 
 __all__ = ["Overconstrained", "overconstrained"]
@@ -27,6 +37,7 @@ _BUDGET = 200  # subspaces met in one connected part of the stress space
 _LARGEST = 60  # the redundancy of a connected part up to which it is taken apart
 
 Matrix = NDArray[np.int64]
+Column = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,63 +68,134 @@ def overconstrained(rank: Generic) -> tuple[Overconstrained, ...]:
     >>> [(part.links, part.redundancy) for part in overconstrained(generic(braced))]
     [(('0', '1', '2', '3'), 1)]
     """
+    if rank.redundancy == 0:
+        return ()
     found = []
-    for basis in _connected_parts(rank):
-        found += _Part(rank, basis).minimal_supports()
-    return tuple(sorted(found, key=lambda part: (len(part.links), part.joints)))
+    basis = null_space_by_column(rank.stress_form)
+    for part in _connected_parts(rank, basis):
+        if basis is None or not 1 < part.dimension <= _LARGEST:
+            found.append(_as_a_whole(rank, part, basis))
+        else:
+            found += _Part(rank, part, basis).minimal_supports()
+    return tuple(sorted(found, key=lambda one: (len(one.links), one.joints)))
 
 
-def _connected_parts(rank: Generic) -> list[Matrix]:
+class _Rows(NamedTuple):
+    """The constraints that a connected part of the stress space loads."""
+
+    rows: list[int]
+    members: list[int]
+    """The basis vectors that lie in it."""
+
+    @property
+    def dimension(self) -> int:
+        return len(self.members)
+
+
+def _connected_parts(rank: Generic, basis: dict[int, Support] | None) -> list[_Rows]:
     """Split the basis of the stresses, which is of the form [I | D], into parts that share no constraint.
 
-    Within a multiple joint the loads on a link mix the constraints, so such a joint connects as a whole.
+    Within a multiple joint the loads on a link mix the constraints, so such a joint connects as a whole. Where the
+    basis is too large to be written down, a constraint is joined with those that its equation names; that may leave
+    parts together.
     """
-    stresses = rank.stresses
-    root = list(range(len(stresses)))
+    sharing, free = _sharing(rank, basis)
+    joints, owners = rank.chain.joints, rank.placement.owners
+    root = list(range(len(owners)))
 
     def find(i: int) -> int:
         while root[i] != i:
             root[i] = i = root[root[i]]
         return i
 
-    multiple = {number for number, joint in enumerate(rank.chain.joints) if joint.count > 1}
-    loaded: dict[tuple[int, int], list[int]] = {}
-    for row, (joint, *_) in enumerate(rank.placement.owners):
-        place = (joint, 0) if joint in multiple else (-1, row)
-        loaded.setdefault(place, []).extend(int(i) for i in np.flatnonzero(stresses[:, row]))
-    for sharing in loaded.values():
-        for other in sharing[1:]:
-            root[find(other)] = find(sharing[0])
-    parts: dict[int, list[int]] = {}
-    for i in range(len(stresses)):
-        parts.setdefault(find(i), []).append(i)
-    return [stresses[members] for members in parts.values()]
+    first_of_joint: dict[int, int] = {}
+    for row, others in sharing.items():
+        for other in others:
+            root[find(other)] = find(row)
+        joint = owners[row][0]
+        if joints[joint].count > 1:
+            root[find(row)] = find(first_of_joint.setdefault(joint, row))
+    parts: dict[int, _Rows] = {}
+    for k, row in enumerate(free):
+        parts.setdefault(find(row), _Rows([], [])).members.append(k)
+    for row in sorted(sharing):
+        parts[find(row)].rows.append(row)
+    return list(parts.values())
+
+
+def _sharing(rank: Generic, basis: dict[int, Support] | None) -> tuple[dict[int, list[int]], list[int]]:
+    """For each loaded constraint those that it shares a stress with, and the one each basis vector has for itself."""
+    form = rank.stress_form
+    taken = {pivot for pivot, _, _ in form.pivots}
+    free = [row for row in range(form.columns) if row not in taken]
+    if basis is not None:
+        return {row: [free[k] for k in members.tolist()] for row, (members, _) in basis.items()}, free
+    loaded: NDArray[np.bool_] = np.any(rank.some_stresses, axis=1)
+    sharing: dict[int, list[int]] = {row: [] for row in free}
+    for pivot, columns, _ in form.pivots:
+        if loaded[pivot]:
+            sharing[pivot] = columns[loaded[columns]].tolist()
+    return sharing, free
+
+
+def _as_a_whole(rank: Generic, part: _Rows, basis: dict[int, Support] | None) -> Overconstrained:
+    """A part as one subchain; minimal if its stress is the only one. A few random stresses tell what is loaded."""
+    single = part.dimension == 1
+    on_links: set[int] = set()
+    on_joints: list[int] = []
+    for joint, loads in _loads(rank, {row: rank.some_stresses[row] for row in part.rows}).items():
+        loaded = [link for link, load in loads.items() if load.any()]
+        on_links.update(loaded)
+        if loaded:
+            on_joints.append(joint)
+    links = tuple(rank.chain.links[link] for link in sorted(on_links))
+    joints = tuple(sorted(on_joints))
+    removing = joints if single else () if basis is None else _in_every_stress(rank, part, basis)
+    return Overconstrained(links, joints, part.dimension, single, removing, joints if single else ())
+
+
+def _in_every_stress(rank: Generic, part: _Rows, basis: dict[int, Support]) -> tuple[int, ...]:
+    """The joints that every stress of the part loads: those whose constraints hold as many independent entries."""
+    rows: dict[int, list[int]] = {}
+    for row in part.rows:
+        rows.setdefault(rank.placement.owners[row][0], []).append(row)
+    found = []
+    for joint, mine in sorted(rows.items()):
+        if len(mine) >= part.dimension:
+            entries = [dict(zip(basis[row][0].tolist(), basis[row][1].tolist(), strict=True)) for row in mine]
+            if echelon(entries, rank.redundancy).rank == part.dimension:
+                found.append(joint)
+    return tuple(found)
 
 
 class _Part:
-    """One connected part of the stress space, with the loads that its stresses put on links and joints."""
+    """One connected part of the stress space, with the loads that its stresses put on links and joints.
 
-    def __init__(self, rank: Generic, basis: Matrix) -> None:
+    Links whose loads vanish for the same stresses are in or out together, and so are joints: one of each class is
+    asked.
+    """
+
+    def __init__(self, rank: Generic, part: _Rows, basis: dict[int, Support]) -> None:
         self.chain = rank.chain
-        self.dimension = len(basis)
+        self.dimension = part.dimension
+        place = {member: k for k, member in enumerate(part.members)}
+        columns = {}
+        for row in part.rows:
+            members, values = basis[row]
+            columns[row] = np.zeros(self.dimension, np.int64)
+            columns[row][[place[k] for k in members.tolist()]] = values
         on_links: dict[int, list[Matrix]] = {}
         on_joints: dict[int, list[Matrix]] = {}
-        for joint, loads in _loads(rank, basis).items():
+        for joint, loads in _loads(rank, columns).items():
             for link, load in loads.items():
                 if load.any():
                     on_links.setdefault(link, []).append(load)
                     on_joints.setdefault(joint, []).append(load)
-        self.on_links = {link: np.hstack(loads) for link, loads in sorted(on_links.items())}
-        self.on_joints = {joint: np.hstack(loads) for joint, loads in sorted(on_joints.items())}
-        # Links that the same stresses leave unloaded are in or out together: one of each class is enough to ask.
-        self.classes = {left_null_space(load).tobytes(): load for load in self.on_links.values()}
+        self.links, self.classes = _by_kernel(on_links)
+        self.joints, self.joint_classes = _by_kernel(on_joints)
 
     def minimal_supports(self) -> list[Overconstrained]:
         whole = np.eye(self.dimension, dtype=np.int64)
-        if self.dimension == 1:
-            return [self._describe(whole, minimal=True)]
-        if self.dimension > _LARGEST:
-            return [self._describe(whole, minimal=False)]
         found: list[Overconstrained] = []
         seen = {whole.tobytes()}
         todo = [whole]
@@ -132,40 +214,46 @@ class _Part:
         """The subspaces, each once, that leave one class of links unloaded, where anything is left."""
         out = {}
         if len(space) > 1:
-            for load in self.classes.values():
-                kernel = left_null_space(product(space, load))
+            for kernel in left_null_spaces([product(space, load) for load in self.classes.values()]):
                 if 0 < len(kernel) < len(space):
                     smaller = reduced(product(kernel, space))
                     out[smaller.tobytes()] = smaller
         return out
 
     def _describe(self, space: Matrix, *, minimal: bool) -> Overconstrained:
-        links = tuple(self.chain.links[link] for link, load in self.on_links.items() if product(space, load).any())
-        joints, removing = [], []
-        for joint, load in self.on_joints.items():
-            loaded = product(space, load)
-            if loaded.any():
-                joints.append(joint)
-                if len(left_null_space(loaded)) == 0:
-                    removing.append(joint)
-        freeing = tuple(joints) if len(space) == 1 else ()
-        return Overconstrained(links, tuple(joints), len(space), minimal, tuple(removing), freeing)
+        loaded = {key for key, load in self.classes.items() if product(space, load).any()}
+        links = tuple(self.chain.links[link] for link, key in self.links.items() if key in loaded)
+        on_joints = {key: product(space, load) for key, load in self.joint_classes.items()}
+        on_joints = {key: load for key, load in on_joints.items() if load.any()}
+        ends = {key for key, load in on_joints.items() if len(left_null_space(load)) == 0}
+        joints = tuple(joint for joint, key in self.joints.items() if key in on_joints)
+        removing = tuple(joint for joint in joints if self.joints[joint] in ends)
+        return Overconstrained(links, joints, len(space), minimal, removing, joints if len(space) == 1 else ())
 
 
-def _loads(rank: Generic, basis: Matrix) -> dict[int, dict[int, Matrix]]:
-    """For each joint and each of its links the load (dimension, u) in terms of the joint's functionals.
+def _by_kernel(loads: dict[int, list[Matrix]]) -> tuple[dict[int, bytes], dict[bytes, Matrix]]:
+    """For each number, in order, the key of the stresses that do not load it; for each key one load that has it."""
+    whole = {number: np.hstack(some) for number, some in sorted(loads.items())}
+    kernels = left_null_spaces(list(whole.values()))
+    keys = {number: kernel.tobytes() for number, kernel in zip(whole, kernels, strict=True)}
+    return keys, {keys[number]: load for number, load in whole.items()}
+
+
+def _loads(rank: Generic, columns: dict[int, Column]) -> dict[int, dict[int, Matrix]]:
+    """For each joint and each of its links the load (stresses, u) in terms of the joint's functionals.
 
     The joint's first link takes up what the others put in, so that the load on every link is independent of
-    the tree of constraints that stands for a multiple joint.
+    the tree of constraints that stands for a multiple joint. ``columns`` has the entries of the stresses in each
+    constraint.
     """
     out: dict[int, dict[int, Matrix]] = {}
-    width = {number: len(f) for number, f in enumerate(rank.placement.functionals)}
-    for row, (joint, first, other, k) in enumerate(rank.placement.owners):
-        column = basis[:, row]
-        if not column.any():
-            continue
+    width = [len(functionals) for functionals in rank.placement.functionals]
+    for row, column in columns.items():
+        joint, first, other, k = rank.placement.owners[row]
         loads = out.setdefault(joint, {})
         for link, sign in ((first, -1), (other, 1)):
-            load = loads.setdefault(link, np.zeros((len(basis), width[joint]), np.int64))
+            load = loads.get(link)
+            if load is None:
+                load = loads[link] = np.zeros((len(column), width[joint]), np.int64)
             load[:, k] = (load[:, k] + sign * column) % P
     return out

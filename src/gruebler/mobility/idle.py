@@ -10,10 +10,11 @@ only where the chain has freedoms to spare (mobility of two or more) and only fo
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from gruebler._numeric.prime_field import Row, echelon
+from gruebler._numeric.prime_field import P, inverse
 from gruebler.chain import Chain
 from gruebler.mobility.rank import Generic
 
@@ -49,13 +50,15 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
     (IdleFreedom(links=('rod', 'barrel'), freedoms=1, when=<When.ALWAYS: 'always'>),)
     """
     chain = rank.chain
+    joints: dict[str, list[int]] = {link: [] for link in chain.links}
+    for k, joint in enumerate(chain.joints):
+        for link in joint.links:
+            joints[link].append(k)
     found = []
-    for link in chain.links:
-        mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+    for link, mine in joints.items():
         if len(mine) < 2 or link == frame:
             continue
-        rows: list[Row] = [dict(enumerate(f)) for k in mine for f in rank.placement.functionals[k]]
-        left = chain.space.b - echelon(rows, chain.space.b).rank
+        left = chain.space.b - _rank((f for k in mine for f in rank.placement.functionals[k]), chain.space.b)
         if left:
             found.append(IdleFreedom((link,), left, When.ALWAYS))
         elif rank.mobility >= 2 and _may_be_roller(rank, mine, frame):
@@ -77,8 +80,8 @@ def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple
             part_of[link] = link = part_of[part_of[link]]
         return link
 
-    for k, joint in enumerate(chain.joints):
-        if k not in balls:
+    for joint in chain.joints:
+        if joint.pair.name != "spherical":
             for other in joint.links[1:]:
                 part_of[part(other)] = part(joint.links[0])
     members: dict[str, list[str]] = {}
@@ -97,6 +100,23 @@ def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple
         if len(outside) > 1:  # both balls on one and the same link make a hinge, and its turn is no idle one
             out.append((tuple(links), (mine[0], mine[1])))
     return out
+
+
+def _rank(rows: Iterable[tuple[int, ...]], most: int) -> int:
+    """The rank of short rows; what follows once it has reached ``most`` is not looked at."""
+    basis: list[tuple[int, list[int]]] = []
+    for row in rows:
+        rest = list(row)
+        for pivot, known in basis:
+            if factor := rest[pivot]:
+                rest = [(a - factor * b) % P for a, b in zip(rest, known, strict=True)]
+        if any(rest):
+            pivot = next(k for k, value in enumerate(rest) if value)
+            scale = inverse(rest[pivot])
+            basis.append((pivot, [value * scale % P for value in rest]))
+            if len(basis) == most:
+                break
+    return len(basis)
 
 
 def _may_be_roller(rank: Generic, joints: list[int], frame: str) -> bool:

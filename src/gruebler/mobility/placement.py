@@ -17,6 +17,9 @@ from dataclasses import dataclass
 from random import Random
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gruebler._numeric.prime_field import P, Row
 from gruebler.chain import Chain, Joint
 from gruebler.pairs import Space
@@ -25,9 +28,6 @@ __all__ = ["Lock", "Placement", "place"]
 
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)
-
-Vector = tuple[int, int, int]
-Frame = tuple[tuple[Vector, Vector, Vector], Vector]
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,17 +61,12 @@ def place(chain: Chain, seed: int, locks: Sequence[Lock] = ()) -> Placement:
     A joint of k links binds its first link to each of the k - 1 others. The rows of locked freedoms come last.
     Cost O(constraints).
     """
-    random = Random(seed)
     b = chain.space.b
+    frames = _Frames(chain, Random(seed))
     rows: list[Row] = []
     owners = []
-    functionals = []
-    frames: list[Frame] = []
-    for number, joint in enumerate(chain.joints):
-        frame = _frame(chain.space, random)
-        frames.append(frame)
-        mine = _constraints(joint, chain.space, frame, random)
-        functionals.append(mine)
+    functionals = [frames.constraints(number, joint) for number, joint in enumerate(chain.joints)]
+    for number, (joint, mine) in enumerate(zip(chain.joints, functionals, strict=True)):
         first, *others = (chain.index(link) for link in joint.links)
         for other in others:
             for k, functional in enumerate(mine):
@@ -79,7 +74,7 @@ def place(chain: Chain, seed: int, locks: Sequence[Lock] = ()) -> Placement:
                 owners.append((number, first, other, k))
     for lock in locks:
         first, other = (chain.index(link) for link in lock.between)
-        functional = _placed(_unit(lock.direction.replace("H", "R")), chain.space, frames[lock.joint])
+        functional = frames.unit(lock.joint, lock.direction.replace("H", "R"))
         rows.append(_row(functional, first, other, b))
         owners.append((lock.joint, first, other, len(functionals[lock.joint])))
     return Placement(rows, b * (chain.n - 1), owners, functionals)
@@ -88,67 +83,71 @@ def place(chain: Chain, seed: int, locks: Sequence[Lock] = ()) -> Placement:
 def _row(functional: tuple[int, ...], first: int, other: int, b: int) -> Row:
     """The functional of the relative twist, other against first; the link 0 stands still."""
     row = {}
-    for link, sign in ((first, -1), (other, 1)):
-        if link:
-            row.update({b * (link - 1) + i: sign * v % P for i, v in enumerate(functional) if v})
+    if first:
+        row = {k: P - v for k, v in enumerate(functional, b * (first - 1)) if v}
+    if other:
+        row |= {k: v for k, v in enumerate(functional, b * (other - 1)) if v}
     return row
 
 
-def _constraints(joint: Joint, space: Space, frame: Frame, random: Random) -> list[tuple[int, ...]]:
-    """The functionals that vanish on the joint's freedoms."""
-    freedoms = joint.pair.freedoms[space]
-    out = []
-    for direction in space.directions:
-        if direction in freedoms or (direction == "Rz" and "Hz" in freedoms):
-            continue
-        moment, force = _unit(direction)
-        if direction == "Tz" and "Hz" in freedoms:
-            moment = (0, 0, -random.randrange(1, P))
-        out.append(_placed((moment, force), space, frame))
-    return out
+class _Frames:
+    """A random frame for each joint: the rows of a rotation matrix, times a non-zero number, and an origin."""
 
+    def __init__(self, chain: Chain, random: Random) -> None:
+        self.space = chain.space
+        numbers = [(*self._draw(random), self._pitch(joint, random)) for joint in chain.joints]
+        self._pitches = [pitch for *_, pitch in numbers]
+        w, x, y, z, *origin, _ = np.array(numbers, np.int64).T
+        ww, xx, yy, zz = (v * v % P for v in (w, x, y, z))
+        wx, wy, wz, xy, xz, yz = (a * b % P for a, b in ((w, x), (w, y), (w, z), (x, y), (x, z), (y, z)))
+        rotation = (
+            (ww + xx - yy - zz, 2 * (xy - wz), 2 * (xz + wy)),
+            (2 * (xy + wz), ww - xx + yy - zz, 2 * (yz - wx)),
+            (2 * (xz - wy), 2 * (yz + wx), ww - xx - yy + zz),
+        )
+        self._units = {}
+        """For each direction the functional of every joint's own axes, read in the base frame."""
+        for k, (turn, shift) in enumerate((("Rx", "Tx"), ("Ry", "Ty"), ("Rz", "Tz"))):
+            axis = [row[k] % P for row in rotation]
+            moment = [(origin[i - 2] * axis[i - 1] - origin[i - 1] * axis[i - 2]) % P for i in range(3)]
+            self._units[turn] = self._rows(axis, [np.zeros_like(w)] * 3)
+            self._units[shift] = self._rows(moment, axis)
 
-def _unit(direction: str) -> tuple[Vector, Vector]:
-    a, b, c, x, y, z = (int(direction == d) for d in _SPATIAL)
-    return (a, b, c), (x, y, z)
+    def _draw(self, random: Random) -> tuple[int, ...]:
+        """A quaternion w, x, y, z and an origin, random as far as the space allows."""
 
+        def number() -> int:
+            return random.randrange(1, P)
 
-def _placed(functional: tuple[Vector, Vector], space: Space, frame: Frame) -> tuple[int, ...]:
-    """A functional of the joint's own axes read in the base frame."""
-    rotation, origin = frame
-    force = _turn(rotation, functional[1])
-    moment = [m + a for m, a in zip(_turn(rotation, functional[0]), _cross(origin, force), strict=True)]
-    whole = dict(zip(_SPATIAL, (*moment, *force), strict=True))
-    return tuple(whole[d] % P for d in space.directions)
+        planar = self.space is Space.PLANAR
+        w, z = number(), number()
+        x, y = (0, 0) if planar else (number(), number())
+        if self.space is Space.SPHERICAL:
+            return w, x, y, z, 0, 0, 0
+        return w, x, y, z, number(), number(), 0 if planar else number()
 
+    def _pitch(self, joint: Joint, random: Random) -> int:
+        return random.randrange(1, P) if "Hz" in joint.pair.freedoms[self.space] else 0
 
-def _frame(space: Space, random: Random) -> Frame:
-    """The rows of a rotation matrix, times a non-zero number, and an origin: random as far as the space allows."""
+    def _rows(self, moment: list[NDArray[np.int64]], force: list[NDArray[np.int64]]) -> list[tuple[int, ...]]:
+        whole = dict(zip(_SPATIAL, (*moment, *force), strict=True))
+        return list(zip(*(whole[d].tolist() for d in self.space.directions), strict=True))
 
-    def number() -> int:
-        return random.randrange(1, P)
+    def unit(self, number: int, direction: str) -> tuple[int, ...]:
+        """The functional of one direction of a joint's own axes, read in the base frame."""
+        return self._units[direction][number]
 
-    planar = space is Space.PLANAR
-    w, z = number(), number()
-    x, y = (0, 0) if planar else (number(), number())
-    rotation = (
-        ((w * w + x * x - y * y - z * z) % P, 2 * (x * y - w * z) % P, 2 * (x * z + w * y) % P),
-        (2 * (x * y + w * z) % P, (w * w - x * x + y * y - z * z) % P, 2 * (y * z - w * x) % P),
-        (2 * (x * z - w * y) % P, 2 * (y * z + w * x) % P, (w * w - x * x - y * y + z * z) % P),
-    )
-    if space is Space.SPHERICAL:
-        return rotation, (0, 0, 0)
-    return rotation, (number(), number(), 0 if planar else number())
-
-
-def _turn(rotation: tuple[Vector, Vector, Vector], v: Vector) -> Vector:
-    a, b, c = (sum(r * x for r, x in zip(row, v, strict=True)) % P for row in rotation)
-    return a, b, c
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        (a[1] * b[2] - a[2] * b[1]) % P,
-        (a[2] * b[0] - a[0] * b[2]) % P,
-        (a[0] * b[1] - a[1] * b[0]) % P,
-    )
+    def constraints(self, number: int, joint: Joint) -> list[tuple[int, ...]]:
+        """The functionals that vanish on the joint's freedoms."""
+        freedoms = joint.pair.freedoms[self.space]
+        out = []
+        for direction in self.space.directions:
+            if direction in freedoms or (direction == "Rz" and "Hz" in freedoms):
+                continue
+            functional = self.unit(number, direction)
+            if direction == "Tz" and "Hz" in freedoms:
+                pitch = self._pitches[number]
+                turn = self.unit(number, "Rz")
+                functional = tuple((a - pitch * b) % P for a, b in zip(functional, turn, strict=True))
+            out.append(functional)
+        return out

@@ -15,15 +15,24 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.prime_field import Echelon, echelon, null_space, transposed
+from gruebler._numeric.prime_field import CoreTooLarge, Echelon, Row, echelon, null_space, random_solutions, transposed
 from gruebler.chain import Chain
+from gruebler.errors import GrueblerError
 from gruebler.mobility.placement import Lock, Placement, place
 from gruebler.mobility.sparsity import pebble_mobility, theorem
 
-__all__ = ["Generic", "generic", "generic_mobility"]
+__all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
 
 _FIRST_SEED = 20_261_121
+_SAMPLES = 3  # random motions or stresses that stand for all
+_MOST_ROWS = 400_000  # constraints that are taken without being asked again: about 1 GB
+_SECONDS_A_ROW = 1e-4
+_BYTES_A_ROW = 2700
 _TRIES = 4  # placements tried before a rank below the theorem's is called impossible
+
+
+class TooLargeError(GrueblerError):
+    """A chain whose rank takes more than about a minute or 1 GB, refused before it is begun."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +45,8 @@ class Generic:
     exact: bool
     error_bound: float
     """0 if exact; else how likely at most it is that mobility and redundancy are stated too large."""
+    large: bool = False
+    """Whether eliminations that take more than about a minute or 1 GB are begun."""
 
     @property
     def mobility(self) -> int:
@@ -56,38 +67,80 @@ class Generic:
         return np.hstack([still, basis]).reshape(len(basis), self.chain.n, b)
 
     @cached_property
-    def stresses(self) -> NDArray[np.int64]:
-        """A basis of the self-stresses, shape (redundancy, constraints): the dependencies among the constraints."""
-        if self.redundancy == 0:
-            return np.zeros((0, len(self.placement.rows)), np.int64)
-        turned = transposed(self.placement.rows, self.placement.columns)
-        return null_space(echelon(turned, len(self.placement.rows)))
+    def some_motions(self) -> NDArray[np.int64]:
+        """Three random motions side by side, shape (n, 3 b); they stand for all of them.
+
+        The chance that two links agree in them that move against each other in some motion is 1/P^3.
+        """
+        b = self.chain.space.b
+        moving = random_solutions(self.form, _SAMPLES).reshape(self.chain.n - 1, b * _SAMPLES)
+        return np.vstack([np.zeros((1, b * _SAMPLES), np.int64), moving])
+
+    @cached_property
+    def clusters(self) -> list[tuple[str, ...]]:
+        """The links by equal twists in every motion: they move alike, so they do not move against each other."""
+        found: dict[bytes, list[str]] = {}
+        for link, twists in zip(self.chain.links, self.some_motions, strict=True):
+            found.setdefault(twists.tobytes(), []).append(link)
+        return [tuple(cluster) for cluster in found.values()]
+
+    @cached_property
+    def stress_form(self) -> Echelon:
+        """The equations of the self-stresses, the dependencies among the constraints, in echelon form."""
+        rows = transposed(self.placement.rows, self.placement.columns)
+        return _eliminated(rows, len(self.placement.rows), large=self.large)
+
+    @cached_property
+    def some_stresses(self) -> NDArray[np.int64]:
+        """Three random self-stresses, shape (constraints, 3); they stand for all of them."""
+        return random_solutions(self.stress_form, _SAMPLES)
 
 
-def generic(chain: Chain, locks: Sequence[Lock] = ()) -> Generic:
+def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) -> Generic:
     """The generic rank of a chain, with its certificate, some freedoms locked if wanted.
 
     Cost: about linear for chains that grow dyad by dyad, cubic in the dense core of others; see
-    benchmarks/README.md.
+    benchmarks/README.md. Raises `TooLargeError` where that core takes more than about a minute or 1 GB, unless
+    ``large``.
     """
+    rows = len(locks) + sum(joint.count * joint.pair.u(chain.space) for joint in chain.joints)
+    if rows > _MOST_ROWS and not large:
+        raise _too_large(CoreTooLarge(rows, rows * _SECONDS_A_ROW, rows * _BYTES_A_ROW))
     licensed = bool(theorem(chain)) and not locks
     known = None
     best: tuple[Placement, Echelon] | None = None
     for attempt in range(_TRIES):
         placement = place(chain, _FIRST_SEED + attempt, locks)
-        form = echelon(placement.rows, placement.columns)
+        form = _eliminated(placement.rows, placement.columns, large=large)
         if form.rank == min(len(placement.rows), placement.columns):
-            return Generic(chain, placement, form, True, 0.0)
+            return Generic(chain, placement, form, True, 0.0, large)
         if licensed:
             known = pebble_mobility(chain) if known is None else known
             if placement.columns - form.rank == known:
-                return Generic(chain, placement, form, True, 0.0)
+                return Generic(chain, placement, form, True, 0.0, large)
         elif best is None:
             best = placement, form
         else:
             placement, form = max(best, (placement, form), key=lambda pair: pair[1].rank)
-            return Generic(chain, placement, form, False, placement.error_bound(form.rank) ** 2)
+            return Generic(chain, placement, form, False, placement.error_bound(form.rank) ** 2, large)
     raise AssertionError(f"{_TRIES} random placements stay below the rank that theory gives for {chain!r}")
+
+
+def _eliminated(rows: list[Row], columns: int, *, large: bool) -> Echelon:
+    try:
+        return echelon(rows, columns, large=large)
+    except CoreTooLarge as core:
+        raise _too_large(core) from None
+
+
+def _too_large(core: CoreTooLarge) -> TooLargeError:
+    numbers = f"{core.seconds / 60:.1f} min, {core.size / 1e9:.1f} GB"
+    return TooLargeError(
+        f"the chain leaves {core.rows:,} equations to be solved at once: about {numbers}; "
+        "`gruebler check --yes` and mobility_report(..., large=True) begin it nevertheless",
+        f"die Kette lässt {core.rows:,} Gleichungen auf einmal zu lösen: etwa {numbers}; "
+        "`gruebler check --yes` und mobility_report(..., large=True) beginnen trotzdem",
+    )
 
 
 def generic_mobility(chain: Chain) -> int:

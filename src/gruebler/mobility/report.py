@@ -10,7 +10,7 @@ from gruebler.chain import Chain
 from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
-from gruebler.mobility.rank import Generic, generic
+from gruebler.mobility.rank import generic
 from gruebler.views import Brief
 
 __all__ = ["MobilityReport", "Verdict", "mobility_report"]
@@ -104,7 +104,9 @@ class MobilityReport(Brief):
         }
 
 
-def mobility_report(chain: Chain, *, b: int | None = None, frame: str | None = None) -> MobilityReport:
+def mobility_report(
+    chain: Chain, *, b: int | None = None, frame: str | None = None, large: bool = False
+) -> MobilityReport:
     """Count the freedoms of a chain and check the count.
 
     Args:
@@ -112,6 +114,7 @@ def mobility_report(chain: Chain, *, b: int | None = None, frame: str | None = N
         b: the motions of a free link for the count, if the chain moves in a smaller group than its space.
         frame: the link that stands still; the first one if left out. It matters only for rollers
             (`gruebler.mobility.idle`): mobility does not depend on it.
+        large: begin even what takes more than about a minute or 1 GB, instead of raising `TooLargeError`.
 
     Cost: see `gruebler.mobility.rank.generic`.
 
@@ -124,8 +127,8 @@ def mobility_report(chain: Chain, *, b: int | None = None, frame: str | None = N
     still = chain.links[0] if frame is None else frame
     chain.index(still)
     number = count(chain, b)
-    rank = generic(chain)
-    clusters = _rigid_clusters(rank)
+    rank = generic(chain, large=large)
+    clusters = rank.clusters
     member = {link: k for k, cluster in enumerate(clusters) for link in cluster}
     immobile = tuple(k for k, joint in enumerate(chain.joints) if len({member[link] for link in joint.links}) == 1)
     return MobilityReport(
@@ -141,11 +144,3 @@ def mobility_report(chain: Chain, *, b: int | None = None, frame: str | None = N
         immobile,
         idle_freedoms(rank, still),
     )
-
-
-def _rigid_clusters(rank: Generic) -> list[tuple[str, ...]]:
-    """The links by equal twists in every motion: they move alike, so they do not move against each other."""
-    clusters: dict[bytes, list[str]] = {}
-    for i, link in enumerate(rank.chain.links):
-        clusters.setdefault(rank.motions[:, i].tobytes(), []).append(link)
-    return [tuple(cluster) for cluster in clusters.values()]

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import degrees
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
+from gruebler.kinematics.course import Span, follow
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation.trial import range_path
@@ -19,16 +21,26 @@ __all__ = ["Realisation"]
 _TEXT = {
     "en": {
         "full": "{drive} turns fully.",
-        "turning": "{drive} turns from {low:.0f}° to {high:.0f}°.",
-        "sliding": "{drive} moves from {low:.6g} to {high:.6g} {unit}.",
+        "turning": "{drive} turns from {low:.7g}° to {high:.7g}°.",
+        "sliding": "{drive} moves from {low:.7g} to {high:.7g} {unit}.",
+        "turning part": "Well conditioned it turns from {low:.0f}° to {high:.0f}°.",
+        "sliding part": "Well conditioned it moves from {low:.6g} to {high:.6g} {unit}.",
+        "turning at once": "{drive} turns well conditioned from {low:.0f}° to {high:.0f}°, all drives at once.",
+        "sliding at once": "{drive} moves well conditioned from {low:.6g} to {high:.6g} {unit}, all drives at once.",
         "quality": "Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).",
         "tries": "Tried: {tries} drawings (seed {seed}).",
         "none": "No dimensions were found with which the drives move it: {tries} drawings tried (seed {seed}).",
     },
     "de": {
         "full": "{drive} läuft um.",
-        "turning": "{drive} schwingt von {low:.0f}° bis {high:.0f}°.",
-        "sliding": "{drive} schiebt von {low:.6g} bis {high:.6g} {unit}.",
+        "turning": "{drive} schwingt von {low:.7g}° bis {high:.7g}°.",
+        "sliding": "{drive} schiebt von {low:.7g} bis {high:.7g} {unit}.",
+        "turning part": "Mit guter Kondition schwingt er von {low:.0f}° bis {high:.0f}°.",
+        "sliding part": "Mit guter Kondition schiebt er von {low:.6g} bis {high:.6g} {unit}.",
+        "turning at once": "{drive} schwingt mit guter Kondition von {low:.0f}° bis {high:.0f}°, "
+        "alle Antriebe zugleich.",
+        "sliding at once": "{drive} schiebt mit guter Kondition von {low:.6g} bis {high:.6g} {unit}, "
+        "alle Antriebe zugleich.",
         "quality": "Kleinste Gütezahl {quality:.2f} (1 ist das Beste, 0 singulär).",
         "tries": "Versucht: {tries} Zeichnungen (Startwert {seed}).",
         "none": "Keine Abmessungen gefunden, mit denen die Antriebe es bewegen: {tries} Zeichnungen versucht "
@@ -45,7 +57,8 @@ class Realisation(Brief):
     linkage: Linkage | None
     """None if none was found."""
     ranges: tuple[tuple[float, float], ...]
-    """From where to where each drive moves: radians, or the linkage's unit; all drives at once within the ranges."""
+    """From where to where each drive moves well conditioned: radians, or the linkage's unit; all drives at once within
+    the ranges."""
     full: bool
     """Whether every drive turns fully; the range is then one turn."""
     quality: float
@@ -60,6 +73,11 @@ class Realisation(Brief):
     def found(self) -> bool:
         """Whether there is a linkage."""
         return self.linkage is not None
+
+    @cached_property
+    def span(self) -> Span | None:
+        """From where to where a single drive moves at all, between its limits, as `measures` has it; else None."""
+        return follow(self.linkage).span if self.linkage is not None and len(self.ranges) == 1 else None
 
     def path(self, rows: int = 361) -> NDArray[np.float64]:
         """Drive values through the ranges, for `move`: (rows, drives); several drives wind at different speeds."""
@@ -76,11 +94,17 @@ class Realisation(Brief):
             return text["none"].format(tries=self.tries, seed=self.seed)
         said = []
         names = self.mechanism.drive_names()
-        for name, drive, (low, high) in zip(names, self.mechanism.drives, self.ranges, strict=True):
-            turning = drive.direction.startswith("R")
-            key = "full" if self.full else "turning" if turning else "sliding"
-            ends = (degrees(low), degrees(high)) if turning else (low, high)
-            said.append(text[key].format(drive=name, low=ends[0], high=ends[1], unit=self.linkage.unit))
+        for name, drive, well in zip(names, self.mechanism.drives, self.ranges, strict=True):
+            kind = "turning" if drive.direction.startswith("R") else "sliding"
+            if self.full:
+                ranges = {"full": well}
+            elif self.span is None:
+                ranges = {f"{kind} at once": well}
+            else:
+                ranges = {"full" if self.span.full else kind: self.span[:2], f"{kind} part": well}
+            for key, ends in ranges.items():
+                low, high = (degrees(v) if kind == "turning" else v for v in ends)
+                said.append(text[key].format(drive=name, low=low, high=high, unit=self.linkage.unit))
         said.append(text["quality"].format(quality=self.quality))
         said.append(text["tries"].format(tries=self.tries, seed=self.seed))
         return " ".join(said)

@@ -2,6 +2,7 @@
 
 from gruebler.specialisation.assignment import assignments, every_joint_moves, joint_types
 from gruebler.specialisation.contacts import with_contacts
+from gruebler.specialisation.estimates import expected_seconds
 from gruebler.specialisation.requirements import Place, Requirements, Wanted
 from gruebler.specialisation.selection import typed_chains, variants
 
@@ -11,6 +12,7 @@ __all__ = [
     "Wanted",
     "assignments",
     "every_joint_moves",
+    "expected_seconds",
     "joint_types",
     "typed_chains",
     "variants",

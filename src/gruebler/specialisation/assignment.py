@@ -101,11 +101,5 @@ def every_joint_moves(chain: Chain, mobility: int) -> bool:
     rank = generic(chain)
     if rank.mobility != mobility:
         return False
-    twists = rank.motions
-    return all(
-        any(
-            (twists[:, chain.index(a)] != twists[:, chain.index(b)]).any()
-            for a, b in zip(j.links, j.links[1:], strict=False)
-        )
-        for j in chain.joints
-    )
+    cluster = {link: k for k, links in enumerate(rank.clusters) for link in links}
+    return all(len({cluster[link] for link in j.links}) > 1 for j in chain.joints)

@@ -167,6 +167,12 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     """
     if not motion.plan.lower.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
+    if motion.plan.released:
+        raise LinkageError(
+            "the linkage is overconstrained: how its joints share the loads depends on how they yield",
+            "das Getriebe ist übergeschlossen: Wie sich die Lasten auf die Gelenke verteilen, hängt von ihrer "
+            "Nachgiebigkeit ab",
+        )
     wrenches = placed(motion, loads)
     if not len(motion):
         raise LinkageError(f"the motion has no rows. {motion.message()}".strip())

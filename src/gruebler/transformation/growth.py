@@ -136,4 +136,4 @@ def _order_does_not_matter(chain: Chain) -> bool:
     if chain.space.b != 3 or counted(chain) != 1:
         return False
     rank = generic(chain)
-    return rank.redundancy == 0 and len({rank.motions[:, i].tobytes() for i in range(chain.n)}) == chain.n
+    return rank.redundancy == 0 and len(rank.clusters) == chain.n

@@ -1,0 +1,205 @@
+"""Both tiers of every kernel give the same: calls recorded from real work, interpreted and compiled side by side."""
+
+import importlib
+import pkgutil
+import sys
+from collections.abc import Callable
+from copy import deepcopy
+from functools import cache, wraps
+from typing import Any, NamedTuple
+
+import networkx as nx
+import numpy as np
+import pytest
+
+import gruebler as gr
+from gruebler import _numeric
+from gruebler._numeric import compiling
+from gruebler._numeric.canonical import canonical_bulk, canonical_form
+from gruebler.catalog import entry
+from gruebler.chain import Chain
+from gruebler.drawing import draw
+from gruebler.enumeration import chains, count_chains, graph6_blocks
+from gruebler.kinematics.batch import four_bars, move_many
+from gruebler.kinematics.circuits import circuit
+from gruebler.kinematics.search import conditions
+from gruebler.kinematics.triads import assembly_modes
+from gruebler.kinematics.turning import rotatability
+from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.mechanism import Mechanism
+from gruebler.synthesis.alt_burmester import PROBLEMS, follow, generic
+from tests.samples import CLASS_III, parallel_legs
+
+# Integers are equal. Numbers may differ in the last digits by powers, by divisions of complex numbers and by sums taken
+# in pairs: some units of 2e-16 for each operation, more where a root is near zero.
+CLOSE = 1e-11
+DOORS = {
+    "walk", "_designs", "closing", "newton", "settle", "trace", "evaluate", "jacobian", "label_graph", "adjacency",
+    "_label_all", "grow", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
+}  # fmt: skip
+PARTS = {
+    "_goes_on",
+    "_either",
+    "_dot",
+    "_subtract",
+    "_nothing",
+}  # compiled forms of the words in `lanes`, and their like
+
+
+SLIDING = [
+    ("R(0-1) P(1-2) R(2-3) P(0-3); frame=0; drive=R(0-1)", [(0, 0), (2, 1, 0.5), (4, 2), (4, 2.2, 1.4)]),
+    ("R(0-1) R(1-2) P(2-3) P(0-3); frame=0; drive=R(0-1)", [(0, 0), (1, 1), (3, 1.5, 1.3), (6, 2, 0.2)]),
+]
+
+
+class Call(NamedTuple):
+    """A call of a kernel: its arguments before and after, and what it returned."""
+
+    before: Any
+    after: Any
+    result: Any
+
+
+def modules() -> list[Any]:
+    found = [
+        importlib.import_module(f"{_numeric.__name__}.{one.name}") for one in pkgutil.iter_modules(_numeric.__path__)
+    ]
+    return [*found, *(module for name, module in sys.modules.items() if name == __name__)]
+
+
+def kernels() -> list[Callable[..., Any]]:
+    modules()
+    return [kernel for kernel in compiling.kernels() if kernel.__module__.startswith(_numeric.__name__)]
+
+
+def work() -> None:
+    """Something for every kernel to do, small enough to be interpreted."""
+    assert count_chains(10, 1, orbits=True).chains == 230
+    count_chains(9, 2, orbits=True)
+    count_chains(7, 0, orbits=True)
+    found = list(chains(8, 1))
+    assert len({gr.code(chain) for chain in found}) == len(found) == 16
+    two = nx.from_graph6_bytes(
+        b"[_GECCoA?gb_WO@K??????????_??_??G??I??K_??O???`???X??GO??A?G??OP"
+    )  # leaves are compared
+    for graph in (
+        two,
+        nx.petersen_graph(),
+        nx.disjoint_union(nx.hypercube_graph(3), nx.cycle_graph(30)),
+        nx.star_graph(40),
+    ):
+        plain = nx.convert_node_labels_to_integers(graph)
+        canonical_form(len(plain), None, np.array(plain.edges()))
+    canonical_bulk(4, np.array([[[0, 1], [1, 2], [2, 3]], [[0, 2], [2, 1], [1, 3]]]))
+    assert sum(len(lines) for lines in graph6_blocks(8, 1)) == 16
+    draw(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
+    steady = {"speed": 1.0, "acceleration": 2.0, "jerk": 3.0, "order": 3}
+    doors = FourBar(25, 70, 40, 70), FourBar(25, 70, 25, 70), SliderCrank(20, 70, 8), InvertedSliderCrank(50, 30, 3)
+    for linkage in (door.linkage() for door in doors):
+        gr.move(linkage, gr.degrees(0, 200, 2), **steady)
+        gr.move(linkage, gr.degrees(0, 28, 4), **steady)
+        circuit(linkage).at([0.5, 1.5])
+    gr.move(FourBar(50, 70, 40, 70).linkage(), gr.degrees(60, 360, 3))
+    gr.move(FourBar(30, 50, 50, 30).linkage(), gr.degrees(-30, 120, 10), **steady)  # a kite: its outer joints meet
+    for linkage in (CLASS_III, parallel_legs()):
+        gr.move(linkage, gr.degrees(40, 140, 5), **steady)
+        gr.move(linkage, np.radians([50, 90, 53.2]), **steady)
+    gr.move(parallel_legs(), np.radians([150, 180, 150]), order=0)  # back in a change point
+    gr.move(FourBar(20, 20, 20, 20).linkage(), np.radians([178.6, 179.4, 180.1, 180.1, 179.4, 178.6]))
+    gr.move(FourBar(20, 20, 20, 20).linkage(), np.radians([64.0, 104, 144, 184, 144, 104, 64]))
+    rotatability(parallel_legs())
+    for text, places in SLIDING:
+        gr.move(Linkage.drawn(Mechanism.parse(text), dict(enumerate(places))), gr.degrees(0, 20, 2), **steady)
+    for name in ("cam", "cam_roller", "geneva", "belt", "friction_forced", "winch_plane"):
+        gr.move(entry(name).linkage(), gr.degrees(0, 30, 5), **steady)
+        circuit(entry(name).linkage())
+    gr.move(entry("crane_cyl").linkage(), np.linspace(34.5, 47, 6), **steady)
+    assembly_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
+    move_many(four_bars([25, 30], 70, 40, 70), gr.degrees(0, 60, 5), speed=1.0)
+    for problem in PROBLEMS[2:]:  # four-bars through positions and points: a short way from known solutions
+        begin, z = generic(problem)
+        follow(problem, z[:2], begin, begin * (1.01 + 0.005j), 1e-3)
+
+
+@cache
+def recorded() -> dict[str, list[Call]]:
+    """Up to three calls of each kernel, the first, the third and the tenth."""
+    calls: dict[str, list[Call]] = {}
+    known = {kernel: recorder(kernel, calls) for kernel in kernels()}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("GRUEBLER_KERNELS", "interpreted")
+        for module in modules():
+            for name, value in list(vars(module).items()):
+                if callable(value) and getattr(value, "__hash__", None) and value in known:
+                    patch.setattr(module, name, known[value])
+        work()
+    return calls
+
+
+def recorder(kernel: Callable[..., Any], calls: dict[str, list[Call]]) -> Callable[..., Any]:
+    mine = calls.setdefault(f"{kernel.__module__}.{kernel.__name__}", [])
+    count = 0
+
+    @wraps(kernel)
+    def record(*arguments: Any) -> Any:
+        nonlocal count
+        count += 1
+        if count not in (1, 3, 10):
+            return kernel(*arguments)
+        before = deepcopy(arguments)
+        result = kernel(*arguments)
+        mine.append(Call(before, deepcopy(arguments), deepcopy(result)))
+        return result
+
+    return record
+
+
+def numpied(value: Any) -> Any:
+    """What a kernel takes when it is compiled: arrays instead of lists."""
+    if isinstance(value, list):
+        return np.array(value)
+    if type(value) is tuple:
+        return tuple(numpied(part) for part in value)
+    return value
+
+
+def agree(one: Any, other: Any) -> None:
+    if isinstance(one, tuple):
+        for a, b in zip(one, other, strict=True):
+            agree(a, b)
+    elif one is None:
+        assert other is None
+    else:
+        a, b = np.asarray(one), np.asarray(other)
+        assert a.shape == b.shape
+        if a.dtype.kind in "iub" and b.dtype.kind in "iub":
+            assert (a == b).all()
+        else:
+            size = max(1.0, np.abs(np.nan_to_num(b, posinf=0, neginf=0)).max(initial=0))
+            assert np.allclose(a, b, rtol=CLOSE, atol=CLOSE * size, equal_nan=True)
+
+
+@pytest.fixture
+def kernel_tier() -> None:
+    """Not one tier after the other here, but both side by side."""
+
+
+NAMES = [f"{kernel.__module__}.{kernel.__name__}" for kernel in kernels()]
+_BY_NAME = dict(zip(NAMES, kernels(), strict=True))
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=() if name.rpartition(".")[2] in DOORS else pytest.mark.slow)
+        for name in NAMES
+        if name.rpartition(".")[2] not in PARTS
+    ],
+)
+def test_both_tiers_agree(name: str) -> None:
+    calls = recorded()[name]
+    assert calls, "no work in this file calls it"
+    for call in calls:
+        arguments = numpied(deepcopy(call.before))
+        agree(numpied(call.result), compiling.compiled(_BY_NAME[name])(*arguments))
+        agree(numpied(call.after), arguments)
