@@ -137,9 +137,13 @@ def test_nine_points_give_the_four_bar_and_its_cognates_back():
     motion = move(KNOWN, np.radians([10.0, 45, 80, 120, 155, 195, 240, 280, 330]))
     found = synthesise_path(PathTask(motion.point("P")))
     assert found.count.found == found.count.theorem == 1442
-    wanted = [sorted([c.size.a, c.size.b, c.size.c, c.size.d]) for c in cognates(FourBar(25, 70, 40, 70), 45, 40)]
-    have = [sorted(d.linkage.length(*row) for row in _ROWS) for d in found.designs]
-    for lengths in wanted:
+    raw = [(c.size.a, c.size.b, c.size.c, c.size.d) for c in cognates(FourBar(25, 70, 40, 70), 45, 40)]
+    wanted = [sorted(row) for row in raw]
+    assert len(wanted) == 3
+    # Of the three the double rocker, whose coupler turns, cannot be driven through all points at the frame.
+    for lengths, accepted in zip(wanted, [FourBar(*row).turning not in ((), ("b",)) for row in raw], strict=True):
+        designs = found.designs if accepted else found.rejected
+        have = [sorted(d.linkage.length(*row) for row in _ROWS) for d in designs]
         assert min(np.abs(np.subtract(lengths, row)).max() for row in have) < 1e-6
     for design in found.designs:
         assert design.verdict.error < 1e-9

@@ -98,14 +98,16 @@ class Generic(NamedTuple):
 @cache
 def generic(problem: Problem) -> Generic:
     """The stored solutions, sharpened to full precision."""
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import refine
+    from gruebler._numeric.work import refining
 
     name = problem.name.replace(" ", "_")
     raw = (files("gruebler.synthesis") / "data" / f"{name}.npz").read_bytes()
     with np.load(BytesIO(raw)) as stored:
         p, z = stored["parameters"], stored["solutions"].astype(np.complex128)
     steps = np.empty(len(z))
-    refine(z, p, problem.poses, problem.points, steps)
+    for_work(refine, refining(len(z)))(z, p, problem.poses, problem.points, steps)
     if not (steps < 1e-10).all():
         raise SynthesisError(f"the stored solutions of {problem.name} are damaged")
     return Generic(p, z)
@@ -145,15 +147,18 @@ def follow(
     progress: Progress | None = None,
 ) -> tuple[Complexes, Ints]:
     """Ends and statuses of all paths; threads share them, the answer does not depend on how many there are."""
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import track
+    from gruebler._numeric.work import tracking
 
+    kernel = for_work(track, tracking(len(starts)))
     out, status = np.empty_like(starts), np.empty(len(starts), np.int64)
     work = np.empty(len(starts), np.int64)
     size = 32
     blocks = [slice(k, k + size) for k in range(0, len(starts), size)]
 
     def run(part: slice) -> None:
-        track(starts[part], begin, end, problem.poses, problem.points, loose, out[part], status[part], work[part])
+        kernel(starts[part], begin, end, problem.poses, problem.points, loose, out[part], status[part], work[part])
 
     workers = max(1, min(threads or os.cpu_count() or 1, len(blocks)))
     done = 0
@@ -173,7 +178,9 @@ def solutions(
     Paths that fail, and those whose ends coincide, are followed again with fine steps; what is still missing is sought
     along other ways through the space of tasks. Cost: 1442 paths 3 s on one core.
     """
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import ARRIVED, INFINITE, refine
+    from gruebler._numeric.work import refining
 
     base = generic(problem)
     ends, status = follow(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
@@ -195,7 +202,7 @@ def solutions(
     missing = problem.classes - len(found)
     infinite = min(missing, int(np.count_nonzero(status == INFINITE)))
     steps = np.empty(len(found))
-    refine(found, p, problem.poses, problem.points, steps)
+    for_work(refine, refining(len(found)))(found, p, problem.poses, problem.points, steps)
     good = certified(problem.poses, problem.points, found, p)
     return Solutions(found, good, infinite, missing - infinite)
 

@@ -79,7 +79,6 @@ def certified(poses: int, points: int, z: Complexes, p: Complexes) -> NDArray[np
 
     if not len(z):
         return np.zeros(0, bool)
-    plain = getattr(evaluate, "py_func", evaluate)
     count = len(z)
     still = np.zeros((4, 8), np.complex128)
 
@@ -88,7 +87,7 @@ def certified(poses: int, points: int, z: Complexes, p: Complexes) -> NDArray[np
         holder = np.empty(8, object)
         holder[:] = unknowns
         with np.errstate(all="ignore"):
-            plain(holder, p, still, poses, points, f, jac, ft)
+            evaluate(holder, p, still, poses, points, f, jac, ft)
         return f, jac
 
     def numbers(matrix: NDArray[Any]) -> tuple[Complexes, Reals]:

@@ -53,7 +53,9 @@ def find_generic(
     problem: Problem, seed: int, *, report: Callable[[int, int], None] | None = None, most: int = 200
 ) -> Generic:
     """All solutions of a random task; ``report`` gets the number of the way and how many solutions there are."""
+    from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import ARRIVED, refine
+    from gruebler._numeric.work import refining
 
     rng = np.random.default_rng(seed)
     p, z = known_solution(problem, rng)
@@ -71,7 +73,7 @@ def find_generic(
         count = len(z)
         z = _distinct(problem, np.concatenate([z, ends]))
         steps = np.empty(len(z))
-        refine(z, p, problem.poses, problem.points, steps)
+        for_work(refine, refining(len(z)))(z, p, problem.poses, problem.points, steps)
         z = z[steps < _SHARP]
         idle = idle + 1 if len(z) == count else 0
         if report is not None:
