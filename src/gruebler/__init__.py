@@ -40,7 +40,15 @@ if TYPE_CHECKING:
     from gruebler.drawing.plots import ratio_diagram
     from gruebler.drawing.train_picture import animate_train, draw_train
     from gruebler.enumeration import chains, count_chains
-    from gruebler.errors import CatalogError, ChainError, GrueblerError, LinkageError, NotationError, PairError
+    from gruebler.errors import (
+        CatalogError,
+        ChainError,
+        GrueblerError,
+        LinkageError,
+        NotationError,
+        PairError,
+        SynthesisError,
+    )
     from gruebler.exercises import exercise, fresh, solve, teaching_table
     from gruebler.freedoms import Freedoms, freedom_report
     from gruebler.gears import GearError, Train, read_train
@@ -100,6 +108,22 @@ if TYPE_CHECKING:
     from gruebler.sheets import sheet
     from gruebler.specialisation import Requirements, joint_types, variants
     from gruebler.statics import Loads, Statics, slide_friction, slider_friction
+    from gruebler.synthesis import (
+        DeadCentreTask,
+        Demands,
+        FunctionLaw,
+        FunctionTask,
+        PathTask,
+        PositionTask,
+        function_task,
+        minimax,
+        read_task,
+        synthesise_dead_centres,
+        synthesise_function,
+        synthesise_path,
+        synthesise_positions,
+        synthesise_structures,
+    )
     from gruebler.transformation import derive, extend
 
 __all__ = [
@@ -116,11 +140,15 @@ __all__ = [
     "Circuit",
     "CouplerCurve",
     "Cross",
+    "DeadCentreTask",
+    "Demands",
     "Disc",
     "Driver",
     "Expression",
     "FourBar",
     "Freedoms",
+    "FunctionLaw",
+    "FunctionTask",
     "GearError",
     "Geneva",
     "GenevaError",
@@ -137,12 +165,15 @@ __all__ = [
     "NotationError",
     "Pair",
     "PairError",
+    "PathTask",
+    "PositionTask",
     "Realisation",
     "Requirements",
     "SliderCrank",
     "Space",
     "SpatialLinkage",
     "Statics",
+    "SynthesisError",
     "Train",
     "Wheel",
     "access_features",
@@ -183,6 +214,7 @@ __all__ = [
     "four_bars",
     "freedom_report",
     "fresh",
+    "function_task",
     "gallery_html",
     "generic_mobility",
     "guidance",
@@ -194,6 +226,7 @@ __all__ = [
     "lambdas_for",
     "longest_piece",
     "measures",
+    "minimax",
     "mobility_report",
     "motion_roles",
     "move",
@@ -205,6 +238,7 @@ __all__ = [
     "poles",
     "ratio_diagram",
     "read_linkage",
+    "read_task",
     "read_train",
     "realise",
     "rotatability",
@@ -215,6 +249,11 @@ __all__ = [
     "solve",
     "symmetric_rocker",
     "symmetry",
+    "synthesise_dead_centres",
+    "synthesise_function",
+    "synthesise_path",
+    "synthesise_positions",
+    "synthesise_structures",
     "tangent_contact",
     "teaching_table",
     "transfer_plot",
@@ -282,6 +321,7 @@ _ROOMS = {
         "LinkageError",
         "NotationError",
         "PairError",
+        "SynthesisError",
     ),
     "exercises": (
         "exercise",
@@ -399,6 +439,22 @@ _ROOMS = {
         "Statics",
         "slide_friction",
         "slider_friction",
+    ),
+    "synthesis": (
+        "DeadCentreTask",
+        "Demands",
+        "FunctionLaw",
+        "FunctionTask",
+        "PathTask",
+        "PositionTask",
+        "function_task",
+        "minimax",
+        "read_task",
+        "synthesise_dead_centres",
+        "synthesise_function",
+        "synthesise_path",
+        "synthesise_positions",
+        "synthesise_structures",
     ),
     "transformation": (
         "derive",

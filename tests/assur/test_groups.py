@@ -19,6 +19,7 @@ SHARED = "R(a-1-3) R(b-2) R(c-4) R(1-5) R(2-5) R(3-6) R(4-6) R(5-6)"  # two legs
 def test_numbers_of_groups(links, number):
     """2, 4, 6 links: COUNTS.md of the project's reference; 8: Peisach 2007."""
     found = list(assur_groups(links))
+    assert all(AssurGroup(group.chain) == group for group in found)  # the check that listing leaves out
     assert len(found) == number
     assert len({group.code for group in found}) == number
     assert all(len(group.links) == links for group in found)

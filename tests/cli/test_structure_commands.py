@@ -22,7 +22,7 @@ DEFAULTS = {
 
 
 def run(capsys, command, **arguments):
-    known = {**DEFAULTS[command], "json": False, "lang": "en"}
+    known = {**DEFAULTS[command], "json": False, "lang": "en", "yes": False}
     assert set(arguments) <= set(known)
     status = command.run(Namespace(**{**known, **arguments}))
     out, err = capsys.readouterr()

@@ -42,11 +42,13 @@ def test_the_circuit_goes_straight_on_and_names_them(count, angle):
 def test_a_near_miss_is_none():
     linkage = parallelograms(2)
     wrong = {link: dict(mine) for link, mine in linkage._by_link().items()}
-    x, y = wrong["r1"][4]
-    wrong["r1"][4] = (x * (1 + 1e-5), y)
-    near = Linkage(linkage.mechanism, wrong)
-    for made in (circuit(near, drive=1.0), circuit(FourBar(20, 70, 40, 70).linkage())):
-        assert not any(point.several for point in made.change_points)
+    x, y = wrong["w2"][6]
+    wrong["w2"][6] = (x * (1 + 1e-5), y * (1 + 1e-5))  # the second parallelogram misses its change points
+    made = circuit(Linkage(linkage.mechanism, wrong), drive=1.0)
+    assert made.closed
+    assert len(made.change_points) >= 2  # those of the first one
+    assert not any(point.several for point in made.change_points)
+    assert circuit(FourBar(20, 70, 40, 70).linkage()).change_points == ()
 
 
 def test_the_measures_say_it_in_both_languages():

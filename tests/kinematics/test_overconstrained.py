@@ -52,6 +52,13 @@ def test_a_third_equal_crank_goes_round(feet, angle):
     assert np.ptp(motion.angle("rod")) < 1e-9
 
 
+def test_a_path_may_start_in_a_change_point():
+    for start in (0, 180):
+        motion = move(locomotive(((0, 0), (50, 0), (120, 0))), degrees(start, start + 360, 5))
+        assert motion.complete
+        assert motion.closure < 1e-9
+
+
 @given(
     st.floats(1e-3, 1e3),
     st.floats(0, 6.28),

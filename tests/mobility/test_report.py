@@ -109,3 +109,14 @@ def test_a_tangle_too_large_to_take_apart_is_handed_back_whole():
     assert report.redundancy == 2 * 190 - 57
     assert [part.minimal for part in report.overconstrained] == [False]
     assert "not taken apart" in report.explain()
+
+
+def test_a_chain_of_very_many_links_is_refused_with_its_size_unless_it_is_wanted(monkeypatch):
+    from gruebler.mobility import TooLargeError, rank
+
+    ring = Chain.from_edges([(k, (k + 1) % 20) for k in range(20)])
+    monkeypatch.setattr(rank, "_MOST_ROWS", 39)
+    with pytest.raises(TooLargeError, match="40 equations") as refused:
+        mobility_report(ring)
+    assert "40 Gleichungen" in refused.value.said("de")
+    assert mobility_report(ring, large=True).generic == 17

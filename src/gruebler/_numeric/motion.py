@@ -47,6 +47,7 @@ from gruebler._numeric.work import walking
 __all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
 
 Reals = NDArray[np.float64]
+_NOISE = 1e-14  # of squared roots: a hundred roundings
 _PAUSE = 16  # rows to walk after a sweep was stopped
 
 
@@ -100,10 +101,9 @@ def _look_for_change(
             low, inner, at_inner = inner, outer, at_outer
             outer = low + ratio * (high - low)
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
-    interior = reach - at > 1e-3 * (reach - memory.at[0])
     end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
-    if least == np.inf or not (interior if least < FLAT else not end <= 1.5 * least):  # risen by more than rounding
-        return memory.at[0] + 0.9 * (reach - memory.at[0]), False  # still falling up to there: nothing is decided yet
+    if least == np.inf or end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
+        return reach if reach == len(path) - 1 else memory.at[0] + 0.9 * (reach - memory.at[0]), False
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
     return at, False
@@ -462,6 +462,9 @@ def _approach(
     slope = (now - past) / (at - memory.at[1])
     ahead = abs(now / slope) if slope != 0 else step
     memory.change[number] = np.nan
+    if now * now < _NOISE and at + ahead < len(path) - 1:  # an exact change point: squares do not tell its place
+        memory.change[number], memory.after[number] = at + ahead, -memory.signs[number]
+        return max(2 * ahead, 1e-12), np.inf
     reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), float(len(path) - 1))
     place, negative = _look_for_change(program, path, speeds, reach, number, memory, s)
     if negative:

@@ -18,8 +18,10 @@ __all__ = [
     "labelling",
     "newton_work",
     "packed_labelling",
+    "refining",
     "relaxing",
     "sampling",
+    "tracking",
     "walking",
     "writing",
 ]
@@ -83,3 +85,13 @@ def relaxing(pairs: int, rounds: int) -> float:
 def comparing(pairs: int) -> float:
     """Distances or crossings of so many pairs in a layout."""
     return 2e-6 * pairs
+
+
+def tracking(paths: int) -> float:
+    """`homotopy.track`: some 150 steps a path, each of five evaluations and solutions of eight equations."""
+    return 1.0 * paths
+
+
+def refining(solutions: int) -> float:
+    """`homotopy.refine`: some steps of Newton's method with eight equations."""
+    return 5e-3 * solutions

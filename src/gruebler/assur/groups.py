@@ -43,6 +43,13 @@ class AssurGroup:
         _check(self)
 
     @classmethod
+    def known(cls, chain: Chain) -> AssurGroup:
+        """The group of a chain that is known to be one, such as a group's chain with other names."""
+        group = object.__new__(cls)
+        object.__setattr__(group, "chain", chain)
+        return group
+
+    @classmethod
     def parse(cls, text: str) -> AssurGroup:
         """The group that a text, the name of a dyad (RRR, RRP, RPR, PRP, RPP) or a code describes.
 
@@ -109,7 +116,8 @@ class AssurGroup:
     def canonical(self) -> AssurGroup:
         """The same structure with its links named 1, 2, ... and its places a, b, ..., in canonical order."""
         ordered = [self.chain.links[i] for i in canonical_order(self.chain).links]
-        number = {link: k for k, link in enumerate((x for x in ordered if x in self.links), 1)}
+        own = set(self.links)
+        number = {link: k for k, link in enumerate((x for x in ordered if x in own), 1)}
         carriers = {
             place: sorted(number[link] for j in self.chain.joints_of(place) for link in j.links if link != place)
             for place in ordered
@@ -121,7 +129,7 @@ class AssurGroup:
             (Joint(j.pair, tuple(sorted((names[link] for link in j.links), key=_name_key))) for j in self.chain.joints),
             key=lambda j: [_name_key(link) for link in j.links],
         )
-        return AssurGroup(Chain(joints))
+        return AssurGroup.known(Chain(joints))
 
     def __str__(self) -> str:
         return self.chain.text()

@@ -16,6 +16,7 @@ from gruebler.cli.linkage_commands import add_linkage_commands
 from gruebler.cli.plot_commands import add as add_plot_commands
 from gruebler.cli.sheet_commands import add as add_sheet_commands
 from gruebler.cli.statics_commands import add as add_statics_commands
+from gruebler.cli.synthesis_commands import add as add_synthesis_commands
 from gruebler.errors import shortened
 
 __all__ = ["build_parser"]
@@ -52,6 +53,7 @@ def build_parser() -> argparse.ArgumentParser:
     add_curve_commands(commands)
     add_guidance_commands(commands)
     add_statics_commands(commands)
+    add_synthesis_commands(commands)
     add_freedoms_commands(commands)
     add_sheet_commands(commands)
     add_exercise_commands(commands)

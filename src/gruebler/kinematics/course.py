@@ -22,7 +22,7 @@ from gruebler.kinematics.mending import mend_rates
 from gruebler.kinematics.motion import Motion, Reals, Stop
 from gruebler.kinematics.moving import motion_of, move, planned
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.runs import follow_path, run_rows
+from gruebler.kinematics.runs import follow_path
 from gruebler.kinematics.zeros import Samples
 from gruebler.linkages import Linkage
 from gruebler.views import Brief
@@ -243,10 +243,7 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    if plan.released:  # its independent part may have change points where it has none
-        motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
-    else:
-        motion = motion_of(plan, path, run_rows(plan.program, plan, path, speeds, order, signs, start.unknowns[0]))
+    motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
     if order:
         mend_rates(plan, motion, path, speeds, signs)
     return motion, rows

@@ -271,9 +271,10 @@ def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: flo
             way = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
             ends = curve.poses[count - 1], curve.poses[count]
             found = _change(made, *ends) if way <= _SHORT else None
-            several = found is None and way <= _SHORT
-            if several:
-                found = _meeting(made, *ends, curve.tangents[count - 1])
+            several = False
+            if found is None and way <= _SHORT:
+                found, lost = _meeting(made, *ends, curve.tangents[count - 1])
+                several = lost > 1
             if found is None:
                 step = way / 2
                 if step < SHORTEST:
@@ -346,8 +347,10 @@ def _change(made: System, one: Reals, two: Reals) -> Reals | None:
     return None
 
 
-def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> Reals | None:
-    """The pose between two neighbouring samples in which several other curves meet this one; None if there is none.
+def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
+    """The pose between two neighbouring samples in which other curves meet this one, and how many ranks are lost there.
+
+    The pose is None if there is none.
 
     Along the curve the smallest singular value of the Jacobian, with the other sign behind it, goes through zero there:
     the place is the zero of a cubic through four values, the pose lies on cubics through four poses.
@@ -370,13 +373,14 @@ def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> Reals | No
         line = np.polynomial.Polynomial.fit(_BESIDE, np.sign(_BESIDE) * values, 3)
         roots = [root.real for root in line.roots() if abs(root.imag) < 1e-9 and abs(root.real) < 1]
         if not roots:
-            return None
+            return None, 0
         shift = float(min(roots, key=abs))
         place += width * shift
     weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
     pose = weights @ np.array([one for one, _ in found])
-    least = np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2]
-    return np.asarray(pose) if least < _LOST * values.min() and -_BORDER < place < 1 + _BORDER else None
+    singular = np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[: made.unknowns - 1]
+    lost = int((singular < _LOST * values.min()).sum())
+    return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost
 
 
 def _touches(made: System, samples: Traced, gauges: Reals) -> Iterator[Change]:
@@ -388,7 +392,7 @@ def _touches(made: System, samples: Traced, gauges: Reals) -> Iterator[Change]:
     for k in sorted({part for low in lowest.tolist() for part in (low - 1, low) if 0 <= part < len(size) - 1}):
         if gauges[k] * gauges[k + 1] < 0:
             continue
-        pose = _meeting(made, samples.poses[k], samples.poses[k + 1], samples.tangents[k])
+        pose, _ = _meeting(made, samples.poses[k], samples.poses[k + 1], samples.tangents[k])
         if pose is not None and (last is None or np.abs(pose - last).max() > _BORDER):
             last = pose
             yield Change(pose, k, True)
@@ -412,9 +416,10 @@ def _quiet_changes(made: System, samples: Traced, gauges: Reals) -> tuple[Change
     for k in range(1, len(gauges) - 1):
         if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
             pose = _change(made, samples.poses[k - 1], samples.poses[k + 1])
-            several = pose is None
-            if several:
-                pose = _meeting(made, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
+            several = False
+            if pose is None:
+                pose, lost = _meeting(made, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
+                several = lost > 1
             if pose is None or np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2] > 1e-9:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0

@@ -83,6 +83,9 @@ def move(
     if not rows.reached and made.larger and branch is None and made.lower.home is not None:
         rows = _from_home(made, path, speeds, upto)
     motion = motion_of(made, path, rows)
+    if motion.stop is not None and motion.stop.reason == "open" and branch is None and made.lower.home is not None:
+        # the start may be a change point of the independent part: the way from home tells the way on
+        motion = motion_of(made, path, _from_home(made, path, speeds, upto))
     if upto:
         motion = replace(motion, unbounded=mend_rates(made, motion, path, speeds, signs))
     return motion
@@ -118,7 +121,7 @@ def _other_signs(made: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
 
 
 def _from_home(made: Plan, path: Reals, speeds: Reals, order: int) -> Rows:
-    """A path that starts in a change point of a larger group: what is placed there is known from the way to it."""
+    """A path that starts in a change point: what is placed there, and the way on, is known from the way to it."""
     begin = at_home(made, path[0])
     path, speeds = np.concatenate([[begin.drives], path]), np.concatenate([speeds[:, :1], speeds], axis=1)
     return without_first(follow_path(made, path, speeds, order, begin.signs, begin.unknowns))

@@ -21,7 +21,7 @@ Jet = Callable[[Reals], Reals]
 
 _NONE = 1e-9  # of the usual size: a value below is taken for none; rounding reaches some 1e-12
 _FLAT = 1e-4  # a slope below this part of the usual one asks whether the zero is a multiple one
-_JUMP = 1e-6  # of the usual size: where the sign changes but the function is larger, it jumps
+_JUMP = 1e-4  # of the usual size: a change of sign with larger values is a jump; next to change points 1e-6 is rounding
 _WINDOW = 0.1  # of a cell: how far from such a zero that of the last derivative may lie
 _INSIDE = 9  # places within each part between joints, besides those of the grid
 _BESIDE = 1e-9  # of the whole width: how far from a joint its two sides are looked at; joints are known to some 1e-15

@@ -25,6 +25,9 @@ __all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
 
 _FIRST_SEED = 20_261_121
 _SAMPLES = 3  # random motions or stresses that stand for all
+_MOST_ROWS = 400_000  # constraints that are taken without being asked again: about 1 GB
+_SECONDS_A_ROW = 1e-4
+_BYTES_A_ROW = 2700
 _TRIES = 4  # placements tried before a rank below the theorem's is called impossible
 
 
@@ -100,6 +103,9 @@ def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) ->
     benchmarks/README.md. Raises `TooLargeError` where that core takes more than about a minute or 1 GB, unless
     ``large``.
     """
+    rows = len(locks) + sum(joint.count * joint.pair.u(chain.space) for joint in chain.joints)
+    if rows > _MOST_ROWS and not large:
+        raise _too_large(CoreTooLarge(rows, rows * _SECONDS_A_ROW, rows * _BYTES_A_ROW))
     licensed = bool(theorem(chain)) and not locks
     known = None
     best: tuple[Placement, Echelon] | None = None
@@ -124,13 +130,17 @@ def _eliminated(rows: list[Row], columns: int, *, large: bool) -> Echelon:
     try:
         return echelon(rows, columns, large=large)
     except CoreTooLarge as core:
-        numbers = f"{core.seconds / 60:.0f} min, {core.size / 1e9:.1f} GB"
-        raise TooLargeError(
-            f"so many loops cross that {core.rows:,} equations are left to be solved at once: about {numbers}; "
-            "`gruebler check --yes` and mobility_report(..., large=True) begin it nevertheless",
-            f"so viele Maschen greifen ineinander, dass {core.rows:,} Gleichungen auf einmal zu lösen bleiben: etwa "
-            f"{numbers}; `gruebler check --yes` und mobility_report(..., large=True) beginnen trotzdem",
-        ) from None
+        raise _too_large(core) from None
+
+
+def _too_large(core: CoreTooLarge) -> TooLargeError:
+    numbers = f"{core.seconds / 60:.1f} min, {core.size / 1e9:.1f} GB"
+    return TooLargeError(
+        f"the chain leaves {core.rows:,} equations to be solved at once: about {numbers}; "
+        "`gruebler check --yes` and mobility_report(..., large=True) begin it nevertheless",
+        f"die Kette lässt {core.rows:,} Gleichungen auf einmal zu lösen: etwa {numbers}; "
+        "`gruebler check --yes` und mobility_report(..., large=True) beginnen trotzdem",
+    )
 
 
 def generic_mobility(chain: Chain) -> int:

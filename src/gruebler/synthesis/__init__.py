@@ -9,8 +9,10 @@ from gruebler.synthesis.dead_centres import synthesise_dead_centres
 from gruebler.synthesis.formulas import FunctionLaw
 from gruebler.synthesis.functions import function_task, minimax, structural_error, synthesise_function
 from gruebler.synthesis.judging import Demands
+from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
 from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
+from gruebler.synthesis.structures import pareto, synthesise_structures
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 
@@ -28,11 +30,14 @@ __all__ = [
     "Verdict",
     "function_task",
     "minimax",
+    "pareto",
     "read_task",
     "structural_error",
     "synthesise_dead_centres",
     "synthesise_function",
+    "synthesise_path",
     "synthesise_positions",
+    "synthesise_structures",
     "task_from_json",
     "task_to_json",
     "write_task",

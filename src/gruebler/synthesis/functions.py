@@ -24,7 +24,7 @@ from gruebler.synthesis.positions import guiding_dyads, ranked
 from gruebler.synthesis.results import Count, Design, SynthesisResult
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
 
-__all__ = ["Coordination", "function_task", "minimax", "structural_error", "synthesise_function"]
+__all__ = ["Coordination", "coordination_of", "function_task", "minimax", "structural_error", "synthesise_function"]
 
 Reals = NDArray[np.float64]
 
@@ -350,6 +350,33 @@ def _function_targets(task: FunctionTask, linkage: Linkage, side: str) -> Target
     size = float(np.ptp(out)) or 1.0
     probes = (Probe(link="crank", length=size), Probe(joint=3))
     return Targets(probes, np.stack([size * crank, out.astype(np.complex128)], axis=1), size)
+
+
+def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coordination | None:
+    """The lengths and starts of a four-bar or slider-crank that was made for a function; None for another linkage.
+
+    The starts are those of x at the begin of the interval.
+    """
+    linkage = design.linkage
+    chain, home = linkage.mechanism.chain, linkage.home
+    if home is None or any(joint.pair.name != "revolute" for joint in chain.joints[:3]):
+        return None
+    places = [
+        complex(*home[link].put(*linkage.elements[number, link][:2]))
+        for number, link in ((0, "frame"), (0, "crank"), (1, "crank"), (2, "coupler"), (3, "frame"))
+    ]
+    pivot, pin, far, other = places[0], places[2], places[3], places[4]
+    x = chebyshev_spacing(*law.interval, len(task))[:1]
+    free = replace(law, input_start=0.0, output_start=0.0)
+    crank = float(np.angle(pin - pivot)) - float(free.inputs(x)[0])
+    if task.output == "angle":
+        lengths = (abs(pin - pivot), abs(far - pin), abs(far - other), abs(other - pivot))
+        side = np.imag(np.conj(other - pin) * (far - pin))
+        output = float(np.angle((far - other) / (other - pivot))) - float(free.outputs(x)[0])
+        return Coordination("four-bar", lengths, crank, output, 1 if side >= 0 else -1)
+    output = far.real - float(free.outputs(x)[0])
+    lengths_ = (abs(pin - pivot), abs(far - pin), far.imag - pivot.imag)
+    return Coordination("slider-crank", lengths_, crank, output, 1 if far.real >= pin.real else -1)
 
 
 def structural_error(solution: Coordination, law: FunctionLaw, x: ArrayLike) -> Reals:

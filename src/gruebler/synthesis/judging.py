@@ -150,7 +150,7 @@ def judged(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> D
         return Design(linkage, Verdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
     missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
     if missed:
-        named = ", ".join(map(str, missed))
+        named = ", ".join(map(str, missed[:9])) + (", ..." if len(missed) > 9 else "")
         what = f"target{'s' if len(missed) > 1 else ''} {named}"
         nearest = f"the circuit comes no nearer than {met.error:.3g} of the size"
         reasons.append(f"{what} cannot be reached without taking the linkage apart: {nearest}")
@@ -225,7 +225,7 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
     falls, rises = -slope[target, segment], slope[target, segment + 1]
     speed = np.sqrt(np.sum(np.abs(rates[target, segment]) ** 2, axis=1))
     near = np.sqrt(np.minimum(square[target, segment], square[target, segment + 1]))
-    keep = near <= 2 * (high - low) * speed + 1e-3 * targets.size
+    keep = near <= 2 * (high - low) * speed + (1e-3 + 2 * tolerance) * targets.size
     target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
     with np.errstate(invalid="ignore", divide="ignore"):
         at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)

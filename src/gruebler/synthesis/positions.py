@@ -31,7 +31,7 @@ from gruebler.synthesis.judging import Demands, Targets, best_of, position_targe
 from gruebler.synthesis.results import Count, Design, SynthesisResult
 from gruebler.synthesis.tasks import PositionTask
 
-__all__ = ["four_bar_linkages", "guiding_dyads", "ranked", "synthesise_positions"]
+__all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of", "ranked", "synthesise_positions"]
 
 Complexes = NDArray[np.complex128]
 
@@ -177,10 +177,14 @@ def four_bar_linkages(one: GuidingDyad, two: GuidingDyad, point: complex, *, uni
             orders = orders[:1]
     elif one.form == "PR" and two.form != "PR":
         orders.reverse()
-    return [_linkage(first, second, point, unit) for first, second in orders]
+    return [linkage_of(first, second, point, unit) for first, second in orders]
 
 
-def _linkage(one: GuidingDyad, two: GuidingDyad, point: complex, unit: str) -> Linkage:
+def linkage_of(one: GuidingDyad, two: GuidingDyad, point: complex, unit: str) -> Linkage:
+    """The linkage of two dyads in its first position, driven at the first; P lies on the coupler.
+
+    Raises `LinkageError` if pivots of a link coincide.
+    """
     first = _SIDES[one.form][0]
     second = _SIDES[two.form][1 if one.form == two.form else int(two.form == "RR")]
     if one.form == two.form and one.form != "RR":

@@ -23,6 +23,8 @@ Pair = tuple[float, float]
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
+MOST_POINTS = 9
+"""A coupler curve of a four-bar passes through nine general points; more are met as well as possible."""
 
 
 def _number(value: object, where: str) -> float:
@@ -149,11 +151,13 @@ class PathTask:
     def _check_distinct(self) -> None:
         z = self.z
         limit = SAME * self.size
+        curve = self.closed or len(z) > MOST_POINTS  # a whole curve may cross itself
         for k in range(len(z)):
-            near = np.flatnonzero(np.abs(z[:k] - z[k]) <= limit)
-            same = [m for m in near if not self._turned(int(m), k)]
-            if same:
-                raise SynthesisError(f"points {same[0] + 1} and {k + 1} are equal")
+            others = ([k - 1] if k or self.closed else []) if curve else range(k)
+            for m in others:
+                if abs(z[m] - z[k]) <= limit and not self._turned(m, k):
+                    first, second = sorted((m % len(z), k))
+                    raise SynthesisError(f"points {first + 1} and {second + 1} are equal")
 
     def _turned(self, m: int, k: int) -> bool:
         """Whether the coupler has different angles at two points, so that these may coincide."""

@@ -1,0 +1,146 @@
+"""How completely and how fast tasks of dimensional synthesis are solved; beside pylinkage where it is installed."""
+
+import statistics
+import time
+from collections.abc import Callable
+from math import pi
+
+import numpy as np
+
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar
+from gruebler.synthesis import PathTask, PositionTask, synthesise_path
+from gruebler.synthesis.alt_burmester import PROBLEMS, generic, parameters, solutions
+from gruebler.synthesis.curves import fit_curve
+from gruebler.synthesis.dyads import Displacements, all_dyads
+
+
+def seconds(run: Callable[[], object], repeat: int = 1) -> float:
+    """The median time of a call."""
+    times = []
+    for _ in range(repeat):
+        start = time.perf_counter()
+        run()
+        times.append(time.perf_counter() - start)
+    return statistics.median(times)
+
+
+def finite_problems(tasks: int = 5) -> None:
+    print(f"{'problem':36}{'by theorem':>11}{'found':>14}{'certified':>11}{'real':>10}{'time':>10}")
+    for problem in reversed(PROBLEMS):
+        generic(problem)
+        rng = np.random.default_rng(7)
+        found, good, real, times = [], [], [], []
+        for _ in range(tasks):
+            count = problem.poses + problem.points
+            d = rng.normal(size=count) + 1j * rng.normal(size=count)
+            pivots = tuple(complex(*row) for row in rng.normal(size=(2, 2))) if problem.given_pivots else None
+            p = parameters(d, np.exp(1j * rng.uniform(-3, 3, problem.poses)), pivots)
+            start = time.perf_counter()
+            made = solutions(problem, p)
+            times.append(time.perf_counter() - start)
+            found.append(len(made.z))
+            good.append(made.certified.mean())
+            real.append(len(made.real))
+        some = f"{min(found)}..{max(found)}" if min(found) < max(found) else str(min(found))
+        print(
+            f"{problem.name:36}{problem.classes:>11}{some:>14}{statistics.mean(good):>11.1%}"
+            f"{f'{min(real)}..{max(real)}':>10}{statistics.median(times):>8.2f} s",
+            flush=True,
+        )
+
+
+def targets() -> dict[str, tuple[np.ndarray, bool]]:
+    """Drawn curves: closed ones and open ones."""
+    s = np.linspace(0, 2 * pi, 64, endpoint=False)
+    t = np.linspace(0, 1, 48)
+    half = np.exp(1j * np.linspace(-pi / 2, pi / 2, 40))
+    flat = 1j * np.linspace(1, -1, 26)[1:-1]
+    leg = np.concatenate([np.linspace(-2, 2, 32) + 0j, 2 * np.exp(1j * np.linspace(0, pi, 32)[1:-1])])
+    triangle = np.concatenate(
+        [a + (b - a) * np.linspace(0, 1, 22, endpoint=False) for a, b in ((0, 3), (3, 1.5 + 2.6j), (1.5 + 2.6j, 0))]
+    )
+    egg = (1 + 0.25 * np.cos(s)) * np.exp(1j * s)
+    return {
+        "circle": (np.exp(1j * s), True),
+        "ellipse 2:1": (2 * np.cos(s) + 1j * np.sin(s), True),
+        "ellipse 4:1": (4 * np.cos(s) + 1j * np.sin(s), True),
+        "egg": (egg, True),
+        "D": (np.concatenate([half, flat]), True),
+        "figure eight": (np.sin(s) + 0.5j * np.sin(2 * s), True),
+        "leg, flat foot": (leg, True),
+        "leg, low": (leg.real + 0.4j * leg.imag, True),
+        "triangle": (triangle, True),
+        "rounded triangle": (np.exp(1j * s) + 0.12 * np.exp(-2j * s), True),
+        "rounded square": (np.exp(1j * s) + 0.06 * np.exp(-3j * s), True),
+        "bean": (np.exp(1j * s) + 0.3 * np.exp(2j * s), True),
+        "heart": (16 * np.sin(s) ** 3 + 1j * (13 * np.cos(s) - 5 * np.cos(2 * s) - 2 * np.cos(3 * s)), True),
+        "drop": (np.sin(s) * np.sin(s / 2) ** 2 + 1.2j * np.cos(s), True),
+        "straight line": (t + 0j, False),
+        "quarter circle": (np.exp(0.5j * pi * t), False),
+        "parabola": (t - 0.5 + 2j * (t - 0.5) ** 2, False),
+        "letter S": (np.cos(1.5 * pi * t + pi / 4) * 0.6 + 1j * (1 - 2 * t), False),
+        "letter C": (np.exp(1j * (pi / 4 + 1.5 * pi * t)), False),
+        "letter U": (
+            np.concatenate(
+                [
+                    -1 + 1j * np.linspace(2, 0, 12),
+                    np.exp(1j * np.linspace(pi, 2 * pi, 20))[1:-1],
+                    1 + 1j * np.linspace(0, 2, 12),
+                ]
+            ),
+            False,
+        ),
+        "sine": (6 * t + 1j * np.sin(6 * t), False),
+    }
+
+
+def curves() -> None:
+    fit_curve(np.exp(1j * np.linspace(0, 6, 20)), closed=True)  # the atlas
+    print(f"\n{'curve':22}{'best':>14}{'error':>10}{'time':>10}")
+    errors, times = [], []
+    for name, (z, closed) in targets().items():
+        start = time.perf_counter()
+        best = fit_curve(z, closed=closed)[0]
+        times.append(time.perf_counter() - start)
+        errors.append(best.error)
+        print(f"{name:22}{best.kind.name:>14}{best.error:>10.3%}{times[-1]:>8.2f} s", flush=True)
+    print(f"{'median':22}{'':>14}{statistics.median(errors):>10.3%}{statistics.median(times):>8.2f} s")
+
+
+def rival(task: PositionTask, points: np.ndarray) -> None:
+    """The four-bar 1, 3, 2.5, 3.5 from five of its positions and points."""
+    try:
+        from pylinkage.synthesis import Pose, motion_generation, path_generation
+    except ImportError:
+        print("pylinkage is not installed")
+        return
+    for name, run in (
+        ("pylinkage, five positions", lambda: motion_generation([Pose(*row) for row in task.positions])),
+        ("pylinkage, five points", lambda: path_generation([(z.real, z.imag) for z in points])),
+    ):
+        start = time.perf_counter()
+        try:
+            found = run()
+            told = f"{len(getattr(found, 'solutions', found))} solutions"
+        except Exception as error:  # another program's errors are its own
+            told = f"{type(error).__name__}: {error}"
+        print(f"{name:36}{told:>40}{time.perf_counter() - start:>8.2f} s", flush=True)
+
+
+def main() -> None:
+    finite_problems()
+    drives = np.radians([10.0, 35.0, 60.0, 85.0, 110.0])
+    motion = move(FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)}), drives)
+    rows = [(*p, a) for p, a in zip(motion.point("P"), motion.angle("coupler"), strict=True)]
+    task = PositionTask(tuple(rows))
+    given, *_ = Displacements.of(task.origins, task.turns)
+    print(f"five positions, all dyads: {1000 * seconds(lambda: all_dyads(given), 50):.2f} ms")
+    points = PathTask(motion.point("P"), crank_angles=tuple(drives))
+    print(f"five points with crank angles, with verdicts: {seconds(lambda: synthesise_path(points), 3):.2f} s")
+    rival(task, motion.complex_point("P"))
+    curves()
+
+
+if __name__ == "__main__":
+    main()

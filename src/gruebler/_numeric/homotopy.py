@@ -1,0 +1,318 @@
+"""Paths of four-bars from one task of positions and points to another, in isotropic coordinates.
+
+The unknowns z are x, x*, y, y* (moving pivots in the first position) and a, a*, b, b* (fixed pivots), conjugates being
+independent of each other; the coupler point of the first position is the origin. docs/theory/synthesis-points.md has
+the equations and the control of the steps.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import njit
+
+__all__ = ["ARRIVED", "FAILED", "INFINITE", "evaluate", "refine", "track"]
+
+Complexes = NDArray[np.complex128]
+Reals = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+ARRIVED, FAILED, INFINITE = 0, 1, 2
+"""How a path ended: at a finite solution; steps too small or too many; growing without bound."""
+
+UNKNOWNS = 8
+_FAR = 1e8  # a solution so many sizes away is at infinity
+_SHORTEST = 1e-10
+_MOST = 20000
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def evaluate(
+    z: Complexes, p: Complexes, dp: Complexes, poses: int, points: int, f: Complexes, jac: Complexes, ft: Complexes
+) -> None:
+    """The equations, their derivatives by z and along the path.
+
+    Args:
+        z: (8,) the unknowns.
+        p: (4, 8) parameters: displacements d and their conjugates of the positions, then of the points; rotations g of
+            the positions (exp(i angle) - 1); values that fix the last unknowns.
+        dp: (4, 8) how fast the parameters change.
+        poses: how many positions besides the first: two equations each.
+        points: how many points: one equation each. The rest of the eight equations fixes unknowns of those numbers.
+        f: (8,) written.
+        jac: (8, 8) written.
+        ft: (8,) written.
+    """
+    x, xb, y, yb, a, ab, b, bb = z[0], z[1], z[2], z[3], z[4], z[5], z[6], z[7]
+    for i in range(UNKNOWNS):
+        f[i] = z[0] * 0
+        ft[i] = z[0] * 0
+        for k in range(UNKNOWNS):
+            jac[i, k] = z[0] * 0
+    for j in range(poses):
+        t, s, g = p[0, j], p[1, j], p[2, j]
+        dt, ds, dg = dp[0, j], dp[1, j], dp[2, j]
+        h = -g / (1 + g)
+        dh = -dg / ((1 + g) * (1 + g))
+        r = 2 * j
+        f[r] = x * (ab - s) * g + xb * (a - t) * h + t * (ab - xb) + s * (a - x) - t * s
+        jac[r, 0] = (ab - s) * g - s
+        jac[r, 1] = (a - t) * h - t
+        jac[r, 4] = xb * h + s
+        jac[r, 5] = x * g + t
+        ft[r] = (-xb * h + (ab - xb) - s) * dt + (-x * g + (a - x) - t) * ds + x * (ab - s) * dg + xb * (a - t) * dh
+        r = 2 * j + 1
+        f[r] = y * (bb - s) * g + yb * (b - t) * h + t * (bb - yb) + s * (b - y) - t * s
+        jac[r, 2] = (bb - s) * g - s
+        jac[r, 3] = (b - t) * h - t
+        jac[r, 6] = yb * h + s
+        jac[r, 7] = y * g + t
+        ft[r] = (-yb * h + (bb - yb) - s) * dt + (-y * g + (b - y) - t) * ds + y * (bb - s) * dg + yb * (b - t) * dh
+    for q in range(points):
+        j = poses + q
+        m = 2 * poses + q
+        t, s, dt, ds = p[0, j], p[1, j], dp[0, j], dp[1, j]
+        a1 = x * (ab - s)
+        b1 = xb * (a - t)
+        c1 = t * (ab - xb) + s * (a - x) - t * s
+        a2 = y * (bb - s)
+        b2 = yb * (b - t)
+        c2 = t * (bb - yb) + s * (b - y) - t * s
+        first = b1 * c2 - b2 * c1
+        second = c1 * a2 - c2 * a1
+        both = a1 * b2 - a2 * b1
+        by_first = both + second
+        by_second = both + first
+        by_both = first + second
+        by_a1 = -by_second * c2 + by_both * b2
+        by_b1 = by_first * c2 - by_both * a2
+        by_c1 = -by_first * b2 + by_second * a2
+        by_a2 = by_second * c1 - by_both * b1
+        by_b2 = -by_first * c1 + by_both * a1
+        by_c2 = by_first * b1 - by_second * a1
+        f[m] = by_both * both + first * second
+        jac[m, 0] = by_a1 * (ab - s) - by_c1 * s
+        jac[m, 1] = by_b1 * (a - t) - by_c1 * t
+        jac[m, 2] = by_a2 * (bb - s) - by_c2 * s
+        jac[m, 3] = by_b2 * (b - t) - by_c2 * t
+        jac[m, 4] = by_b1 * xb + by_c1 * s
+        jac[m, 5] = by_a1 * x + by_c1 * t
+        jac[m, 6] = by_b2 * yb + by_c2 * s
+        jac[m, 7] = by_a2 * y + by_c2 * t
+        ft[m] = (-by_b1 * xb + by_c1 * (ab - xb - s) - by_b2 * yb + by_c2 * (bb - yb - s)) * dt + (
+            -by_a1 * x + by_c1 * (a - x - t) - by_a2 * y + by_c2 * (b - y - t)
+        ) * ds
+    for r in range(2 * poses + points, UNKNOWNS):
+        f[r] = z[r] - p[3, r]
+        jac[r, r] = z[0] * 0 + 1
+        ft[r] = -dp[3, r]
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _solve(matrix: Complexes, right: Complexes) -> bool:
+    """Gauss with row scaling and pivoting, in place; False for a singular matrix."""
+    n = UNKNOWNS
+    for i in range(n):
+        largest = 0.0
+        for k in range(n):
+            v = abs(matrix[i, k].real) + abs(matrix[i, k].imag)
+            largest = max(largest, v)
+        if not largest > 0.0 or largest > 1e300:
+            return False
+        scale = 1.0 / largest
+        for k in range(n):
+            matrix[i, k] *= scale
+        right[i] *= scale
+    for k in range(n):
+        pivot = k
+        largest = 0.0
+        for i in range(k, n):
+            v = abs(matrix[i, k].real) + abs(matrix[i, k].imag)
+            if v > largest:
+                largest = v
+                pivot = i
+        if not largest > 0.0:
+            return False
+        if pivot != k:
+            for c in range(k, n):
+                swap = matrix[k, c]
+                matrix[k, c] = matrix[pivot, c]
+                matrix[pivot, c] = swap
+            swap = right[k]
+            right[k] = right[pivot]
+            right[pivot] = swap
+        inverse = 1.0 / matrix[k, k]
+        for i in range(k + 1, n):
+            factor = matrix[i, k] * inverse
+            for c in range(k + 1, n):
+                matrix[i, c] -= factor * matrix[k, c]
+            right[i] -= factor * right[k]
+    for i in range(n - 1, -1, -1):
+        v = right[i]
+        for c in range(i + 1, n):
+            v -= matrix[i, c] * right[c]
+        right[i] = v / matrix[i, i]
+    return True
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _norm(v: Complexes) -> float:
+    out = 0.0
+    for i in range(UNKNOWNS):
+        out = max(out, abs(v[i]))
+    return out
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _relative(step: Complexes, z: Complexes) -> float:
+    """The largest change of an unknown, relative to it; small ones count against the largest of all."""
+    size = 1e-3 * _norm(z)
+    out = 0.0
+    for i in range(UNKNOWNS):
+        out = max(out, abs(step[i]) / (abs(z[i]) + size + 1e-300))
+    return out
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def refine(z: Complexes, p: Complexes, poses: int, points: int, steps: Reals) -> None:
+    """Newton's method for many solutions of one task; the last relative step of each is written.
+
+    Args:
+        z: (solutions, 8) changed.
+        p: (4, 8) parameters, as in `evaluate`.
+        poses: as in `evaluate`.
+        points: as in `evaluate`.
+        steps: (solutions,) written; infinite where the matrix is singular.
+    """
+    f = np.empty(UNKNOWNS, np.complex128)
+    ft = np.empty(UNKNOWNS, np.complex128)
+    jac = np.empty((UNKNOWNS, UNKNOWNS), np.complex128)
+    still = np.zeros((4, UNKNOWNS), np.complex128)
+    for n in range(len(z)):
+        steps[n] = np.inf
+        for _ in range(8):
+            evaluate(z[n], p, still, poses, points, f, jac, ft)
+            if not _solve(jac, f):
+                steps[n] = np.inf
+                break
+            for i in range(UNKNOWNS):
+                z[n, i] -= f[i]
+            last = steps[n]
+            steps[n] = _relative(f, z[n])
+            if steps[n] < 1e-15 or (last < 1e-12 and steps[n] > 0.5 * last):
+                break
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def track(
+    starts: Complexes,
+    begin: Complexes,
+    end: Complexes,
+    poses: int,
+    points: int,
+    loose: float,
+    out: Complexes,
+    status: Ints,
+    work: Ints,
+) -> None:
+    """Follow solutions while the parameters go straight from one task to another.
+
+    Predictor of Runge and Kutta, corrector of Newton; a step is taken if the corrector changes the prediction by less
+    than ``loose`` and converges at once.
+
+    Args:
+        starts: (paths, 8) solutions of the begin.
+        begin: (4, 8) parameters.
+        end: (4, 8) parameters.
+        poses: as in `evaluate`.
+        points: as in `evaluate`.
+        loose: 1e-3 is quick; 1e-6 keeps paths apart that come near each other.
+        out: (paths, 8) written: where the path ended.
+        status: (paths,) written: ARRIVED, FAILED or INFINITE.
+        work: (paths,) written: steps taken.
+    """
+    n = UNKNOWNS
+    f = np.empty(n, np.complex128)
+    ft = np.empty(n, np.complex128)
+    jac = np.empty((n, n), np.complex128)
+    dp = end - begin
+    p = np.empty((4, n), np.complex128)
+    slopes = np.empty((4, n), np.complex128)
+    z = np.empty(n, np.complex128)
+    w = np.empty(n, np.complex128)
+    for path in range(len(starts)):
+        for i in range(n):
+            z[i] = starts[path, i]
+        at = 0.0
+        h = 0.02
+        good = 0
+        steps = 0
+        ended = ARRIVED
+        while at < 1.0:
+            steps += 1
+            if steps > _MOST or h < _SHORTEST:
+                ended = INFINITE if _norm(z) > 1e4 else FAILED
+                break
+            h = min(h, 1.0 - at)
+            possible = True
+            for stage in range(4):
+                here = at + h * (0.0 if stage == 0 else (1.0 if stage == 3 else 0.5))
+                for k in range(4):
+                    for i in range(n):
+                        p[k, i] = begin[k, i] + here * dp[k, i]
+                for i in range(n):
+                    w[i] = z[i]
+                    if stage == 3:
+                        w[i] += h * slopes[2, i]
+                    elif stage > 0:
+                        w[i] += 0.5 * h * slopes[stage - 1, i]
+                evaluate(w, p, dp, poses, points, f, jac, ft)
+                if not _solve(jac, ft):
+                    possible = False
+                    break
+                for i in range(n):
+                    slopes[stage, i] = -ft[i]
+            taken = False
+            quick = False
+            if possible:
+                for i in range(n):
+                    w[i] = z[i] + h / 6 * (slopes[0, i] + 2 * slopes[1, i] + 2 * slopes[2, i] + slopes[3, i])
+                last = 1e300
+                for turn in range(3):
+                    evaluate(w, p, dp, poses, points, f, jac, ft)
+                    if not _solve(jac, f):
+                        break
+                    for i in range(n):
+                        w[i] -= f[i]
+                    change = _relative(f, w)
+                    if not change < loose:
+                        break
+                    # Far out rounding alone leaves 1e-8; a third correction of that size is as good as it gets.
+                    if change < (1e-9 if turn < 2 else 1e-7):
+                        taken = True
+                        quick = turn == 0
+                        break
+                    if turn > 0 and change > 0.1 * last:
+                        break
+                    last = change
+            if taken:
+                at += h
+                for i in range(n):
+                    z[i] = w[i]
+                if _norm(z) > _FAR:
+                    ended = INFINITE
+                    break
+                good += 1
+                if good >= 2:
+                    h *= 1.6
+                    good = 0
+                if quick:
+                    h *= 1.5
+            else:
+                h *= 0.4
+                good = 0
+        for i in range(n):
+            out[path, i] = z[i]
+        status[path] = ended
+        work[path] = steps

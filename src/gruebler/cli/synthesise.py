@@ -1,0 +1,328 @@
+"""`gruebler synthesise`: linkages for positions, functions, points, dead centres."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import sys
+from collections.abc import Callable
+from math import degrees, isnan, radians
+from pathlib import Path
+from typing import Any
+
+from gruebler.cli.tables import print_table
+from gruebler.errors import SynthesisError
+from gruebler.linkages.files import check_linkage_path, write_linkage
+from gruebler.synthesis import (
+    DeadCentreTask,
+    Demands,
+    Design,
+    FunctionLaw,
+    FunctionTask,
+    PathTask,
+    PositionTask,
+    SynthesisResult,
+    Task,
+    read_task,
+    synthesise_dead_centres,
+    synthesise_function,
+    synthesise_path,
+    synthesise_positions,
+)
+from gruebler.synthesis.functions import Coordination, Minimax
+
+__all__ = ["run"]
+
+_WORDS: dict[str, dict[str, Any]] = {
+    "en": {
+        "count": "Solutions: {theorem} by theorem ({what}), {found} found, {real} real.",
+        "infinite": "infinitely many",
+        "approximate": "none exact in general",
+        "designs": "Designs: {accepted} accepted, {rejected} rejected.",
+        "columns": ("design", "drive", "full turn", "transmission", "lengths", "error"),
+        "rejected": ("rejected", "reason"),
+        "none": "There is no design that does what is wanted.",
+        "yes": "yes",
+        "no": "no",
+        "written": "Written: {path}",
+        "compiling": "paths",
+        "minimax": "Minimax optimum: largest error {error} (from {start}); lengths {lengths}; input from {phi}, "
+        "output from {psi}.",
+        "chosen": "Design {number} is drawn and written.",
+    },
+    "de": {
+        "count": "Lösungen: {theorem} nach dem Satz ({what}), {found} gefunden, {real} reell.",
+        "infinite": "unendlich viele",
+        "approximate": "im Allgemeinen keine exakte",
+        "designs": "Entwürfe: {accepted} angenommen, {rejected} verworfen.",
+        "columns": ("Entwurf", "Antrieb", "umlaufend", "Übertragungswinkel", "Längen", "Fehler"),
+        "rejected": ("verworfen", "Grund"),
+        "none": "Kein Entwurf leistet das Verlangte.",
+        "yes": "ja",
+        "no": "nein",
+        "written": "Geschrieben: {path}",
+        "compiling": "Wege",
+        "minimax": "Minimax-Optimum: größter Fehler {error} (vorher {start}); Längen {lengths}; Antrieb ab {phi}, "
+        "Abtrieb ab {psi}.",
+        "chosen": "Gezeichnet und geschrieben wird Entwurf {number}.",
+    },
+}
+
+_TASKS: dict[str, type[Task]] = {
+    "positions": PositionTask,
+    "function": FunctionTask,
+    "path": PathTask,
+    "dead-centres": DeadCentreTask,
+}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
+    words = _WORDS[arguments.lang]
+    if arguments.output is not None:
+        check_linkage_path(arguments.output)
+    if arguments.draw is not None:
+        _check_picture(arguments.draw)
+    demands = _demands(arguments)
+    task = _task(arguments)
+    found = _solved(arguments, task, demands)
+    best = found.designs[0] if found.designs else None
+    optimum = _minimax(arguments, found) if arguments.kind == "function" and arguments.minimax else None
+    if arguments.json:
+        document = found.to_json()
+        if optimum is not None:
+            document["minimax"] = _optimum_document(optimum)
+        print(json.dumps(document, ensure_ascii=False, indent=2))
+    else:
+        _print(found, words, arguments.rejected)
+        if optimum is not None:
+            _print_optimum(optimum, words)
+    if best is not None and arguments.output is not None:
+        write_linkage(arguments.output, best.linkage)
+        _say(arguments, words["written"].format(path=arguments.output))
+    if found.designs and arguments.draw is not None:
+        _draw(arguments.draw, found, arguments.lang)
+        _say(arguments, words["written"].format(path=arguments.draw))
+    return 0 if found.designs else 1
+
+
+def _say(arguments: argparse.Namespace, text: str) -> None:
+    if not arguments.json:
+        print(text)
+
+
+def _demands(arguments: argparse.Namespace) -> Demands:
+    region = None
+    if arguments.region is not None:
+        x1, y1, x2, y2 = arguments.region
+        region = (min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2))
+    if not 0 <= arguments.transmission <= 90:
+        raise SynthesisError(f"--transmission: expected 0 to 90 degrees, but found {arguments.transmission:g}")
+    if not arguments.size_ratio >= 1:
+        raise SynthesisError(f"--size-ratio: expected at least 1, but found {arguments.size_ratio:g}")
+    if arguments.number is not None and arguments.number < 1:
+        raise SynthesisError(f"--number: expected at least 1, but found {arguments.number}")
+    return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
+
+
+def _task(arguments: argparse.Namespace) -> Task:
+    """The task of the file or the options; `SynthesisError` for one of another kind."""
+    if arguments.kind == "dead-centres" and arguments.task is None:
+        return DeadCentreTask(
+            _radians(arguments.swing), arguments.stroke, _radians(arguments.crank_angle), arguments.time_ratio
+        )
+    if arguments.kind == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
+        return _function_task(arguments)
+    task = read_task(arguments.task)
+    if not isinstance(task, _TASKS[arguments.kind]):
+        kind = next(name for name, made in _TASKS.items() if isinstance(task, made))
+        raise SynthesisError(f"{arguments.task}: this is a task for 'synthesise {kind}'")
+    if arguments.kind == "path" and arguments.closed and isinstance(task, PathTask):
+        from dataclasses import replace
+
+        task = replace(task, closed=True)
+    return task
+
+
+def _radians(value: float | None) -> float | None:
+    return None if value is None else radians(value)
+
+
+def _function_task(arguments: argparse.Namespace) -> FunctionTask:
+    from gruebler.synthesis import function_task
+
+    return function_task(_law(arguments), arguments.points, output="travel" if arguments.travel else "angle")
+
+
+def _law(arguments: argparse.Namespace) -> FunctionLaw:
+
+    for option in ("interval", "swings"):
+        if getattr(arguments, option) is None:
+            raise SynthesisError(f"an expression needs --{option}: see gruebler synthesise function --help")
+    unit = 1.0 if arguments.travel else math.pi / 180
+    starts = arguments.starts or (None, None)
+    return FunctionLaw(
+        arguments.task,
+        tuple(arguments.interval),
+        radians(arguments.swings[0]),
+        arguments.swings[1] * unit,
+        _radians(starts[0]),
+        None if starts[1] is None else starts[1] * unit,
+    )
+
+
+def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> SynthesisResult:
+    more = {} if arguments.number is None else {"number": arguments.number}
+    match task:
+        case PositionTask():
+            return synthesise_positions(task, demands, **more)
+        case FunctionTask():
+            return synthesise_function(task, demands, **more)
+        case DeadCentreTask():
+            return synthesise_dead_centres(task, demands, **more)
+        case PathTask():
+            if arguments.structure is not None:
+                return _fitted(arguments, task, demands)
+            return synthesise_path(task, demands, progress=_progress(_WORDS[arguments.lang]["compiling"]), **more)
+    raise AssertionError(task)
+
+
+def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> SynthesisResult:
+    """A mechanism of any structure, from several starts."""
+    from gruebler.cli.inputs import mechanism_of
+    from gruebler.realisation.finding import with_drives
+    from gruebler.synthesis.structures import synthesise_structures
+
+    mechanism = mechanism_of(arguments.structure, None, [])
+    driven = mechanism if mechanism.drives else with_drives(mechanism)
+    return synthesise_structures(task, [driven], demands, starts=arguments.number or 4, link=arguments.link)
+
+
+def _progress(word: str) -> Callable[[int, int], None] | None:
+    """A line on a terminal that counts paths; None elsewhere."""
+    if not sys.stderr.isatty():
+        return None
+
+    def show(done: int, count: int) -> None:
+        end = "\n" if done >= count else ""
+        print(f"\r{done:,} / {count:,} {word}", end=end, file=sys.stderr, flush=True)
+
+    return show
+
+
+def _print(found: SynthesisResult, words: dict[str, Any], rejected: bool) -> None:
+    count = found.count
+    theorem = words["infinite"] if count.theorem is None else count.theorem or words["approximate"]
+    print(str(words["count"]).format(theorem=theorem, what=count.what, found=count.found, real=count.real))
+    for note in found.notes:
+        print(note)
+    print(str(words["designs"]).format(accepted=len(found.designs), rejected=len(found.rejected)))
+    if found.designs:
+        rows = [_row(k + 1, design, words) for k, design in enumerate(found.designs)]
+        print_table(words["columns"], rows)
+    else:
+        print(words["none"])
+    if (rejected or not found.designs) and found.rejected:
+        print()
+        shown = found.rejected if rejected else found.rejected[:5]
+        print_table(words["rejected"], [[d.form, "; ".join(d.verdict.reasons)] for d in shown])
+
+
+def _row(number: int, design: Design, words: dict[str, Any]) -> list[str]:
+    verdict, linkage = design.verdict, design.linkage
+    drive = linkage.mechanism.drive_names()[0]
+    mu = "" if isnan(verdict.transmission) else f"{degrees(verdict.transmission):.1f}°"
+    turns = words["yes"] if verdict.turns_fully else words["no"]
+    return [f"{number} {design.form}", drive, str(turns), mu, _lengths(design), f"{verdict.error:.1e}"]
+
+
+def _lengths(design: Design) -> str:
+    """The distance of the pins of each link, link by link."""
+    linkage = design.linkage
+    out = []
+    for link in linkage.mechanism.chain.links:
+        pins = [e for (_, owner), e in linkage.elements.items() if owner == link and len(e) == 2]
+        out += [f"{math.hypot(p.x - q.x, p.y - q.y):.5g}" for k, p in enumerate(pins) for q in pins[:k]]
+    return " ".join(out)
+
+
+def _check_picture(path: Path) -> None:
+    if path.suffix.lower() not in (".html", ".svg"):
+        raise SynthesisError(f"{path}: end the name with .html or .svg")
+    if not path.parent.is_dir():
+        raise SynthesisError(f"{path}: there is no folder {str(path.parent)!r}")
+
+
+def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
+    """The best design, or all on a page."""
+    from gruebler.atomic_files import atomic_file
+    from gruebler.synthesis.pictures import design_figure, designs_page
+
+    alone = path.suffix.lower() == ".svg"
+    text = design_figure(found.task, found.designs[0], lang=lang).svg() if alone else designs_page(found, lang=lang)
+    with atomic_file(path, durable=False) as file:
+        file.write(text.encode("utf-8"))
+
+
+def _minimax(arguments: argparse.Namespace, found: SynthesisResult) -> Minimax:
+    """The best minimax optimum from any four-bar or slider-crank of the list."""
+    from gruebler.synthesis import minimax
+
+    if Path(arguments.task).suffix.lower() in (".toml", ".json", ".csv"):
+        raise SynthesisError("--minimax needs the function as an expression")
+    law = _law(arguments)
+    best: Minimax | None = None
+    for design in found.designs:
+        start = _coordination(design, found.task, law)
+        if start is None:
+            continue
+        try:
+            optimum = minimax(start, law)
+        except SynthesisError:
+            continue
+        if best is None or optimum.error < best.error:
+            best = optimum
+    if best is None:
+        raise SynthesisError(
+            "no accepted design follows the function over the whole interval: there is no optimum nearby"
+        )
+    return best
+
+
+def _coordination(design: Design, task: Task, law: FunctionLaw) -> Coordination | None:
+    """The lengths and starts of a design, if it is a four-bar or slider-crank that follows the law throughout."""
+    from gruebler.synthesis.functions import coordination_of
+
+    assert isinstance(task, FunctionTask)
+    return coordination_of(design, task, law)
+
+
+def _print_optimum(optimum: Minimax, words: dict[str, Any]) -> None:
+    solution = optimum.solution
+    turning = solution.kind == "four-bar"
+
+    def out(value: float) -> str:
+        return f"{degrees(value):.5g}°" if turning else f"{value:.5g}"
+
+    text = str(words["minimax"]).format(
+        error=out(optimum.error),
+        start=out(optimum.start_error),
+        lengths=", ".join(f"{v:.6g}" for v in solution.lengths),
+        phi=f"{degrees(solution.input_start):.6g}°",
+        psi=out(solution.output_start),
+    )
+    print(text)
+
+
+def _optimum_document(optimum: Minimax) -> dict[str, object]:
+    solution = optimum.solution
+    return {
+        "kind": solution.kind,
+        "lengths": list(solution.lengths),
+        "input_start_deg": degrees(solution.input_start),
+        "output_start": degrees(solution.output_start) if solution.kind == "four-bar" else solution.output_start,
+        "branch": solution.branch,
+        "error": optimum.error,
+        "start_error": optimum.start_error,
+    }

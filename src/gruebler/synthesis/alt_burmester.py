@@ -1,0 +1,245 @@
+"""Alt-Burmester problems: all four-bars through so many positions and points, by following stored generic solutions.
+
+`Problem` is one of the finite ones. Its generic solutions were found once by monodromy (`monodromy`) and are data of
+the package; `solutions` carries them to a task, tries paths again that failed, and certifies each end by an interval
+Newton step, so that the answer says how many of how many are accounted for. docs/theory/synthesis-points.md.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+from io import BytesIO
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import SynthesisError
+from gruebler.synthesis.discs import certified
+
+__all__ = ["PROBLEMS", "Problem", "Solutions", "generic", "parameters", "solutions"]
+
+Complexes = NDArray[np.complex128]
+Reals = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+QUICK, CAREFUL = 1e-3, 1e-6
+"""How far the corrector may change a prediction: at first, and when paths are followed again."""
+_BENDS = (0.02, 0.05, 0.1, 0.2, 0.4)
+"""How far bent ways lead aside, relative to the task; the last is for all solutions, not only those that were lost."""
+_SAME = 1e-7  # relative: solutions nearer to each other are one
+
+
+@dataclass(frozen=True)
+class Problem:
+    """So many positions (besides the first point or position) and so many points, and its number of solutions."""
+
+    name: str
+    poses: int
+    points: int
+    classes: int
+    """How many classes of solutions a general task has."""
+    members: int
+    """How many solutions, with the order of the dyads, a class has."""
+
+    @property
+    def given_pivots(self) -> bool:
+        """Whether the fixed pivots are given."""
+        return 2 * self.poses + self.points < 8
+
+    def marks(self, z: Complexes) -> Complexes:
+        """Numbers that are the same for all members of a class and differ between classes: (solutions, marks)."""
+        x, xc, y, yc, a, ac, b, bc = z.T
+        if self.given_pivots:
+            return np.stack([x, y, xc, yc], axis=1)
+        if self.poses:  # the dyads can be exchanged
+            return np.stack([a + b, a * b, x + y, x * y, xc * yc, a * x + b * y], axis=1)
+        # Roberts: the three fixed pivots are those of the three cognates.
+        with np.errstate(all="ignore"):
+            c, cc = (a * y - b * x) / (y - x), (ac * yc - bc * xc) / (yc - xc)
+        return np.stack([a + b + c, a * b + b * c + c * a, ac + bc + cc], axis=1)
+
+
+PROBLEMS = (
+    Problem("nine points", 0, 8, 1442, 6),
+    Problem("two positions and six points", 1, 6, 1112, 2),
+    Problem("three positions and four points", 2, 4, 201, 2),
+    Problem("four positions and two points", 3, 2, 30, 2),
+    Problem("five points and two fixed pivots", 0, 4, 36, 1),
+)
+"""The finite problems with stored solutions; five positions are solved in closed form."""
+
+
+def parameters(
+    displacements: Complexes, rotations: Complexes, pivots: tuple[complex, complex] | None = None
+) -> Complexes:
+    """The parameters of a real task: displacements of all positions, then points; rotations of the positions."""
+    p = np.zeros((4, 8), np.complex128)
+    p[0, : len(displacements)] = displacements
+    p[1, : len(displacements)] = np.conj(displacements)
+    p[2, : len(rotations)] = rotations - 1
+    if pivots is not None:
+        p[3, 4:] = pivots[0], np.conj(pivots[0]), pivots[1], np.conj(pivots[1])
+    return p
+
+
+class Generic(NamedTuple):
+    """A generic task and all its solutions, one of each class."""
+
+    parameters: Complexes
+    z: Complexes
+
+
+@cache
+def generic(problem: Problem) -> Generic:
+    """The stored solutions, sharpened to full precision."""
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.homotopy import refine
+    from gruebler._numeric.work import refining
+
+    name = problem.name.replace(" ", "_")
+    raw = (files("gruebler.synthesis") / "data" / f"{name}.npz").read_bytes()
+    with np.load(BytesIO(raw)) as stored:
+        p, z = stored["parameters"], stored["solutions"].astype(np.complex128)
+    steps = np.empty(len(z))
+    for_work(refine, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+    if not (steps < 1e-10).all():
+        raise SynthesisError(f"the stored solutions of {problem.name} are damaged")
+    return Generic(p, z)
+
+
+class Solutions(NamedTuple):
+    """The complex solutions of a task, one of each class."""
+
+    z: Complexes
+    """(found, 8) finite ones."""
+    certified: NDArray[np.bool_]
+    """(found,) which of them are proved to be solutions, each a different one."""
+    infinite: int
+    """How many paths go to infinity."""
+    missing: int
+    """How many solutions are not accounted for."""
+
+    @property
+    def real(self) -> Complexes:
+        """(real, 8) those that are real linkages."""
+        gaps = np.abs(self.z[:, 1::2] - np.conj(self.z[:, ::2])).max(axis=1)
+        return np.asarray(self.z[gaps <= 1e-7 * (1 + np.abs(self.z).max(axis=1))])
+
+
+Progress = Callable[[int, int], None]
+"""Called with how many paths are done, and of how many."""
+
+
+def follow(
+    problem: Problem,
+    starts: Complexes,
+    begin: Complexes,
+    end: Complexes,
+    loose: float,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> tuple[Complexes, Ints]:
+    """Ends and statuses of all paths; threads share them, the answer does not depend on how many there are."""
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.homotopy import track
+    from gruebler._numeric.work import tracking
+
+    kernel = for_work(track, tracking(len(starts)))
+    out, status = np.empty_like(starts), np.empty(len(starts), np.int64)
+    work = np.empty(len(starts), np.int64)
+    size = 32
+    blocks = [slice(k, k + size) for k in range(0, len(starts), size)]
+
+    def run(part: slice) -> None:
+        kernel(starts[part], begin, end, problem.poses, problem.points, loose, out[part], status[part], work[part])
+
+    workers = max(1, min(threads or os.cpu_count() or 1, len(blocks)))
+    done = 0
+    with ThreadPoolExecutor(workers) as pool:
+        for part, _ in zip(blocks, pool.map(run, blocks), strict=True):
+            done = min(part.stop, len(starts))
+            if progress is not None:
+                progress(done, len(starts))
+    return out, status
+
+
+def solutions(
+    problem: Problem, p: Complexes, *, threads: int | None = None, progress: Progress | None = None
+) -> Solutions:
+    """All solutions of a task whose displacements are of the order of 1.
+
+    Paths that fail, and those whose ends coincide, are followed again with fine steps; what is still missing is sought
+    along other ways through the space of tasks. Cost: 1442 paths 3 s on one core.
+    """
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.homotopy import ARRIVED, INFINITE, refine
+    from gruebler._numeric.work import refining
+
+    base = generic(problem)
+    ends, status = follow(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
+    again = (status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)
+    if again.any():
+        ends[again], status[again] = follow(problem, base.z[again], base.parameters, p, CAREFUL, threads=threads)
+    found = _distinct(problem, ends[status == ARRIVED])
+    lost = base.z[(status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)]
+    rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
+    for bend in _BENDS:
+        if len(found) >= problem.classes:
+            break
+        # A way that is bent a little meets no singular task that the straight one passes too closely.
+        middle = (base.parameters + p) / 2 + bend * _random_task(base.parameters, p, rng)
+        whole = bend == _BENDS[-1]
+        first, reached = follow(problem, base.z if whole else lost, base.parameters, middle, QUICK, threads=threads)
+        more, reached = follow(problem, first[reached == ARRIVED], middle, p, QUICK, threads=threads)
+        found = _distinct(problem, np.concatenate([found, more[reached == ARRIVED]]))
+    missing = problem.classes - len(found)
+    infinite = min(missing, int(np.count_nonzero(status == INFINITE)))
+    steps = np.empty(len(found))
+    for_work(refine, refining(len(found)))(found, p, problem.poses, problem.points, steps)
+    good = certified(problem.poses, problem.points, found, p)
+    return Solutions(found, good, infinite, missing - infinite)
+
+
+def _random_task(begin: Complexes, end: Complexes, rng: np.random.Generator) -> Complexes:
+    """A random complex task of the size of two others, with the same parameters in use."""
+    size = np.maximum(np.abs(begin), np.abs(end))
+    return np.asarray(size * (rng.normal(size=size.shape) + 1j * rng.normal(size=size.shape)))
+
+
+def _levelled(marks: Complexes) -> Complexes:
+    """Marks with logarithmic modulus, so that equal gaps are equal relative differences, of large solutions too."""
+    size = np.abs(marks)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.where(size > 0, marks / size * np.log1p(size), 0))
+
+
+def _pairs(problem: Problem, z: Complexes) -> Ints:
+    """Pairs of solutions of one class: (pairs, 2)."""
+    from scipy.spatial import cKDTree
+
+    marks = _levelled(problem.marks(z))
+    flat = np.nan_to_num(np.concatenate([marks.real, marks.imag], axis=1), nan=9.0)
+    return np.asarray(cKDTree(flat).query_pairs(_SAME, output_type="ndarray"))
+
+
+def _repeated(problem: Problem, z: Complexes, arrived: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    out = np.zeros(len(z), bool)
+    where = np.flatnonzero(arrived)
+    out[where[_pairs(problem, z[arrived]).ravel()]] = True
+    return out
+
+
+def _distinct(problem: Problem, z: Complexes) -> Complexes:
+    """One solution of each class."""
+    pairs = _pairs(problem, z)
+    keep = np.ones(len(z), bool)
+    if len(pairs):
+        keep[pairs.max(axis=1)] = False
+    return z[keep]

@@ -1,0 +1,460 @@
+"""Whole curves: linkages whose coupler point comes as near as possible to many points.
+
+An atlas of normalised coupler curves gives the neighbours of the curve wanted, whatever its place, size, rotation and
+mirror image; least squares with exact derivatives makes the best of each. docs/theory/synthesis-curves.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError, SynthesisError
+from gruebler.linkages import Linkage
+from gruebler.synthesis.dyads import GuidingDyad
+from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, Kind, curve_points
+from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
+from gruebler.synthesis.positions import four_bar_linkages, linkage_of, ranked
+from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.tasks import PathTask
+
+__all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+Progress = Callable[[int, int], None]
+
+_ARCS = 64  # places on each curve of the atlas, evenly along it
+_WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for open targets
+_STEPS = 80
+ACCEPTED = 0.05
+"""A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
+
+
+class Atlas(NamedTuple):
+    """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
+
+    kind: Kind
+    rows: Reals
+    """(unknowns, linkages)"""
+    branch: Reals
+    phi: Reals
+    """(linkages, places) crank angles of places evenly along the curve."""
+    z: Complexes
+    """(linkages, places)"""
+
+
+def _halton(count: int, base: int) -> Reals:
+    """Van der Corput's numbers: spread evenly, the same everywhere."""
+    n = np.arange(1, count + 1)
+    out, part = np.zeros(count), 1.0
+    while n.any():
+        part /= base
+        out += part * (n % base)
+        n = n // base
+    return out
+
+
+@cache
+def atlas(kind: Kind, count: int = 0) -> Atlas:
+    """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
+    count = count or (90_000 if kind is FOUR_BAR else 12_000)
+    one, two, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
+    spread = np.log(6.0)
+    if kind is FOUR_BAR:
+        b, c, d = (np.exp(spread * (2 * v - 0.7)) for v in (one, two, three))
+        zero = 0 * b
+        rows = np.stack([zero, zero, d, zero, zero + 1, b, c, zero, zero])
+    else:
+        b, h = np.exp(spread * one) * 1.05, 3 * two
+        zero = 0 * b
+        rows = np.stack([zero, zero, zero, h, zero + 1, b, zero, zero])
+    reach = np.maximum(rows[kind.unknowns.index("b")], 1.0)
+    w = reach * (0.5 + 2.0 * np.sqrt(four) * np.exp(2j * np.pi * five))
+    rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
+    rows = rows[:, _turns(kind, rows)]
+    branch = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
+    phi = np.linspace(0, 2 * np.pi, 2 * _ARCS + 1)
+    z = curve_points(kind, rows[:, :, None], phi[None, :], branch[:, None]).z
+    good = np.isfinite(z).all(axis=1)
+    rows, branch, z = rows[:, good], branch[good], z[good]
+    arcs = np.concatenate([np.zeros((len(z), 1)), np.cumsum(np.abs(np.diff(z, axis=1)), axis=1)], axis=1)
+    places = np.arange(_ARCS) / _ARCS
+    at = np.stack([np.interp(places * row[-1], row, phi) for row in arcs])
+    return Atlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
+
+
+class _Start(NamedTuple):
+    """A neighbour of the target, placed on it."""
+
+    gap: float
+    """What the best similarity leaves, relative to the target's spread."""
+    row: Reals
+    branch: float
+    phi: Reals
+    """(points,) crank angles of the target's points, in the plane."""
+
+
+def _resampled(z: Complexes, closed: bool, count: int) -> tuple[Complexes, Reals]:
+    """Points evenly along the curve through points, and the part of the curve at which each given point lies."""
+    whole = np.append(z, z[0]) if closed else z
+    arcs = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(whole)))])
+    parts = arcs / arcs[-1]
+    at = np.arange(count) / count if closed else np.linspace(0, 1, count)
+    places = np.interp(at, parts, whole.real) + 1j * np.interp(at, parts, whole.imag)
+    return places, parts[: len(z)]
+
+
+def _neighbours(kind: Kind, z: Complexes, closed: bool, number: int) -> list[_Start]:
+    """The nearest curves of the atlas, or pieces of them, up to a similarity."""
+    book = atlas(kind)
+    spectrum = np.fft.fft(book.z, axis=1)
+    out: list[_Start] = []
+    for mirrored in (False, True):
+        wanted = np.conj(z) if mirrored else z
+        for length in (_ARCS,) if closed else _WINDOWS:
+            target, parts = _resampled(wanted, closed, length if closed else length + 1)
+            for back in (False, True):
+                rows = target[::-1] if back else target
+                along = (1 - parts) % 1.0 if back and closed else (1 - parts if back else parts)
+                if back and closed:
+                    rows, along = np.roll(target[::-1], 1), (-parts) % 1.0
+                out += _matched(book, spectrum, rows, along, length, number, mirrored)
+    out.sort(key=lambda start: start.gap)
+    return out[:number]
+
+
+def _matched(
+    book: Atlas, spectrum: Complexes, target: Complexes, along: Reals, length: int, number: int, mirrored: bool
+) -> list[_Start]:
+    count = len(target)
+    middle = target.mean()
+    centred = target - middle
+    energy = float(np.sum(np.abs(centred) ** 2))
+    # For every begin of a piece of every curve: sum of conj(curve) * target, and the spread of the piece.
+    padded = np.zeros(_ARCS, np.complex128)
+    padded[:count] = centred[:_ARCS]
+    # inner[begin] = sum over j of conj(curve[begin + j]) * target[j], by the theorem of convolution.
+    inner = np.conj(np.fft.ifft(spectrum * np.conj(np.fft.fft(padded)), axis=1))
+    around = np.concatenate([book.z, book.z[:, :count]], axis=1)
+    sums = np.cumsum(np.concatenate([np.zeros((len(around), 1)), around], axis=1), axis=1)
+    squares = np.cumsum(np.concatenate([np.zeros((len(around), 1)), np.abs(around) ** 2], axis=1), axis=1)
+    begins = np.arange(_ARCS)
+    mean = (sums[:, begins + count] - sums[:, begins]) / count
+    spread = (squares[:, begins + count] - squares[:, begins]).real - count * np.abs(mean) ** 2
+    with np.errstate(invalid="ignore", divide="ignore"):
+        likeness = np.abs(inner) ** 2 / (np.maximum(spread, 1e-12) * energy)
+    best = np.argmax(likeness, axis=1)
+    rows = np.arange(len(best))
+    order = np.argsort(-likeness[rows, best])[:number]
+    return [
+        _placed(
+            book,
+            int(n),
+            int(best[n]),
+            complex(inner[n, best[n]]),
+            float(spread[n, best[n]]),
+            complex(mean[n, best[n]]),
+            middle,
+            along,
+            length,
+            mirrored,
+            1 - float(likeness[n, best[n]]),
+        )
+        for n in order
+    ]
+
+
+def _placed(
+    book: Atlas,
+    number: int,
+    begin: int,
+    inner: complex,
+    spread: float,
+    mean: complex,
+    middle: complex,
+    along: Reals,
+    length: int,
+    mirrored: bool,
+    gap: float,
+) -> _Start:
+    """A curve of the atlas turned, scaled and shifted onto the target."""
+    turn = inner / spread
+    shift = middle - turn * mean
+    phi = np.unwrap(np.concatenate([book.phi[number], book.phi[number][:1] + 2 * np.pi]))
+    at = begin + along * length
+    laps = np.floor(at / _ARCS)
+    crank = np.interp(at - laps * _ARCS, np.arange(_ARCS + 1), phi) + 2 * np.pi * laps
+    row = _transformed(book.kind, book.rows[:, number], turn, shift)
+    angle = crank + float(np.angle(turn))
+    branch = float(book.branch[number])
+    if mirrored:
+        row, angle, branch = _mirrored(book.kind, row), -angle, -branch
+    return _Start(gap, row, branch, angle)
+
+
+def _transformed(kind: Kind, row: Reals, turn: complex, shift: complex) -> Reals:
+    r = dict(zip(kind.unknowns, row, strict=True))
+    scale = abs(turn)
+    for name in ("a", "b", "c", "u", "v"):
+        if name in r:
+            r[name] *= scale
+    pairs = [("a0x", "a0y")] + ([("b0x", "b0y")] if "b0x" in r else [])
+    for x, y in pairs:
+        z = turn * complex(r[x], r[y]) + shift
+        r[x], r[y] = z.real, z.imag
+    if "h" in r:
+        r["angle"] += float(np.angle(turn))
+        r["h"] = r["h"] * scale + float(np.imag(np.exp(-1j * r["angle"]) * shift))
+    return np.array([r[name] for name in kind.unknowns])
+
+
+def _mirrored(kind: Kind, row: Reals) -> Reals:
+    """In the x axis; the branch of a four-bar changes, and that of a slider-crank stays but for the direction."""
+    r = dict(zip(kind.unknowns, row, strict=True))
+    for name in ("a0y", "b0y", "v", "h", "angle"):
+        if name in r:
+            r[name] = -r[name]
+    return np.array([r[name] for name in kind.unknowns])
+
+
+class Fit(NamedTuple):
+    """A linkage fitted to points."""
+
+    kind: Kind
+    row: Reals
+    branch: float
+    phi: Reals
+    """(points,) crank angles, in the plane."""
+    error: float
+    """The root of the mean square distance, relative to the size of the target."""
+
+
+def fit_curve(
+    z: Complexes,
+    *,
+    closed: bool,
+    timing: Reals | None = None,
+    kinds: tuple[Kind, ...] = (FOUR_BAR, SLIDER_CRANK),
+    starts: int = 40,
+    number: int = 6,
+) -> list[Fit]:
+    """The linkages whose coupler curves come nearest to points in the mean, the best first.
+
+    Args:
+        z: (points,) x + iy, in order.
+        closed: whether the curve returns to its begin.
+        timing: (points,) crank angles, of which differences count; without them the crank angle of each point is free.
+        kinds: of linkages.
+        starts: how many neighbours of each kind are made better.
+        number: how many are returned.
+
+    Cost: 1 s for the atlas at the first call, then about 0.5 s.
+    """
+    size = _extent(z)
+    middle = z.mean()
+    reduced = (z - middle) / size
+    out: list[Fit] = []
+    for kind in kinds:
+        found = (
+            _neighbours(kind, reduced, closed, starts)
+            if timing is None
+            else _timed_neighbours(kind, reduced, timing, starts)
+        )
+        out += _improved(kind, reduced, found, timing, turning=closed)
+    out.sort(key=lambda fit: fit.error)
+    chosen: list[Fit] = []
+    for fit in out:
+        if all(fit.kind is not o.kind or np.abs(_shape(fit) - _shape(o)).max() > 0.02 for o in chosen):
+            chosen.append(fit)
+        if len(chosen) == number:
+            break
+    return [fit._replace(row=_transformed(fit.kind, fit.row, complex(size), complex(middle))) for fit in chosen]
+
+
+def _shape(fit: Fit) -> Reals:
+    """Lengths that do not depend on place and rotation, logarithmically."""
+    r = dict(zip(fit.kind.unknowns, fit.row, strict=True))
+    frame = np.hypot(r["b0x"] - r["a0x"], r["b0y"] - r["a0y"]) if "b0x" in r else 1.0
+    lengths = [r["a"], r["b"], r.get("c", 1.0), frame, np.hypot(r["u"], r["v"])]
+    return np.asarray(np.log(np.array(lengths) + 1e-3))
+
+
+def _extent(z: Complexes) -> float:
+    """The longest side of the smallest upright rectangle about points."""
+    return float(max(np.ptp(z.real), np.ptp(z.imag)))
+
+
+def _timed_neighbours(kind: Kind, z: Complexes, timing: Reals, number: int) -> list[_Start]:
+    """Curves of the atlas whose points at these crank angles are similar to the target."""
+    book = atlas(kind, 12000)
+    out = []
+    target = z - z.mean()
+    energy = float(np.sum(np.abs(target) ** 2))
+    for mirrored in (False, True):
+        wanted, turned = (np.conj(target), -(timing - timing[0])) if mirrored else (target, timing - timing[0])
+        for begin in 2 * np.pi * np.arange(24) / 24:
+            angles = begin + turned
+            w = curve_points(kind, book.rows[:, :, None], angles[None, :], book.branch[:, None]).z
+            mean = w.mean(axis=1)
+            inner = np.conj(w - mean[:, None]) @ wanted
+            spread = np.sum(np.abs(w - mean[:, None]) ** 2, axis=1)
+            likeness = np.abs(inner) ** 2 / (spread * energy)
+            for n in np.argsort(-likeness)[: max(3, number // 8)]:
+                turn = complex(inner[n] / spread[n])
+                middle = np.conj(z.mean()) if mirrored else z.mean()
+                row = _transformed(kind, book.rows[:, n], turn, complex(middle - turn * mean[n]))
+                phi, branch = angles + float(np.angle(turn)), float(book.branch[n])
+                if mirrored:
+                    row, phi, branch = _mirrored(kind, row), -phi, -branch
+                out.append(_Start(1 - float(likeness[n]), row, branch, phi))
+    out.sort(key=lambda start: start.gap)
+    return out[:number]
+
+
+def _improved(kind: Kind, z: Complexes, found: list[_Start], timing: Reals | None, *, turning: bool) -> list[Fit]:
+    """Levenberg and Marquardt's method for all starts at once; free crank angles are eliminated point by point.
+
+    With ``turning`` the crank has to stay one that turns fully.
+    """
+    if not found:
+        return []
+    rows = np.array([start.row for start in found]).T  # (unknowns, starts)
+    phi = np.array([start.phi for start in found])
+    branch = np.array([start.branch for start in found])
+    if kind is SLIDER_CRANK:
+        branch = _slider_branches(rows, phi, branch, z)
+    damping = np.full(len(found), 1e-3)
+    cost = _cost(kind, rows, phi, branch, z, turning=turning)
+    unknowns = len(kind.unknowns)
+    for _ in range(_STEPS):
+        made = curve_points(kind, rows[:, :, None], phi, branch[:, None], slopes=True)
+        rest = made.z - z
+        if timing is None:
+            normal = 1j * made.by_crank / np.maximum(np.abs(made.by_crank), 1e-12)
+            value = np.real(np.conj(normal) * rest)
+            matrix = np.real(np.conj(normal) * made.by_sizes).transpose(1, 2, 0)
+        else:
+            slopes = np.concatenate([made.by_sizes, made.by_crank[None]]).transpose(1, 2, 0)
+            value = np.concatenate([rest.real, rest.imag], axis=1)
+            matrix = np.concatenate([slopes.real, slopes.imag], axis=1)
+        value, matrix = np.nan_to_num(value), np.nan_to_num(matrix)
+        gram = np.einsum("nij,nik->njk", matrix, matrix)
+        right = np.einsum("nij,ni->nj", matrix, value)
+        weight = np.einsum("njj->nj", gram) + 1e-9
+        gram = gram + damping[:, None, None] * np.einsum("nj,jk->njk", weight, np.eye(weight.shape[1]))
+        step = -np.linalg.solve(gram, right[:, :, None])[:, :, 0]
+        trial_rows = rows + step[:, :unknowns].T
+        if timing is None:
+            moved = rest + np.einsum("knm,nk->nm", made.by_sizes, step)
+            along = -np.real(np.conj(made.by_crank) * moved) / np.maximum(np.abs(made.by_crank) ** 2, 1e-12)
+            trial_phi = phi + np.clip(np.nan_to_num(along), -0.3, 0.3)
+        else:
+            trial_phi = phi + step[:, -1:]
+        trial = _cost(kind, trial_rows, trial_phi, branch, z, turning=turning)
+        better = trial < cost
+        rows = np.where(better, trial_rows, rows)
+        phi = np.where(better[:, None], trial_phi, phi)
+        gain = np.where(better, cost - trial, 0.0)
+        cost = np.where(better, trial, cost)
+        damping = np.clip(np.where(better, damping * 0.3, damping * 4.0), 1e-12, 1e6)
+        if not ((gain > 1e-10 * cost) | (damping < 1e5)).any() or cost.min() < 1e-28:
+            break
+    fits = []
+    for n in np.argsort(cost):
+        if np.isfinite(cost[n]):
+            fits.append(Fit(kind, rows[:, n], float(branch[n]), phi[n], float(np.sqrt(cost[n] / len(z)))))
+    return fits
+
+
+def _slider_branches(rows: Reals, phi: Reals, branch: Reals, z: Complexes) -> Reals:
+    """The branch that lies nearer to the target: a mirror image may or may not change it."""
+    costs = [_cost(SLIDER_CRANK, rows, phi, sign * np.ones_like(branch), z, turning=False) for sign in (1.0, -1.0)]
+    return np.where(costs[0] <= costs[1], 1.0, -1.0)
+
+
+def _cost(kind: Kind, rows: Reals, phi: Reals, branch: Reals, z: Complexes, *, turning: bool) -> Reals:
+    """The sum of squared distances of each start; infinite where it cannot be assembled or a length is not positive."""
+    w = curve_points(kind, rows[:, :, None], phi, branch[:, None]).z
+    cost = np.sum(np.abs(w - z) ** 2, axis=1)
+    lengths = rows[[kind.unknowns.index(name) for name in ("a", "b", "c") if name in kind.unknowns]]
+    bad = ~np.isfinite(cost) | (lengths < 1e-3).any(axis=0) | (np.abs(rows) > 100).any(axis=0)
+    if turning:
+        bad |= ~_turns(kind, rows)
+    return np.where(bad, np.inf, cost)
+
+
+def _turns(kind: Kind, rows: Reals) -> NDArray[np.bool_]:
+    """Whether the crank turns fully (Grashof)."""
+    r = dict(zip(kind.unknowns, rows, strict=True))
+    if kind is SLIDER_CRANK:
+        offset = np.abs(r["h"] - (np.cos(r["angle"]) * r["a0y"] - np.sin(r["angle"]) * r["a0x"]))
+        return np.asarray(r["b"] > r["a"] + offset)
+    frame = np.hypot(r["b0x"] - r["a0x"], r["b0y"] - r["a0y"])
+    lengths = np.stack([r["a"], r["b"], r["c"], frame])
+    shortest = np.minimum(r["a"], frame)
+    longest, least = lengths.max(axis=0), lengths.min(axis=0)
+    return np.asarray((least == shortest) & (2 * (longest + least) < lengths.sum(axis=0)))
+
+
+def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Progress | None = None) -> SynthesisResult:
+    """The linkages nearest to many points or a closed curve, judged by how near they really come.
+
+    Raises `SynthesisError` for fewer than five points.
+    """
+    if len(task) < 5:
+        raise SynthesisError(f"a whole curve needs at least five points, not {len(task)}")
+    timing = np.array(task.crank_angles) if task.crank_angles else None
+    fits = fit_curve(task.z, closed=task.closed, timing=timing, number=4 * number)
+    limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
+    made: list[Design] = []
+    for k, fit in enumerate(fits):
+        made += _judged(task, replace(demands, tolerance=limit), fit)
+        if progress is not None:
+            progress(k + 1, len(fits))
+        if sum(design.verdict.accepted for design in made) == number:
+            break
+    accepted, rejected = ranked(made)
+    accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
+    note = f"So many points are met by least squares; accepted is what comes nearer than {limit:g} of the size."
+    return SynthesisResult(task, accepted, rejected, Count("linkages", 0, len(fits), len(fits)), (note,))
+
+
+def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
+    """The linkage of a fit in the position of its first point."""
+    r = dict(zip(fit.kind.unknowns, (float(v) for v in fit.row), strict=True))
+    phi = float(fit.phi[0])
+    pivot = complex(r["a0x"], r["a0y"])
+    pin = pivot + r["a"] * complex(np.exp(1j * phi))
+    point = complex(curve_points(fit.kind, fit.row[:, None], fit.phi[:1], fit.branch).z[0])
+    theta = (point - pin) / complex(r["u"], r["v"])
+    far = pin + r["b"] * theta
+    own = GuidingDyad("RR", pin, pivot)
+    if fit.kind is FOUR_BAR:
+        return four_bar_linkages(own, GuidingDyad("RR", far, complex(r["b0x"], r["b0y"])), point, unit=unit)
+    slide = complex(np.exp(1j * r["angle"]))
+    return [linkage_of(own, GuidingDyad("PR", far, far, slide), point, unit)]
+
+
+def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
+    try:
+        linkages = linkages_of(fit, unit=task.unit)
+    except LinkageError:
+        return []
+
+    def targets(linkage: Linkage) -> Targets:
+        size = _extent(task.z)
+        if not task.crank_angles:
+            return Targets((Probe("P"),), task.z[:, None], size)
+        assert linkage.home is not None
+        timing = np.array(task.crank_angles)
+        crank = size * np.exp(1j * (linkage.home["crank"].angle + timing - timing[0]))
+        return Targets((Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size)
+
+    return [best_of(linkages[:1] if task.crank_angles else linkages, targets, demands, fit.kind.name)]

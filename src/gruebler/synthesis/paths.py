@@ -1,0 +1,284 @@
+"""Path generation: four-bars whose coupler point passes through points, with all solutions where they are finite.
+
+docs/theory/synthesis-points.md has the equations and the counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError, SynthesisError
+from gruebler.linkages import Linkage
+from gruebler.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
+from gruebler.synthesis.dyads import GuidingDyad
+from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judged, point_targets, position_targets
+from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
+from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.tasks import PathTask, PositionTask
+
+__all__ = ["four_bars_through", "synthesise_path"]
+
+Complexes = NDArray[np.complex128]
+Progress = Callable[[int, int], None]
+
+
+def synthesise_path(
+    task: PathTask,
+    demands: Demands | None = None,
+    *,
+    number: int = 6,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> SynthesisResult:
+    """All four-bars whose coupler point passes through the points of a task.
+
+    With nine points, five points and two fixed pivots, five points with crank angles, or the finite mixed tasks all
+    solutions are found; with fewer the task is completed, since it has infinitely many; with more, and for a closed
+    curve, the four-bars that come nearest are sought.
+
+    Args:
+        task: points, perhaps with coupler angles, crank angles or fixed pivots.
+        demands: what a design has to do besides.
+        number: of dyads taken from an infinite family (crank angles), or of designs for a whole curve.
+        threads: how many follow paths; as many as there are processors if None.
+        progress: called with the paths done and their number.
+
+    Raises `SynthesisError` for combinations that no method serves. Cost: nine points about 3 s on one core, the others
+    below 1 s, and 10 ms for each verdict.
+
+    >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
+    >>> synthesise_path(task).count
+    Count(what='four-bars', theorem=36, found=36, real=14)
+    """
+    wanted = demands or Demands()
+    oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
+    if task.crank_angles:
+        if oriented or task.fixed_pivots:
+            raise SynthesisError("crank angles go with points alone, without coupler angles and fixed pivots")
+        return _timed(task, wanted, number)
+    if task.fixed_pivots and len(oriented) > 1:
+        raise SynthesisError("fixed pivots go with points alone, without coupler angles")
+    if len(oriented) == len(task) and len(task) > 1 and not task.closed:
+        return _as_positions(task, wanted)
+    poses = max(0, len(oriented) - 1)
+    needed = 4 if task.fixed_pivots else 8 - 2 * poses
+    free = len(task) - 1 - poses
+    if task.closed or needed < free or poses > 3:
+        from gruebler.synthesis.curves import fit_path
+
+        if oriented or task.fixed_pivots:
+            raise SynthesisError("so many points are met by least squares, without coupler angles and fixed pivots")
+        return fit_path(task, wanted, number=number, progress=progress)
+    problem = next(p for p in PROBLEMS if p.poses == poses and p.given_pivots == bool(task.fixed_pivots))
+    return _exact(task, wanted, problem, oriented, threads, progress)
+
+
+def _as_positions(task: PathTask, demands: Demands) -> SynthesisResult:
+    """Every point has its coupler angle: positions."""
+    rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
+    found = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands)
+    return SynthesisResult(task, found.designs, found.rejected, found.count, found.notes)
+
+
+class _Reduced(NamedTuple):
+    """A task in its own units: the first position (or point) at the origin, the size 1."""
+
+    parameters: Complexes
+    origin: complex
+    size: float
+    added: int
+    """How many points were added to make the problem finite."""
+    first: int
+    """The number of the point that is the origin."""
+
+
+def _exact(
+    task: PathTask,
+    demands: Demands,
+    problem: Problem,
+    oriented: list[int],
+    threads: int | None,
+    progress: Progress | None,
+) -> SynthesisResult:
+    made, found = _best_reference(task, problem, oriented, threads, progress)
+    designs: list[Design] = []
+    for one, two in _dyad_pairs(problem, found):
+        one, two = (d.moved(made.size, made.origin) for d in (one, two))  # noqa: PLW2901
+        designs += _judged(task, demands, one, two, made.first)
+    cognates = 3 if problem.poses == 0 and not problem.given_pivots else 1
+    what = "cognate triples" if cognates == 3 else "four-bars"
+    accepted, rejected = ranked(designs)
+    count = Count(what, problem.classes, len(found.z) + found.infinite, len(found.real))
+    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(found, made.added)))
+
+
+def _notes(found: Solutions, added: int) -> Iterator[str]:
+    if added:
+        yield (
+            f"There are infinitely many solutions: to make them finite {added} more on a smooth curve through the "
+            "given points were added."
+        )
+    if found.infinite:
+        yield f"{found.infinite} solutions lie at infinity: the task is a special one."
+    if found.missing:
+        yield f"{found.missing} solutions are missing: their paths could not be followed to the end."
+    doubtful = int(np.count_nonzero(~found.certified))
+    if doubtful:
+        yield f"{doubtful} solutions are not certified: they are singular or nearly so."
+
+
+def _best_reference(
+    task: PathTask, problem: Problem, oriented: list[int], threads: int | None, progress: Progress | None
+) -> tuple[_Reduced, Solutions]:
+    """The solutions with the most central point as origin, where the equations cancel least; else with the next."""
+    candidates = list(oriented) or list(range(len(task)))
+    z = task.z
+    candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
+    best: tuple[_Reduced, Solutions] | None = None
+    for first in candidates[:2]:
+        made = _reduced(task, problem, oriented, first)
+        found = solutions(problem, made.parameters, threads=threads, progress=progress)
+        if best is None or len(found.z) > len(best[1].z):
+            best = made, found
+        if not found.missing + found.infinite:
+            break
+    assert best is not None
+    return best
+
+
+def _reduced(task: PathTask, problem: Problem, oriented: list[int], first: int) -> _Reduced:
+    z = task.z
+    others = [k for k in oriented if k != first]
+    free = [k for k in range(len(z)) if k != first and k not in others]
+    size = float(np.abs(z - z[first]).mean())
+    extra = problem.points - len(free)
+    places = np.concatenate([z[others], z[free], _between(z, extra)])
+    angles = np.array([task.angles[k] for k in [first, *others]] if oriented else [0.0], float)
+    rotations = np.exp(1j * (angles[1:] - angles[0]))
+    pivots = None
+    if task.fixed_pivots:
+        one, two = ((complex(*p) - z[first]) / size for p in task.fixed_pivots)
+        pivots = complex(one), complex(two)
+    p = parameters((places - z[first]) / size, rotations, pivots)
+    return _Reduced(p, complex(z[first]), size, extra, first)
+
+
+def _between(z: Complexes, count: int) -> Complexes:
+    """Points on a smooth curve through the given ones, between those furthest apart; a little off, to be general."""
+    if count == 0:
+        return np.zeros(0, np.complex128)
+    if len(z) < 3:
+        t = np.arange(1, count + 1) / (count + 1)
+        gap = z[-1] - z[0]
+        return np.asarray(z[0] + gap * t + 0.3j * gap * t * (1 - t) * (1 + 0.1 * np.cos(7 * t)))
+    from scipy.interpolate import PchipInterpolator
+
+    arc = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(z)))])
+    curve = PchipInterpolator(arc, np.stack([z.real, z.imag], axis=1))
+    knots = list(arc)
+    out = []
+    for k in range(count):
+        gaps = np.diff(knots)
+        widest = int(np.argmax(gaps))
+        at = knots[widest] + gaps[widest] * (0.5 + 0.03 * np.cos(3.0 * k))
+        knots.insert(widest + 1, at)
+        x, y = curve(at)
+        out.append(complex(x, y))
+    return np.array(out)
+
+
+def _dyad_pairs(problem: Problem, found: Solutions) -> Iterator[tuple[GuidingDyad, GuidingDyad]]:
+    """The real linkages of all real classes: with Roberts' cognates where only points are given."""
+    for row in found.real:
+        x, y, a, b = (complex(row[k] + np.conj(row[k + 1])) / 2 for k in (0, 2, 4, 6))
+        yield GuidingDyad("RR", x, a), GuidingDyad("RR", y, b)
+        if problem.poses or problem.given_pivots or abs(y - x) < 1e-12:
+            continue
+        # The coupler triangle: the point, at the origin, lies at the part k of the way from x to y.
+        k = -x / (y - x)
+        c = a + k * (b - a)
+        yield GuidingDyad("RR", a - x, a), GuidingDyad("RR", (a - x) * (1 - k), c)
+        yield GuidingDyad("RR", b - y, b), GuidingDyad("RR", k * (b - y), c)
+
+
+def _judged(task: PathTask, demands: Demands, one: GuidingDyad, two: GuidingDyad, first: int) -> list[Design]:
+    try:
+        linkages = four_bar_linkages(one, two, complex(task.z[first]), unit=task.unit)
+    except LinkageError:
+        return []
+    return [best_of(linkages, partial(_targets, task, first), demands, "RR-RR")]
+
+
+def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
+    if not any(angle is not None for angle in task.angles):
+        return point_targets("P", task.z, task.size)
+    assert linkage.home is not None
+    start = task.angles[first]
+    assert start is not None
+    home = linkage.home["coupler"].angle
+    angles = [None if a is None else home + a - start for a in task.angles]
+    return position_targets("P", "coupler", task.z, angles, task.size)
+
+
+def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
+    """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
+    problem = PROBLEMS[4 if task.fixed_pivots else 0]
+    made, found = _best_reference(task, problem, [], None, None)
+    pairs = _dyad_pairs(problem, found)
+    return [(one.moved(made.size, made.origin), two.moved(made.size, made.origin)) for one, two in pairs]
+
+
+def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
+    """Points with crank angles: twice the problem of guiding a body, first seen from the crank, then the coupler."""
+    if len(task) > 5:
+        from gruebler.synthesis.curves import fit_path
+
+        return fit_path(task, demands, number=number)
+    if len(task) < 3:
+        raise SynthesisError("crank angles need at least three points: two are met by any crank")
+    timing = np.array(task.crank_angles)
+    # The body of the crank seen with the coupler point at rest: its point A - A0 goes to exp(i angle) (A - A0) - P.
+    seen = PositionTask(tuple((-z.real, -z.imag, a) for z, a in zip(task.z, timing, strict=True)))
+    designs: list[Design] = []
+    cranks = [d for d in guiding_dyads(seen, number) if d.form == "RR"]
+    real = 0
+    for crank in cranks:
+        # Placed in the first position: fixed = -A0, moving = (A - A0) - P1 as the place of the body's point.
+        pivot, pin = -crank.fixed, crank.moving + task.z[0] - crank.fixed
+        turned = np.exp(1j * (timing - timing[0]))
+        pins = pivot + (pin - pivot) * turned
+        coupler = np.unwrap(np.angle((task.z - pins) / (task.z[0] - pin)))
+        carried = PositionTask(tuple((z.real, z.imag, a) for z, a in zip(task.z, coupler, strict=True)))
+        own = GuidingDyad("RR", complex(pin), complex(pivot))
+        for other in guiding_dyads(carried, number):
+            same = abs(other.moving - own.moving) + abs(other.fixed - own.fixed)
+            if other.form == "RR" and same < 1e-6 * (task.size + abs(own.moving) + abs(own.fixed)):
+                continue
+            real += 1
+            designs += _judged_timed(task, demands, own, other)
+    accepted, rejected = ranked(designs)
+    theorem = 12 if len(task) == 5 else None
+    notes = [] if theorem else ["There are infinitely many solutions; some dyads of each family were taken."]
+    return SynthesisResult(
+        task, accepted, rejected, Count("linkages", theorem, 12 if theorem else real, real), tuple(notes)
+    )
+
+
+def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:
+    from gruebler.synthesis.positions import linkage_of
+
+    try:
+        linkage = linkage_of(own, other, complex(task.z[0]), task.unit)
+    except LinkageError:
+        return []
+    assert linkage.home is not None
+    timing = np.array(task.crank_angles)
+    crank = task.size * np.exp(1j * (linkage.home["crank"].angle + timing - timing[0]))
+    probes = (Probe("P"), Probe(link="crank", length=task.size))
+    targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
+    return [judged(linkage, targets, demands, f"RR-{other.form}")]

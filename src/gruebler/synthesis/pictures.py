@@ -1,0 +1,89 @@
+"""Pictures of designs: the linkage in its first position, the path of its point, and the targets of the task."""
+
+from __future__ import annotations
+
+from math import degrees, isnan
+
+from gruebler.drawing import gallery_html
+from gruebler.drawing.figure import Figure
+from gruebler.drawing.gallery import Item, Section
+from gruebler.drawing.linkage_picture import draw_linkage
+from gruebler.linkages import Linkage
+from gruebler.synthesis.results import Design, SynthesisResult
+from gruebler.synthesis.tasks import PathTask, PositionTask, Task
+
+__all__ = ["design_figure", "designs_page"]
+
+_MOST_MARKS = 12  # targets that get a name; of more every second, third, ... is shown
+_WORDS = {
+    "en": {
+        "title": "Designs",
+        "accepted": "Accepted",
+        "rejected": "Rejected",
+        "round": "full turn",
+        "mu": "minimum transmission angle {mu:.1f}°",
+        "note": "{accepted} accepted, {rejected} rejected",
+    },
+    "de": {
+        "title": "Entwürfe",
+        "accepted": "Angenommen",
+        "rejected": "Verworfen",
+        "round": "umlaufend",
+        "mu": "kleinster Übertragungswinkel {mu:.1f}°",
+        "note": "{accepted} angenommen, {rejected} verworfen",
+    },
+}
+
+
+def _marked(task: Task, linkage: Linkage) -> Linkage:
+    """The linkage with the targets as points of its frame, by their numbers."""
+    match task:
+        case PositionTask():
+            places = task.origins
+        case PathTask():
+            places = task.z
+        case _:
+            return linkage
+    step = -(-len(places) // _MOST_MARKS)
+    frame = linkage.mechanism.frame
+    numbered = {str(k + 1): (frame, float(z.real), float(z.imag)) for k, z in enumerate(places) if k % step == 0}
+    return linkage.with_points(numbered)
+
+
+def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
+    """A design in its first position with the path of its point and the targets.
+
+    >>> from gruebler.synthesis import synthesise_path
+    >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
+    >>> "1" in design_figure(task, synthesise_path(task).designs[0]).svg()
+    True
+    """
+    linkage = _marked(task, design.linkage)
+    curves = ["P"] if "P" in linkage.points else []
+    drive = design.drives[0] if design.drives else None
+    return draw_linkage(linkage, drive, curves=curves, lang=lang)
+
+
+def designs_page(found: SynthesisResult, *, lang: str = "en", most: int = 24) -> str:
+    """All accepted designs on one HTML page, so many at most; rejected ones if there are no others."""
+    words = _WORDS[lang]
+    shown, heading = (found.designs, "accepted") if found.designs else (found.rejected, "rejected")
+    items = []
+    for number, design in enumerate(shown[:most]):
+        figure = design_figure(found.task, design, lang=lang)
+        items.append(Item(figure, f"{number + 1} {_caption(design, lang)}"))
+    note = words["note"].format(accepted=len(found.designs), rejected=len(found.rejected))
+    return gallery_html(words["title"], [Section(words[heading], tuple(items))], lang=lang, note=note)
+
+
+def _caption(design: Design, lang: str) -> str:
+    words = _WORDS[lang]
+    verdict = design.verdict
+    if verdict.reasons:
+        return f"{design.form}: {'; '.join(verdict.reasons)}"
+    parts = [design.form]
+    if verdict.turns_fully:
+        parts.append(words["round"])
+    if not isnan(verdict.transmission):
+        parts.append(words["mu"].format(mu=degrees(verdict.transmission)))
+    return ", ".join(parts)

@@ -1,0 +1,87 @@
+"""The command synthesise, as a user calls it."""
+
+import json
+
+import pytest
+
+from gruebler.cli import main
+from gruebler.linkages import read_linkage
+
+FIVE = """x,y,angle
+1.167361074190,1.604268422500,49.038042711511
+1.240884121745,1.952758097643,39.307123821808
+1.092655156025,2.180848534870,32.046511404316
+0.781012337917,2.260537620459,27.552467844777
+0.397905079691,2.177638768380,25.443007501302
+"""
+
+
+@pytest.fixture
+def five(tmp_path):
+    path = tmp_path / "five.csv"
+    path.write_text(FIVE, encoding="utf-8")
+    return path
+
+
+def test_positions_give_a_linkage_that_the_other_commands_take(five, tmp_path, capsys):
+    best, page = tmp_path / "best.toml", tmp_path / "designs.html"
+    assert main(["synthesise", "positions", str(five), "-o", str(best), "--draw", str(page)]) == 0
+    out = capsys.readouterr().out
+    assert "Solutions: 4 by theorem (dyads), 4 found, 2 real." in out
+    assert "Designs: 1 accepted, 0 rejected." in out
+    assert read_linkage(best).length("coupler", 1, 2) == pytest.approx(3, rel=1e-8)
+    assert "<svg" in page.read_text(encoding="utf-8")
+    assert main(["analyse", str(best)]) == 0
+
+
+def test_json_has_counts_verdicts_and_linkages(five, capsys):
+    assert main(["synthesise", "positions", str(five), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["count"] == {"what": "dyads", "theorem": 4, "found": 4, "real": 2}
+    design = document["designs"][0]
+    assert design["accepted"]
+    assert design["turns_fully"]
+    assert design["drives"] == pytest.approx([10, 35, 60, 85, 110], abs=1e-6)
+    assert design["linkage"]["frame"] == "frame"
+
+
+def test_a_region_without_designs_is_status_1_with_the_reason(five, capsys):
+    assert main(["synthesise", "positions", str(five), "--region", "10", "10", "20", "20"]) == 1
+    out = capsys.readouterr().out
+    assert "There is no design that does what is wanted." in out
+    assert "a fixed pivot lies outside the region" in out
+
+
+def test_an_expression_and_its_minimax_optimum(capsys):
+    words = ["synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60", "--minimax"]
+    assert main(words) == 0
+    assert "Minimax optimum: largest error 0.0036" in capsys.readouterr().out
+
+
+def test_dead_centres_in_german(capsys):
+    assert main(["synthesise", "dead-centres", "--swing", "60", "--crank-angle", "200", "--lang", "de"]) == 0
+    assert "unendlich viele" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["dead-centres", "--swing", "60", "--crank-angle", "110"], "between 120 and 300 degrees"),
+        (["dead-centres"], "expected one of swing and stroke"),
+        (["function", "log10(x", "--interval", "1", "2", "--swings", "60", "60"], "cannot be read"),
+        (["function", "log10(x)"], "needs --interval"),
+        (["function", "x", "--interval", "2", "1", "--swings", "60", "60"], "begin before its end"),
+        (["positions", "nothing.csv"], "nothing.csv: cannot be read"),
+        (["positions", "task.txt"], "a task is in a .toml, .json or .csv file"),
+    ],
+)
+def test_wrong_input_is_one_sentence(words, sentence, capsys):
+    assert main(["synthesise", *words]) == 2
+    error = capsys.readouterr().err
+    assert sentence in error
+    assert error.count("\n") == 1
+
+
+def test_a_task_of_another_kind_names_its_command(five, capsys):
+    assert main(["synthesise", "path", str(five)]) == 2
+    assert "this is a task for 'synthesise positions'" in capsys.readouterr().err

@@ -1,0 +1,156 @@
+"""Whole curves and any structure: derivatives, linkages that come back, published kinds of curves."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gruebler.errors import SynthesisError
+from gruebler.kinematics import circuit, move
+from gruebler.linkages import FourBar, SliderCrank
+from gruebler.mechanism import Mechanism
+from gruebler.realisation import realise
+from gruebler.synthesis import Demands, PathTask, pareto, synthesise_path, synthesise_structures
+from gruebler.synthesis.closure import Closure
+from gruebler.synthesis.curves import atlas, fit_curve, linkages_of
+from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, curve_points
+
+ROWS = {
+    FOUR_BAR: np.array([0.1, 0.2, 3.1, 0.4, 1, 3, 2.5, 1.2, 0.8]),
+    SLIDER_CRANK: np.array([0.1, 0.2, 0.3, 0.4, 1, 3, 1.2, 0.8]),
+}
+TURN = np.linspace(0, 2 * np.pi, 64, endpoint=False)
+
+
+@pytest.mark.parametrize("branch", [1, -1])
+@pytest.mark.parametrize("kind", ROWS, ids=lambda kind: kind.name)
+def test_slopes_of_coupler_points_against_differences(kind, branch):
+    row, phi = ROWS[kind], np.linspace(0, 6, 9)
+    made = curve_points(kind, row[:, None], phi, branch, slopes=True)
+    for k in range(len(row)):
+        step = np.zeros(len(row))
+        step[k] = 1e-6
+        ends = [curve_points(kind, (row + s * step)[:, None], phi, branch).z for s in (1, -1)]
+        assert made.by_sizes[k] == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-7)
+    ends = [curve_points(kind, row[:, None], phi + s * 1e-6, branch).z for s in (1, -1)]
+    assert made.by_crank == pytest.approx((ends[0] - ends[1]) / 2e-6, abs=1e-7)
+
+
+def test_coupler_points_against_the_solver_of_motion():
+    """Second method: the closed forms against `move` on the linkages by their usual lengths."""
+    phi = np.linspace(0.1, 6, 20)
+    motion = move(FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)}), phi)
+    mine = curve_points(FOUR_BAR, np.array([0, 0, 3.5, 0, 1, 3, 2.5, 1.2, 0.8])[:, None], phi, 1).z
+    assert mine == pytest.approx(motion.complex_point("P"), abs=1e-12)
+    motion = move(SliderCrank(1, 3, 0.4).linkage({"P": (1.2, 0.8)}), phi)
+    mine = curve_points(SLIDER_CRANK, np.array([0, 0, 0, 0.4, 1, 3, 1.2, 0.8])[:, None], phi, 1).z
+    assert mine == pytest.approx(motion.complex_point("P"), abs=1e-12)
+
+
+@pytest.mark.parametrize("kind", ROWS, ids=lambda kind: kind.name)
+def test_the_atlas_holds_curves_of_cranks_that_turn(kind):
+    book = atlas(kind)
+    assert len(book.z) > 5000
+    assert np.isfinite(book.z).all()
+    arcs = np.abs(np.diff(np.concatenate([book.z, book.z[:, :1]], axis=1), axis=1))
+    assert np.median(arcs.max(axis=1) / arcs.min(axis=1)) < 1.2  # evenly along the curve
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.floats(-3, 3), st.floats(0.1, 50), st.booleans(), st.booleans())
+def test_a_coupler_curve_comes_back_wherever_it_lies(angle, scale, mirrored, back):
+    z = curve_points(FOUR_BAR, ROWS[FOUR_BAR][:, None], TURN, 1).z
+    z = np.conj(z) if mirrored else z
+    z = scale * np.exp(1j * angle) * (z[::-1] if back else z) + scale * (3 - 1j)
+    best = fit_curve(z, closed=True)[0]
+    assert best.error < 1e-3
+    near = linkages_of(best)[0]
+    path = circuit(near, step=0.02).samples.complex_point("P")
+    assert np.abs(path[:, None] - z).min(axis=0).max() < 0.02 * scale * 4
+
+
+def test_known_curves():
+    circle, ellipse = np.exp(1j * TURN), 2 * np.cos(TURN) + 1j * np.sin(TURN)
+    assert fit_curve(circle, closed=True)[0].error < 1e-6
+    assert fit_curve(ellipse, closed=True)[0].error < 1e-3
+    assert fit_curve(np.linspace(0, 2, 30) + 0j, closed=False)[0].error < 1e-3
+
+
+def test_timed_points_beyond_five():
+    phi = np.linspace(0, 4, 12)
+    z = curve_points(FOUR_BAR, ROWS[FOUR_BAR][:, None], phi, 1).z
+    task = PathTask([(w.real, w.imag) for w in z], crank_angles=tuple(phi))
+    found = synthesise_path(task, number=2)
+    assert found.designs[0].verdict.error < 1e-3
+    assert np.diff(found.designs[0].drives) == pytest.approx(np.diff(phi), abs=0.02)
+
+
+def test_a_closed_curve_gives_judged_designs():
+    z = curve_points(FOUR_BAR, ROWS[FOUR_BAR][:, None], TURN, 1).z
+    found = synthesise_path(PathTask([(w.real, w.imag) for w in z], closed=True), number=3)
+    assert len(found.designs) == 3
+    for design in found.designs:
+        assert design.verdict.error < 0.05
+        assert design.verdict.in_order
+
+
+MECHANISMS = (
+    "R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)",
+    "R(0-1) R(1-2) R(2-3) P(0-3); drive=R(0-1)",
+    "R(0-1) R(1-2) P(2-3) R(0-3); drive=R(0-1)",
+    "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)",
+)
+
+
+@pytest.mark.parametrize("text", MECHANISMS)
+def test_closing_conditions_against_differences(text):
+    linkage = realise(Mechanism.parse(text), seed=1).linkage
+    closure = Closure(linkage)
+    q, p = closure.poses(circuit(linkage).at([0.3, 0.9])), closure.sizes
+    made = closure.slopes(q, p)
+    assert np.abs(made.gaps).max() < 1e-11 * linkage.size
+    for matrix, count, by_pose in ((made.by_pose, closure.unknowns, True), (made.by_sizes, len(p), False)):
+        for k in range(count):
+            step = np.zeros(count)
+            step[k] = 1e-6
+            moved = [(q + s * step, p) if by_pose else (q, p + s * step) for s in (1, -1)]
+            gaps = [closure.slopes(*pair).gaps for pair in moved]
+            assert matrix[:, :, k] == pytest.approx((gaps[0] - gaps[1]) / 2e-6, abs=1e-5)
+
+
+@pytest.mark.parametrize("text", MECHANISMS)
+def test_poses_change_with_dimensions_as_derived(text):
+    """The derivative of a pose by a dimension, against the pose of the linkage that has the other dimension."""
+    linkage = realise(Mechanism.parse(text), seed=2).linkage
+    closure = Closure(linkage)
+    size = linkage.size
+    q, p = closure.poses(circuit(linkage).at([0.4])), closure.sizes
+    motion, by_sizes = closure.tangents(q, p, size=size)
+    for k in range(len(p)):
+        step = np.zeros(len(p))
+        step[k] = 1e-6 * size
+        moved, good = closure.closed(q, p + step, size=size)
+        assert good.all()
+        across = (moved - q)[0] - by_sizes[0] @ step
+        weights = np.tile([1 / size, 1 / size, 1], len(closure.links))
+        assert np.abs(weights * across).max() < 1e-8  # of second order in the step
+    assert closure.slopes(q + 1e-6 * motion, p).gaps == pytest.approx(0, abs=1e-9 * size)
+
+
+def test_a_six_bar_follows_a_figure_eight_better_than_a_four_bar():
+    s = np.linspace(0, 2 * np.pi, 24, endpoint=False)
+    task = PathTask([(float(x), float(y)) for x, y in zip(np.sin(s), 0.5 * np.sin(2 * s), strict=True)], closed=True)
+    chains = [Mechanism.parse(MECHANISMS[k]) for k in (0, 3)]
+    found = synthesise_structures(task, chains, Demands(tolerance=0.1), starts=2)
+    table = pareto(found)
+    assert len(table) >= 1
+    assert all(not a.dominates(b) for a in table for b in table)
+    assert table[0].error < 0.1
+
+
+def test_bad_requests_are_refused():
+    with pytest.raises(SynthesisError, match="at least one mechanism"):
+        synthesise_structures(PathTask([(0, 0), (1, 1)]), [])
+    two = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0); drive=R(0-1); drive=R(4-0)")
+    with pytest.raises(SynthesisError, match="has 2"):
+        synthesise_structures(PathTask([(0, 0), (1, 1)]), [two])

@@ -1,0 +1,199 @@
+"""Points and mixed tasks: counts of the theorems, linkages that come back, certified solutions."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from gruebler._numeric.homotopy import evaluate
+from gruebler.errors import SynthesisError
+from gruebler.geometry import cognates
+from gruebler.kinematics import move
+from gruebler.linkages import FourBar
+from gruebler.synthesis import PathTask, synthesise_path
+from gruebler.synthesis.alt_burmester import PROBLEMS, generic, parameters, solutions
+from gruebler.synthesis.discs import certified
+from gruebler.synthesis.monodromy import find_generic
+
+NINE, TWO, THREE, FOUR, GIVEN = PROBLEMS
+KNOWN = FourBar(25, 70, 40, 70).linkage({"P": (45, 40)})
+WAMPLER = [
+    (0.8961867, -0.09802917),
+    (1.2156535, -1.18749100),
+    (1.5151435, -0.85449808),
+    (1.6754775, -0.48768058),
+    (1.7138690, -0.30099232),
+    (1.7215236, 0.03269953),
+    (1.6642029, 0.33241088),
+    (1.4984171, 0.74435576),
+    (1.3011834, 0.92153806),
+]
+
+
+def random_parameters(problem, seed):
+    rng = np.random.default_rng(seed)
+    count = problem.poses + problem.points
+    pivots = tuple(complex(*row) for row in rng.normal(size=(2, 2))) if problem.given_pivots else None
+    d = rng.normal(size=count) + 1j * rng.normal(size=count)
+    return parameters(d, np.exp(1j * rng.uniform(-3, 3, problem.poses)), pivots)
+
+
+def values(problem, z, p):
+    f, ft = np.empty(8, complex), np.empty(8, complex)
+    jac = np.empty((8, 8), complex)
+    evaluate(z, p, np.zeros((4, 8), complex), problem.poses, problem.points, f, jac, ft)
+    return f.copy(), jac.copy()
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda p: p.name)
+def test_the_derivatives_of_the_equations(problem):
+    p = random_parameters(problem, 1)
+    rng = np.random.default_rng(2)
+    z = rng.normal(size=8) + 1j * rng.normal(size=8)
+    dp = np.where(p != 0, rng.normal(size=p.shape) + 1j * rng.normal(size=p.shape), 0)
+    _, jac = values(problem, z, p)
+    for k in range(8):
+        step = np.zeros(8, complex)
+        step[k] = 1e-6
+        slope = (values(problem, z + step, p)[0] - values(problem, z - step, p)[0]) / 2e-6
+        assert jac[:, k] == pytest.approx(slope, rel=1e-6, abs=1e-6)
+    f, ft, free = np.empty(8, complex), np.empty(8, complex), np.empty((8, 8), complex)
+    evaluate(z, p, dp, problem.poses, problem.points, f, free, ft)
+    slope = (values(problem, z, p + 1e-6 * dp)[0] - values(problem, z, p - 1e-6 * dp)[0]) / 2e-6
+    assert ft == pytest.approx(slope, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda p: p.name)
+def test_the_stored_solutions_are_complete_and_proved(problem):
+    p, z = generic(problem)
+    assert len(z) == problem.classes
+    assert certified(problem.poses, problem.points, z, p).all()
+    assert problem.classes * problem.members in (8652, 2224, 402, 60, 36)
+
+
+def test_a_wrong_solution_is_not_certified():
+    p, z = generic(FOUR)
+    assert not certified(FOUR.poses, FOUR.points, z + 0.3, p).any()
+    assert not certified(FOUR.poses, FOUR.points, np.repeat(z[:1], 2, axis=0), p).any()
+
+
+@pytest.mark.parametrize("problem", [FOUR, GIVEN], ids=lambda p: p.name)
+@settings(max_examples=12, deadline=None)
+@given(st.integers(0, 10**6))
+def test_every_random_task_has_all_its_solutions(problem, seed):
+    found = solutions(problem, random_parameters(problem, seed), threads=1)
+    assert (len(found.z), found.missing) == (problem.classes, 0)
+    assert found.certified.mean() > 0.9
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda p: p.name)
+def test_many_random_tasks_have_all_their_solutions(problem):
+    for seed in range(100 if problem.classes > 1000 else 300):
+        found = solutions(problem, random_parameters(problem, seed))
+        assert len(found.z) + found.infinite == problem.classes, seed
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("problem", PROBLEMS, ids=lambda p: p.name)
+def test_monodromy_finds_the_count_of_the_theorem_again(problem):
+    """The program that made the stored solutions, from another random task."""
+    assert len(find_generic(problem, seed=23).z) == problem.classes
+
+
+def test_a_four_bar_with_given_pivots_comes_back():
+    motion = move(KNOWN, np.radians([15.0, 60, 100, 150, 220]))
+    found = synthesise_path(PathTask(motion.point("P"), fixed_pivots=[(0, 0), (70, 0)]))
+    assert found.count.found == 36
+    lengths = [(d.linkage.length("crank", 0, 1), d.linkage.length("coupler", 1, 2)) for d in found.designs]
+    assert min(abs(a - 25) + abs(b - 70) for a, b in lengths) < 1e-8
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.floats(0, 6), st.floats(0.5, 0.9), st.booleans())
+def test_a_four_bar_of_a_mixed_task_comes_back(start, step, mirrored):
+    motion = move(KNOWN.mirrored() if mirrored else KNOWN, start + step * np.arange(6) * (-1 if mirrored else 1))
+    angles = [a if k in (0, 1, 3, 4) else None for k, a in enumerate(motion.angle("coupler"))]
+    found = synthesise_path(PathTask(motion.point("P"), angles=tuple(angles)))
+    assert found.count.found == 30
+    assert min(abs(d.linkage.length("coupler", 1, 2) - 70) for d in found.designs) < 1e-6
+    for design in found.designs:
+        assert design.verdict.error < 1e-9
+
+
+@settings(max_examples=8, deadline=None)
+@given(st.floats(0, 6), st.floats(0.3, 0.9))
+def test_a_four_bar_with_timing_comes_back(start, step):
+    drives = start + step * np.arange(5)
+    motion = move(KNOWN, drives)
+    found = synthesise_path(PathTask(motion.point("P"), crank_angles=tuple(drives)))
+    mine = [d for d in found.designs if abs(d.linkage.length("crank", 0, 1) - 25) < 1e-5]
+    assert mine
+    for design in found.designs:
+        assert np.diff(design.drives) == pytest.approx(np.full(4, step), abs=1e-7)
+
+
+def test_nine_points_give_the_four_bar_and_its_cognates_back():
+    motion = move(KNOWN, np.radians([10.0, 45, 80, 120, 155, 195, 240, 280, 330]))
+    found = synthesise_path(PathTask(motion.point("P")))
+    assert found.count.found == found.count.theorem == 1442
+    raw = [(c.size.a, c.size.b, c.size.c, c.size.d) for c in cognates(FourBar(25, 70, 40, 70), 45, 40)]
+    wanted = [sorted(row) for row in raw]
+    assert len(wanted) == 3
+    # Of the three the double rocker, whose coupler turns, cannot be driven through all points at the frame.
+    for lengths, accepted in zip(wanted, [FourBar(*row).turning not in ((), ("b",)) for row in raw], strict=True):
+        designs = found.designs if accepted else found.rejected
+        have = [sorted(d.linkage.length(*row) for row in _ROWS) for d in designs]
+        assert min(np.abs(np.subtract(lengths, row)).max() for row in have) < 1e-6
+    for design in found.designs:
+        assert design.verdict.error < 1e-9
+        assert design.verdict.in_order
+        assert design.verdict.one_branch
+
+
+_ROWS = (("crank", 0, 1), ("coupler", 1, 2), ("rocker", 2, 3), ("frame", 0, 3))
+
+
+@pytest.mark.slow
+def test_wamplers_nine_points():
+    """The real triples of the published example, counted here; each design is verified by the solver of motion."""
+    found = synthesise_path(PathTask(WAMPLER))
+    assert found.count.found == 1442
+    assert found.count.real == REAL_TRIPLES
+    assert len(found.designs) + len(found.rejected) == 3 * REAL_TRIPLES
+    assert len(found.designs) == ACCEPTED
+
+
+REAL_TRIPLES, ACCEPTED = 21, 0
+
+
+def test_fewer_points_are_completed():
+    found = synthesise_path(PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6)], fixed_pivots=[(0, -3), (4, -2)]))
+    assert "infinitely many" in found.notes[0]
+    assert found.count.found == 36
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.floats(-3, 3), st.floats(0.01, 100), st.booleans())
+def test_moved_points_have_moved_designs(angle, scale, mirror):
+    points = np.array([0, 1 + 0.6j, 2 + 0.8j, 3 + 0.6j, 4 + 0.1j])
+    pivots = np.array([-3j, 4 - 2j])
+    assume(abs(angle) > 0.01)
+
+    def image(z):
+        return scale * np.exp(1j * angle) * (np.conj(z) if mirror else z) + (5 - 1j) * scale
+
+    def solved(z, p):
+        task = PathTask([(w.real, w.imag) for w in z], fixed_pivots=[(w.real, w.imag) for w in p])
+        found = synthesise_path(task)
+        cranks = [d.linkage.length("coupler", 1, 2) for d in (*found.designs, *found.rejected)]
+        return np.sort(cranks), len(found.designs)
+
+    plain, moved = solved(points, pivots), solved(image(points), image(pivots))
+    assert moved[0] / scale == pytest.approx(plain[0], rel=1e-6)
+    assert moved[1] == plain[1]
+
+
+def test_what_does_not_go_together_is_refused():
+    with pytest.raises(SynthesisError, match="crank angles go with points alone"):
+        synthesise_path(PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 1, 2), fixed_pivots=[(0, 1), (2, 2)]))
