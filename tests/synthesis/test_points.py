@@ -71,6 +71,16 @@ def test_the_stored_solutions_are_complete_and_proved(problem):
     assert problem.classes * problem.members in (8652, 2224, 402, 60, 36)
 
 
+def test_cognates_solve_the_same_task():
+    p, z = generic(NINE)
+    three = NINE.with_cognates(z[:5])
+    assert len(three) == 15
+    for row in three:
+        f, jac = values(NINE, row, p)
+        step = np.linalg.solve(jac, f)
+        assert np.abs(step).max() < 1e-9 * np.abs(row).max()
+
+
 def test_a_wrong_solution_is_not_certified():
     p, z = generic(FOUR)
     assert not certified(FOUR.poses, FOUR.points, z + 0.3, p).any()
