@@ -158,7 +158,8 @@ def _touching_step(z: Complexes, w: Complexes) -> tuple[Reals, Reals]:
     gs, gt = _cross(z[2], w[1]), _cross(z[1], w[2])
     det = fs * gt - ft * gs
     det = np.where(det == 0, 1e-300, det)
-    return _finite(-(f * gt - g * ft) / det), _finite(-(fs * g - gs * f) / det)
+    with np.errstate(over="ignore"):  # what has no bounds is no step
+        return _finite(-(f * gt - g * ft) / det), _finite(-(fs * g - gs * f) / det)
 
 
 def _finite(step: Reals) -> Reals:
