@@ -220,7 +220,7 @@ def test_rows_may_coincide_and_be_far_apart(name: str) -> None:
 
 @pytest.mark.large
 @pytest.mark.parametrize("sizes", [(20, 20, 20, 20), (25, 70, 25, 70), (30, 50, 50, 30)])
-@pytest.mark.parametrize("step", [0.2, 0.7, 3, 40])
+@pytest.mark.parametrize("step", [0.1, 0.2, 0.7, 3, 40])
 @pytest.mark.parametrize("rests", [0, 1, 3])
 def test_a_drive_may_turn_back_just_behind_a_change_point(
     sizes: tuple[float, float, float, float], step: float, rests: int

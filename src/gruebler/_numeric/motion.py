@@ -69,7 +69,7 @@ def _square_at(
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _look_for_change(
-    program: Program, path: Reals, speeds: Reals, reach: float, number: int, memory: Memory, s: Scratch
+    program: Program, path: Reals, speeds: Reals, reach: float, turn: float, number: int, memory: Memory, s: Scratch
 ) -> tuple[float, bool]:
     """Where the square of a small root is least ahead of the last pose, and the sign behind that place.
 
@@ -103,7 +103,7 @@ def _look_for_change(
             at_outer = _square_at(program, path, speeds, outer, number, memory, s)
     end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
     if least == np.inf or end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
-        return reach if reach == len(path) - 1 else memory.at[0] + 0.9 * (reach - memory.at[0]), False
+        return reach if reach == turn else memory.at[0] + 0.9 * (reach - memory.at[0]), False
     memory.change[number] = at
     memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
     return at, False
@@ -454,6 +454,23 @@ def _cross(
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
+def _turn_ahead(path: Reals, at: float, reach: float) -> float:
+    """The first row ahead at which the drives turn back or rest, or the last one, as far as the reach needs it.
+
+    Behind it a root comes to the same change point once more, and its square has a second least value there.
+    """
+    row = int(np.floor(at)) + 1
+    while row < len(path) - 1 and row < reach:
+        forth = 0.0
+        for d in range(path.shape[1]):
+            forth += (path[row + 1, d] - path[row, d]) * (path[row, d] - path[row - 1, d])
+        if forth <= 0:
+            return float(row)
+        row += 1
+    return float(len(path) - 1)
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
 def _approach(
     program: Program, path: Reals, speeds: Reals, step: float, number: int, memory: Memory, s: Scratch
 ) -> tuple[float, float]:
@@ -462,11 +479,12 @@ def _approach(
     slope = (now - past) / (at - memory.at[1])
     ahead = abs(now / slope) if slope != 0 else step
     memory.change[number] = np.nan
-    if now * now < _NOISE and at + ahead < len(path) - 1:  # an exact change point: squares do not tell its place
+    turn = _turn_ahead(path, at, at + 4 * ahead)
+    if now * now < _NOISE and at + ahead < turn:  # an exact change point: squares do not tell its place
         memory.change[number], memory.after[number] = at + ahead, -memory.signs[number]
         return max(2 * ahead, 1e-12), np.inf
-    reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), float(len(path) - 1))
-    place, negative = _look_for_change(program, path, speeds, reach, number, memory, s)
+    reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), turn)
+    place, negative = _look_for_change(program, path, speeds, reach, turn, number, memory, s)
     if negative:
         return place - at, place
     if not np.isnan(memory.change[number]):
