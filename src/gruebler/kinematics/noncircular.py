@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import lru_cache
-from math import ceil, degrees, pi, sqrt, tau
+from math import degrees, pi, sqrt, tau
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +22,8 @@ Complexes = NDArray[np.complex128]
 _RATIOS = (1e-3, 1e3)  # beyond them a radius is less than a thousandth of the centre distance
 _FLATTEST = 0.8  # eccentricity: the ratio goes from 1/9 to 9; beyond, pieces of 0.04 rad are not exact
 _CLOSED = 1e-9  # radians, as the parts of a lift fill a turn
-_STEPS, _MOST = 360, 3600  # points of a curve, at least and at most
+_STEPS, _MOST = 360, 3600  # points of a lobe, and of a curve, at most
+_LOBES = 100  # equal parts of a curve: each has 36 points or more
 
 
 class Transfer(NamedTuple):
@@ -65,14 +66,13 @@ class Transfer(NamedTuple):
         """The closed curves of both wheels, centre distance 1, each in a frame whose x axis is the wheel's direction.
 
         They touch where the first wheel has turned by a and the second by ``at(a)``: in the point of the first at the
-        angle -a, and in that of the second at the angle ``at(a)``; points at equal steps of a.
+        angle -a, and in that of the second at the angle ``at(a)``; points at equal steps of a, the same for both.
         """
-        out = []
-        for second, turn in ((False, 1.0), (True, float(1 / self.mean))):
-            a = np.linspace(0, tau * turn, min(_STEPS * ceil(turn), _MOST) + 1)[:-1]
-            ratio = self.ratio(a)
-            out.append(np.exp(1j * self.at(a)) / (1 + ratio) if second else np.exp(-1j * a) * ratio / (1 + ratio))
-        return out[0], out[1]
+        lobes = self.mean.numerator, self.mean.denominator
+        fine = min(_STEPS, _MOST // max(lobes))
+        first, second = (tau / (fine * lobes[0]) * np.arange(fine * count) for count in lobes)
+        ratio, other = self.ratio(first), self.ratio(second)
+        return np.exp(-1j * first) * ratio / (1 + ratio), np.exp(1j * self.at(second)) / (1 + other)
 
 
 @lru_cache(maxsize=64)
@@ -83,6 +83,8 @@ def transfer_of(wheel: NonCircular, other: NonCircular) -> Transfer:
         made = _read(wheel.transfer, mean)
     except GrueblerError as error:
         raise LinkageError(f"transfer: {error}") from None
+    if max(mean.numerator, mean.denominator) > _LOBES:
+        raise LinkageError(f"transfer: the mean ratio is one of numbers up to {_LOBES}, not {mean}")
     _check_ratio(made)
     _check_closed(made)
     return made

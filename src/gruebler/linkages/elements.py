@@ -227,11 +227,10 @@ def read_element(raw: object, where: str) -> Element:
     if isinstance(raw, Wheel | Circle):
         return _round(raw, where)
     if isinstance(raw, Disc | Driver | Cross | NonCircular):
-        for value in raw[:3]:
-            _number(value, where)
         if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
             raise LinkageError(f"{where}: teeth: expected a positive number, but found {raw.teeth}")
-        return raw
+        x, y, angle = (_number(value, where) for value in raw[:3])
+        return raw._replace(x=x, y=y, angle=angle)
     if isinstance(raw, Pin | Line):
         numbers: tuple[object, ...] = tuple(raw)
     elif isinstance(raw, list | tuple):
