@@ -77,7 +77,7 @@ def test_the_price_falls_when_a_kernel_lies_in_the_cache_or_is_there(monkeypatch
     monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(compiling, "is_cached", lambda _: False)
     fresh = price(closest)
-    assert fresh < price(walk) == compiling._PATIENCE
+    assert price(walk) > 3 * fresh > 1
     monkeypatch.setattr(compiling, "is_cached", lambda _: True)
     assert price(closest) == price(walk) < fresh
     monkeypatch.undo()
@@ -123,7 +123,7 @@ def test_small_commands_do_not_load_numba(command: str, tmp_path: Path) -> None:
         [sys.executable, "-c", ask, *words], cwd=tmp_path, env=environment, capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines()[-1] == "0 False"
-    assert done.stderr == ""
+    assert done.stderr.removeprefix("Written: ").count("\n") <= 1  # nothing is said but what is written
 
 
 # --- words that mean the same in both tiers ------------------------------------------------------------

@@ -47,9 +47,7 @@ _LOADING_NUMBA = 0.55  # and what it makes ready before its first kernel
 _LOADING_KERNEL = 0.05  # from the cache
 _FIRST_COMPILING = 2.0  # what numba makes ready before it compiles
 _COMPILING = 2e-3  # for each instruction of a kernel and of the kernels that it calls: 4 s to 70 s in all
-# A compiled kernel is kept: whoever needs as much as this will need it again, so we do not interpret on until
-# compiling would have been cheaper within this process.
-_PATIENCE = 3.0
+_RUNS = 5  # A compiled kernel is kept: so many runs are taken to share the cost of compiling it.
 
 
 class _Recipe(NamedTuple):
@@ -104,8 +102,8 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     """The kernel in the tier that pays for a call that would take so many seconds if it were interpreted.
 
     The seconds of earlier calls count too: once a kernel has been interpreted for as long as it takes to load or to
-    compile (3 s are always enough), it is compiled. The environment variable GRUEBLER_KERNELS (`auto`, `interpreted`,
-    `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
+    compile (a fifth of that, since the result is kept), it is compiled. The environment variable GRUEBLER_KERNELS
+    (`auto`, `interpreted`, `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
 
     Raises:
         ValueError: GRUEBLER_KERNELS has another value.
@@ -138,7 +136,7 @@ def price(kernel: Callable[..., Any]) -> float:
         return loading
     missing = [one for one in _called(kernel) if one not in _dispatchers or not _dispatchers[one].signatures]
     instructions = sum(len(one.__code__.co_code) // 2 for one in missing if not is_cached(one))
-    return min(loading + _FIRST_COMPILING + _COMPILING * instructions, _PATIENCE)
+    return loading + (_FIRST_COMPILING + _COMPILING * instructions) / _RUNS
 
 
 @cache

@@ -1,7 +1,7 @@
 """How long kernels take if they are interpreted, in seconds: the estimates for `compiling.for_work`.
 
 Measured on one core with Python 3.11 (`benchmarks/startup.py` tells how); right to a factor of two or three, which is
-all that the choice of a tier needs. A row that a sweep places costs 4 us for each dyad, one that is walked to 40 us;
+all that the choice of a tier needs. A row that a sweep places costs 4 us for each dyad, one that is walked to 25 us;
 an orthonormalisation of n rows 2 n^2 us; a graph of the enumeration about 300 us for each of its automorphisms.
 """
 
@@ -34,7 +34,7 @@ def walking(program: Program, rows: int, order: int) -> float:
         return 1e-3 + 4e-6 * rows * operations
     unknowns = 3 * len(program.roots)
     dearer = 1 + order / 3
-    return 1e-3 + rows * dearer * (4e-5 * operations + 6e-5 * conditions + 4e-7 * unknowns**3)
+    return 1e-3 + rows * dearer * (2.5e-5 * operations + 4e-5 * conditions + 4e-7 * unknowns**3)
 
 
 def closing_work(unknowns: int) -> float:

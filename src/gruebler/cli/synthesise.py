@@ -38,7 +38,6 @@ _WORDS: dict[str, dict[str, Any]] = {
     "en": {
         "count": "Solutions: {theorem} by theorem ({what}), {found} found, {real} real.",
         "infinite": "infinitely many",
-        "approximate": "none exact in general",
         "designs": "Designs: {accepted} accepted, {rejected} rejected.",
         "columns": ("design", "drive", "full turn", "transmission", "lengths", "error"),
         "rejected": ("rejected", "reason"),
@@ -46,15 +45,13 @@ _WORDS: dict[str, dict[str, Any]] = {
         "yes": "yes",
         "no": "no",
         "written": "Written: {path}",
-        "compiling": "paths",
+        "paths": "paths",
         "minimax": "Minimax optimum: largest error {error} (from {start}); lengths {lengths}; input from {phi}, "
         "output from {psi}.",
-        "chosen": "Design {number} is drawn and written.",
     },
     "de": {
         "count": "Lösungen: {theorem} nach dem Satz ({what}), {found} gefunden, {real} reell.",
         "infinite": "unendlich viele",
-        "approximate": "im Allgemeinen keine exakte",
         "designs": "Entwürfe: {accepted} angenommen, {rejected} verworfen.",
         "columns": ("Entwurf", "Antrieb", "umlaufend", "Übertragungswinkel", "Längen", "Fehler"),
         "rejected": ("verworfen", "Grund"),
@@ -62,10 +59,9 @@ _WORDS: dict[str, dict[str, Any]] = {
         "yes": "ja",
         "no": "nein",
         "written": "Geschrieben: {path}",
-        "compiling": "Wege",
+        "paths": "Pfade",
         "minimax": "Minimax-Optimum: größter Fehler {error} (vorher {start}); Längen {lengths}; Antrieb ab {phi}, "
         "Abtrieb ab {psi}.",
-        "chosen": "Gezeichnet und geschrieben wird Entwurf {number}.",
     },
 }
 
@@ -184,7 +180,7 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
         case PathTask():
             if arguments.structure is not None:
                 return _fitted(arguments, task, demands)
-            return synthesise_path(task, demands, progress=_progress(_WORDS[arguments.lang]["compiling"]), **more)
+            return synthesise_path(task, demands, progress=_progress(_WORDS[arguments.lang]["paths"]), **more)
     raise AssertionError(task)
 
 
@@ -213,8 +209,9 @@ def _progress(word: str) -> Callable[[int, int], None] | None:
 
 def _print(found: SynthesisResult, words: dict[str, Any], rejected: bool) -> None:
     count = found.count
-    theorem = words["infinite"] if count.theorem is None else count.theorem or words["approximate"]
-    print(str(words["count"]).format(theorem=theorem, what=count.what, found=count.found, real=count.real))
+    if count.theorem != 0:  # 0: nothing exact is to be had, the notes say so
+        theorem = words["infinite"] if count.theorem is None else count.theorem
+        print(words["count"].format(theorem=theorem, what=count.what, found=count.found, real=count.real))
     for note in found.notes:
         print(note)
     print(str(words["designs"]).format(accepted=len(found.designs), rejected=len(found.rejected)))

@@ -52,6 +52,17 @@ class Problem:
         """Whether the fixed pivots are given."""
         return 2 * self.poses + self.points < 8
 
+    def with_cognates(self, z: Complexes) -> Complexes:
+        """Solutions, and of nine points their two cognates (Roberts): members of a class with other coordinates."""
+        if self.poses or self.given_pivots:
+            return z
+        x, xc, y, yc, a, ac, b, bc = z.T
+        k, kc = -x / (y - x), -xc / (yc - xc)
+        c, cc = a + k * (b - a), ac + kc * (bc - ac)
+        one = [a - x, ac - xc, (a - x) * (1 - k), (ac - xc) * (1 - kc), a, ac, c, cc]
+        two = [b - y, bc - yc, k * (b - y), kc * (bc - yc), b, bc, c, cc]
+        return np.concatenate([z, np.stack(one, axis=1), np.stack(two, axis=1)])
+
     def marks(self, z: Complexes) -> Complexes:
         """Numbers that are the same for all members of a class and differ between classes: (solutions, marks)."""
         x, xc, y, yc, a, ac, b, bc = z.T
@@ -189,6 +200,11 @@ def solutions(
         ends[again], status[again] = follow(problem, base.z[again], base.parameters, p, CAREFUL, threads=threads)
     found = _distinct(problem, ends[status == ARRIVED])
     lost = base.z[(status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)]
+    if len(lost):
+        # Where one member of a class goes far away, a cognate may stay near.
+        lost = problem.with_cognates(lost)
+        more, reached = follow(problem, lost, base.parameters, p, CAREFUL, threads=threads)
+        found = _distinct(problem, np.concatenate([found, more[reached == ARRIVED]]))
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
         if len(found) >= problem.classes:

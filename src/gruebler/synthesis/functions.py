@@ -311,7 +311,7 @@ def _connecting(task: FunctionTask, number: int) -> list[GuidingDyad]:
 def _connected(task: FunctionTask, demands: Demands, dyad: GuidingDyad) -> Design | None:
     far = 1 + 0j if task.output == "angle" else dyad.moving
     try:
-        return _judged_function(task, demands, 0j, far, dyad, {"RR": "RR", "PR": "PR", "RP": "RP"}[dyad.form])
+        return _judged_function(task, demands, 0j, far, dyad, dyad.form)
     except LinkageError:
         return None
 

@@ -7,6 +7,7 @@ five leave four dyads, and more are met by least squares.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import combinations
 from math import atan2, isnan
@@ -37,6 +38,9 @@ Complexes = NDArray[np.complex128]
 
 _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
 """What the link between frame and coupler is called: the first of its kind, the second."""
+
+NEAR = 0.05
+"""More than five positions are met if they are missed by less than this part of the size."""
 
 THEOREM = {2: None, 3: None, 4: None, 5: 4}
 """How many complex dyads a general task has, by the number of positions."""
@@ -87,16 +91,13 @@ def _halved(given: Displacements) -> complex:
     return t * 0.5 + 0.25j * t if abs(t) > 0 else 0.25 + 0j * q
 
 
-def synthesise_positions(
-    task: PositionTask, demands: Demands | None = None, *, number: int = 16, lang: str = "en"
-) -> SynthesisResult:
+def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, number: int = 16) -> SynthesisResult:
     """All linkages of two dyads that carry a body through positions.
 
     Args:
         task: the positions.
         demands: what a design has to do besides; by default one branch and the order of the task.
         number: of dyads that are taken from each infinite family (two to four positions).
-        lang: unused as yet.
 
     Raises `SynthesisError` for positions that infinitely many dyads of no known family serve. Cost: 1 ms for the dyads
     of five positions and about 10 ms for the verdict on each design.
@@ -107,7 +108,6 @@ def synthesise_positions(
     >>> found.count.found, found.count.real, len(found.designs) + len(found.rejected)
     (4, 4, 6)
     """
-    del lang
     wanted = demands or Demands()
     dyads = guiding_dyads(task, number)
     if len(task) > 5:
@@ -270,12 +270,8 @@ def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
 
 def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> SynthesisResult:
     """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
-    from dataclasses import replace
-
-    made = []
-    tolerance = demands.tolerance if demands.tolerance > 1e-6 else 0.05
-    for design in _judged_pairs(task, replace(demands, tolerance=tolerance), dyads):
-        made.append(design)
+    tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
+    made = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
     accepted, rejected = ranked(made)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = (

@@ -88,7 +88,7 @@ class Count:
     what: str
     """What is counted, such as ``dyads`` or ``cognate triples``."""
     theorem: int | None
-    """How many complex solutions a general task has; None where there are infinitely many."""
+    """How many complex solutions a general task has; None where there are infinitely many, 0 where none is exact."""
     found: int
     """How many of them were found."""
     real: int
