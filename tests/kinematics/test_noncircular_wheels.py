@@ -24,6 +24,7 @@ CASES = [
     ("ellipse 0", (17, 34)),
     ("rise 20 180; fall 20 180", (0, 0)),
     ("rise 10 100 cycloidal; dwell 80; fall 10 90 4-5-6-7; dwell", (15, 45)),
+    ("rise 20 180 v0=5 a0=0 v1=5 a1=0; fall 20 180 v0=5 a0=0 v1=5 a1=0", (0, 0)),
     (WAVES, (30, 20)),
 ]
 
