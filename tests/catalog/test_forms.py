@@ -1,12 +1,13 @@
 """An entry that gives its machine twice, by dimensions and by screws, gives the same machine."""
 
-from math import pi, sin
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
 
 from gruebler.catalog import entries, entry
-from gruebler.linkages.elements import Cross, Driver, Pin, Wheel
+from gruebler.kinematics.noncircular import transfer_of
+from gruebler.linkages.elements import Cross, Driver, NonCircular, Pin, Wheel
 
 BOTH = [id for id, record in entries().items() if record.dimensions is not None and record.screws is not None]
 
@@ -15,11 +16,26 @@ def of_dimensions(linkage):
     """Link -> joint -> centre on the link; joint -> radius for each link."""
     centres, radii = {}, {}
     for (number, link), element in linkage.elements.items():
-        assert isinstance(element, Pin | Wheel | Driver | Cross), element
+        assert isinstance(element, Pin | Wheel | Driver | Cross | NonCircular), element
         centres.setdefault(link, {})[number] = np.array([element.x, element.y])
+        if isinstance(element, NonCircular):
+            beyond, radii[number, link] = of_ellipse(linkage, number, link)
+            centres[link][number] += beyond * np.array([cos(element.angle), sin(element.angle)])
         if isinstance(element, Wheel):
             radii[number, link] = element.radius
     return centres, radii
+
+
+def of_ellipse(linkage, number, link):
+    """The circle of curvature at the end of the major axis of an elliptic wheel: centre from the focus, and radius.
+
+    The radius is the ordinate at the focus, the harmonic mean of the least and the greatest distance from it.
+    """
+    links = linkage.mechanism.chain.joints[number].links
+    curve = transfer_of(*(linkage.elements[number, one] for one in links)).curves()[links.index(link)]
+    far = np.abs(100 * curve)
+    radius = 2 / (1 / far.min() + 1 / far.max())
+    return far[0] - radius, radius
 
 
 def of_screws(spatial):

@@ -46,10 +46,10 @@ def _linkage(word: str) -> Linkage | SpatialLinkage:
     made = record.placed()
     if made is None and record.dimensions is not None:
         raise GrueblerError(
-            f"the belts and cams of {word!r} have no place in this report; its joints may be given by screws "
-            "([screws] in its file), and gruebler check counts it",
-            f"für Riemen und Kurven von {word!r} gibt es diesen Bericht nicht; Gelenke lassen sich durch Schrauben "
-            "angeben ([screws] in der Datei), und gruebler check zählt ab",
+            f"the belts, cams and non-circular wheels of {word!r} have no place in this report; its joints may be "
+            "given by screws ([screws] in its file), and gruebler check counts it",
+            f"für Riemen, Kurven und unrunde Räder von {word!r} gibt es diesen Bericht nicht; Gelenke lassen sich "
+            "durch Schrauben angeben ([screws] in der Datei), und gruebler check zählt ab",
         )
     if made is None:
         placed = [one.id for one in entries().values() if one.dimensions is not None or one.screws is not None]

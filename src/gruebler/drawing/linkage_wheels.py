@@ -1,4 +1,4 @@
-"""Wheels, smooth circles, cams and Geneva wheels as parts of a linkage: what they look like on their links."""
+"""Wheels, smooth circles, cams, Geneva and non-circular wheels of a linkage: what they look like on their links."""
 
 from __future__ import annotations
 
@@ -37,6 +37,8 @@ def round_parts(stage: Stage) -> Iterator[RoundPart]:
             found.setdefault(key, _disc(stage, link, element))
         elif isinstance(element, elements.Disc):
             found[link, joint] = RoundPart(link, tuple(_cam(stage, element)))
+        elif isinstance(element, elements.NonCircular):
+            found[link, joint] = _noncircular(stage, joint, link, element)
         elif isinstance(element, elements.Driver | elements.Cross):
             found[link, joint] = _geneva(stage, joint, link, element)
     for (joint, link), element in stage.linkage.elements.items():
@@ -119,6 +121,21 @@ def _cam(stage: Stage, disc: elements.Disc) -> Iterator[Shape]:
     centre, scaled = complex(disc.x, disc.y), disc.scale * (points[:, 0] + 1j * points[:, 1])
     yield Lines((_contour(stage, centre, disc.angle, scaled),), "area", closed=True)
     yield Circle(stage.local(centre), stage.scale * disc.scale * disc.base, "dead")
+
+
+def _noncircular(stage: Stage, joint: int, link: str, wheel: elements.NonCircular) -> RoundPart:
+    """The curve of a non-circular wheel, with its direction from the axis."""
+    from gruebler.kinematics.noncircular import transfer_of
+
+    of_joint = [(own, e) for (number, own), e in stage.linkage.elements.items() if number == joint]
+    pair = [(own, e) for own, e in of_joint if isinstance(e, elements.NonCircular)]
+    (near, one), (far, other) = sorted(pair, key=lambda end: end[1].transfer == elements.INVERSE)
+    here, there = (stage.pose.complex_point(elements.Named(own, e.x, e.y))[0] for own, e in ((near, one), (far, other)))
+    curve = transfer_of(one, other).curves()[wheel is other] * abs(there - here)
+    contour = _contour(stage, complex(wheel.x, wheel.y), wheel.angle, curve)
+    ends = _contour(stage, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
+    style = "block-frame" if link == stage.linkage.mechanism.frame else "area"
+    return RoundPart(link, (Lines((contour,), style, closed=True), Lines((ends,), "hatch")))
 
 
 def _geneva(stage: Stage, joint: int, link: str, element: elements.Driver | elements.Cross) -> RoundPart:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from cmath import phase, rect
 from collections.abc import Sequence
-from math import floor, pi
+from math import degrees, floor, pi
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.kinematics.contours import COEFFICIENTS, Law, cam_law, geneva_law
-from gruebler.linkages import Circle, Cross, Disc, Driver, Element, Line, Linkage, Wheel
-from gruebler.linkages.elements import direction
+from gruebler.errors import LinkageError
+from gruebler.kinematics.contours import COEFFICIENTS, Law, cam_law, turn_law
+from gruebler.kinematics.noncircular import transfer_of
+from gruebler.linkages import Circle, Disc, Driver, Element, Line, Linkage, NonCircular, Wheel
+from gruebler.linkages.elements import INVERSE, direction
 from gruebler.linkages.wheels import factors
 
 __all__ = ["PIN", "SLIDE", "Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
@@ -21,6 +23,7 @@ PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE = range(8)
 """Kinds of closing conditions, as in the kernel `closure`."""
 
 Keys = tuple[tuple[int, str], ...]
+_MESHES = 1e-6  # radians: angles of a drawing with six digits fit
 
 
 class Condition(NamedTuple):
@@ -51,11 +54,12 @@ def contact_conditions(
         return [Condition(POLAR, sides, owners, (one.base * one.scale, 0.0, 0.0), cam_law(one))]
     if isinstance(other, Disc):
         return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(other))]
-    if isinstance(one, Driver):
-        assert isinstance(other, Cross)
-        return [
-            _phased(lower, keys, Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), geneva_law(one, other)))
-        ]
+    if isinstance(one, Driver | NonCircular):
+        raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(one, other))
+        found = _phased(lower, keys, raw)
+        if isinstance(one, NonCircular):
+            _check_phase(lower, keys, found)
+        return [found]
     out = []
     if isinstance(other, Wheel):
         if isinstance(one, Line):
@@ -77,7 +81,24 @@ def contact_conditions(
 
 def _rank(element: Element) -> int:
     """Which element comes first in a condition."""
+    if isinstance(element, NonCircular):
+        return 3 if element.transfer == INVERSE else 2
     return next((k for k, kind in enumerate((Line, Disc, Driver)) if isinstance(element, kind)), 3)
+
+
+def _check_phase(lower: Linkage, keys: Keys, found: Condition) -> None:
+    """Refuse non-circular wheels whose curves do not touch at home; the second may start in any of its equal parts."""
+    one, other = (lower.elements[keys[side]] for side in found.sides)
+    assert isinstance(one, NonCircular)
+    assert isinstance(other, NonCircular)
+    part = 2 * pi / transfer_of(one, other).mean.denominator
+    off = found.values[2] / lower.size + pi
+    off -= part * floor(off / part + 0.5)
+    if abs(off) > _MESHES:
+        raise LinkageError(
+            f"the non-circular wheels do not mesh at home: turn {keys[found.sides[1]][1]!r}, or its direction, by "
+            f"{degrees(off):.9g}°"
+        )
 
 
 def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:

@@ -1,4 +1,4 @@
-"""Curves of cams and the angle of a Geneva wheel as piecewise polynomials, for the kernel; docs/theory/wheels.md."""
+"""Curves of cams, turns of Geneva and non-circular wheels as polynomials for the kernel; docs/theory/wheels.md."""
 
 from __future__ import annotations
 
@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from gruebler.cams import Cam, CamError, Flat, Roller, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geneva import Geneva
-from gruebler.linkages import Cross, Disc, Driver
+from gruebler.kinematics.noncircular import transfer_of
+from gruebler.linkages import Cross, Disc, Driver, Element, NonCircular
 
-__all__ = ["COEFFICIENTS", "Law", "cam_law", "cam_of", "geneva_law"]
+__all__ = ["COEFFICIENTS", "Law", "cam_law", "cam_of", "turn_law"]
 
 Reals = NDArray[np.float64]
 COEFFICIENTS = 12
@@ -118,8 +119,22 @@ def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:
 
 
 @lru_cache(maxsize=64)
-def geneva_law(driver: Driver, cross: Cross) -> Law:
-    """The angle of the slotted wheel by that of a pin against the line of centres."""
+def turn_law(one: Driver | NonCircular, other: Element) -> Law:
+    """The angle of a Geneva wheel, or of a non-circular wheel, by that of its driver, both against the line of centres.
+
+    `LinkageError` for a pair that cannot be.
+    """
+    if isinstance(one, NonCircular):
+        assert isinstance(other, NonCircular)
+        pair = transfer_of(one, other)
+        bounds = [*(pair.breaks or (0.0,)), 2 * pi]
+        law = _law(lambda t, _a, _b: -pair.at(t), bounds, advance=-2 * pi * float(pair.mean))
+        return law._replace(joints=law.joints if pair.breaks else ())
+    assert isinstance(other, Cross)
+    return _geneva_law(one, other)
+
+
+def _geneva_law(driver: Driver, cross: Cross) -> Law:
     try:
         drive = Geneva(cross.slots, cross.internal, driver.pins)
     except GrueblerError as error:

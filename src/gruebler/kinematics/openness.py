@@ -7,12 +7,15 @@ from cmath import rect
 import numpy as np
 
 from gruebler.kinematics.contacts import law_at
-from gruebler.kinematics.contours import cam_law, geneva_law
+from gruebler.kinematics.contours import cam_law, turn_law
 from gruebler.kinematics.motion import Complexes, Motion, Reals
-from gruebler.linkages import Circle, Cross, Disc, Driver, Line, Linkage, Wheel
+from gruebler.linkages import Circle, Disc, Driver, Line, Linkage, NonCircular, Wheel
+from gruebler.linkages.elements import INVERSE
 from gruebler.linkages.wheels import arms, factors, round_joints
 
 __all__ = ["joint_openings", "openness"]
+
+_LEADING = (Disc, Driver, NonCircular)
 
 
 def openness(motion: Motion) -> float:
@@ -64,7 +67,7 @@ def _open_contact(motion: Motion, number: int) -> float:
     if isinstance(elements[number, b], Line):
         a, b = b, a
     one, other = elements[number, a], elements[number, b]
-    if isinstance(one, Disc | Driver) or isinstance(other, Disc | Driver):
+    if isinstance(one, _LEADING) or isinstance(other, _LEADING):
         return _open_curve(motion, number) / linkage.size
     assert isinstance(other, Wheel | Circle)
     gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
@@ -88,18 +91,18 @@ def _open_contact(motion: Motion, number: int) -> float:
 
 
 def _open_curve(motion: Motion, number: int) -> float:
-    """How far a follower leaves its cam, or how far a Geneva wheel turns from where it should be, times a length."""
+    """How far a follower leaves its cam, or a Geneva or non-circular wheel its angle, times a length."""
     elements = motion.linkage.elements
     a, b = motion.linkage.mechanism.chain.joints[number].links
-    if isinstance(elements[number, b], Disc | Driver):
+    last = elements[number, b]
+    if isinstance(last, Disc | Driver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
         a, b = b, a
     one, other = elements[number, a], elements[number, b]
-    assert isinstance(one, Disc | Driver)
+    assert isinstance(one, Disc | Driver | NonCircular)
     gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
     along = motion.turns[:, motion._link(a)] * rect(1, one.angle)
-    if isinstance(one, Driver):
-        assert isinstance(other, Cross)
-        law = geneva_law(one, other)
+    if isinstance(one, Driver | NonCircular):
+        law = turn_law(one, other)
         bearing = np.unwrap(np.angle(gap))
         turned = motion.angle(a) + one.angle - bearing
         turned += np.angle(along[0] / gap[0] * abs(gap[0])) - turned[0]

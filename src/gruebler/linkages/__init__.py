@@ -6,7 +6,19 @@ transmission angles and closed forms of their motion: docs/theory/four-bar.md.
 """
 
 from gruebler.linkages.crank_motion import CrankMotion, InvertedMotion, Track
-from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, Line, Named, Pin, Place, Wheel
+from gruebler.linkages.elements import (
+    Circle,
+    Cross,
+    Disc,
+    Driver,
+    Element,
+    Line,
+    Named,
+    NonCircular,
+    Pin,
+    Place,
+    Wheel,
+)
 from gruebler.linkages.extremes import Arc, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
 from gruebler.linkages.files import linkage_from_json, read_linkage, to_json, to_toml, write_linkage
 from gruebler.linkages.four_bar import FourBar
@@ -47,6 +59,7 @@ __all__ = [
     "Linkage",
     "LinkageType",
     "Named",
+    "NonCircular",
     "Pin",
     "Place",
     "SliderCrank",

@@ -10,6 +10,7 @@ from gruebler.pairs import Pair
 
 __all__ = [
     "CENTRED",
+    "INVERSE",
     "ROUND",
     "Circle",
     "Cross",
@@ -18,6 +19,7 @@ __all__ = [
     "Element",
     "Line",
     "Named",
+    "NonCircular",
     "Pin",
     "Place",
     "Wheel",
@@ -106,17 +108,37 @@ class Cross(NamedTuple):
     internal: bool = False
 
 
-Element = Pin | Line | Wheel | Circle | Disc | Driver | Cross
+class NonCircular(NamedTuple):
+    """A wheel whose curve rolls without slip on that of another one, about fixed centres, in the opposite sense.
+
+    ``x, y`` is the axis; the angle that of a direction of the wheel. The turns of both wheels are counted from the
+    position in which their directions point at each other's axis. ``transfer`` says how far the other wheel turns while
+    this one turns by a: ``"ellipse E"``, an ellipse of eccentricity E about a focus, the direction through the other
+    focus; or the lift, in degrees, that comes to a times the mean ratio (texts as in `gruebler.cams`). The other wheel
+    has ``"inverse"``. The mean ratio is that of the tooth numbers, 1 without them.
+    """
+
+    x: float
+    y: float
+    angle: float
+    transfer: str
+    teeth: int = 0
+
+
+INVERSE = "inverse"
+"""The transfer function of the second of two non-circular wheels."""
+
+Element = Pin | Line | Wheel | Circle | Disc | Driver | Cross | NonCircular
 
 ROUND = (Wheel, Circle)
 """The elements with a centre and a radius."""
-CENTRED = (Wheel, Circle, Disc, Driver, Cross)
+CENTRED = (Wheel, Circle, Disc, Driver, Cross, NonCircular)
 """The elements that turn about a centre and touch another element."""
 
 
 def direction(element: Element) -> float:
     """The angle of an element on its link; 0 for one that has none."""
-    return element.angle if isinstance(element, Line | Disc | Driver | Cross) else 0.0
+    return element.angle if isinstance(element, Line | Disc | Driver | Cross | NonCircular) else 0.0
 
 
 class Named(NamedTuple):
@@ -157,6 +179,7 @@ _KINDS: dict[type, str] = {
     Disc: "a cam (at, cam)",
     Driver: "pins (at, pins)",
     Cross: "slots (at, slots)",
+    NonCircular: "a non-circular wheel (at, transfer)",
 }
 
 _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
@@ -172,9 +195,10 @@ _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
         (Disc, Pin),
         (Disc, Line),
         (Driver, Cross),
+        (NonCircular, NonCircular),
     ),
     "double_slide": ((Line, Line),),
-    "rolling": ((Wheel, Wheel), (Wheel, Line)),
+    "rolling": ((Wheel, Wheel), (Wheel, Line), (NonCircular, NonCircular)),
 }
 
 
@@ -202,10 +226,11 @@ def read_element(raw: object, where: str) -> Element:
     """
     if isinstance(raw, Wheel | Circle):
         return _round(raw, where)
-    if isinstance(raw, Disc | Driver | Cross):
-        for value in raw[:3]:
-            _number(value, where)
-        return raw
+    if isinstance(raw, Disc | Driver | Cross | NonCircular):
+        if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
+            raise LinkageError(f"{where}: teeth: expected a positive number, but found {raw.teeth}")
+        x, y, angle = (_number(value, where) for value in raw[:3])
+        return raw._replace(x=x, y=y, angle=angle)
     if isinstance(raw, Pin | Line):
         numbers: tuple[object, ...] = tuple(raw)
     elif isinstance(raw, list | tuple):
@@ -224,9 +249,7 @@ def _round(raw: Wheel | Circle, where: str) -> Wheel | Circle:
         raise LinkageError(f"{where}: a radius is positive, or negative for internal toothing, not {radius!r}")
     if isinstance(raw, Circle):
         return Circle(x, y, radius)
-    teeth: object = raw.teeth
-    if isinstance(teeth, bool) or not isinstance(teeth, int) or not -(10**6) < teeth < 10**6:
-        raise LinkageError(f"{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}")
+    teeth = _whole(raw.teeth, where)
     if teeth * radius < 0:
         raise LinkageError(f"{where}: radius and teeth are both negative (internal toothing) or both positive")
     if raw.belt not in ("", "open", "crossed"):
@@ -234,6 +257,12 @@ def _round(raw: Wheel | Circle, where: str) -> Wheel | Circle:
     if raw.belt and radius < 0:
         raise LinkageError(f"{where}: a wheel of a belt has a positive radius, not {radius:g}")
     return Wheel(x, y, radius, teeth, raw.belt)
+
+
+def _whole(teeth: object, where: str) -> int:
+    if isinstance(teeth, bool) or not isinstance(teeth, int) or not -(10**6) < teeth < 10**6:
+        raise LinkageError(f"{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}")
+    return teeth
 
 
 def _number(value: object, where: str) -> float:

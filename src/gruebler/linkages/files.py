@@ -15,7 +15,7 @@ from gruebler.chain import Chain
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages.angles import in_degrees
 from gruebler.linkages.documents import fitted, load
-from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, Place, Wheel
+from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, NonCircular, Place, Wheel
 from gruebler.linkages.model import Linkage
 from gruebler.linkages.records import Dimensions, dimensioned
 from gruebler.mechanism import Mechanism
@@ -130,7 +130,7 @@ def _plain(element: Element | Place) -> Any:
     if isinstance(element, Wheel):
         more = {"teeth": element.teeth, "belt": element.belt}
         return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
-    if isinstance(element, Disc | Driver | Cross):
+    if isinstance(element, Disc | Driver | Cross | NonCircular):
         found = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
         renamed = {{"lift": "cam"}.get(key, key): value for key, value in found.items() if key not in "xy"}
         return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}

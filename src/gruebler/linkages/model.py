@@ -12,12 +12,14 @@ from gruebler import views
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.elements import (
     CENTRED,
+    INVERSE,
     ROUND,
     Circle,
     Disc,
     Element,
     Line,
     Named,
+    NonCircular,
     Pin,
     Place,
     Wheel,
@@ -247,6 +249,8 @@ class Linkage:
         def element(e: Element) -> Element:
             if isinstance(e, Disc):
                 raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
+            if isinstance(e, NonCircular) and e.transfer != INVERSE and not e.transfer.lstrip().startswith("ellipse"):
+                raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
             return e._replace(y=-e.y) if isinstance(e, Pin | Wheel | Circle) else e._replace(y=-e.y, angle=-e.angle)
 
         return self._changed(

@@ -15,7 +15,7 @@ import msgspec
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages.angles import in_degrees, in_radians
 from gruebler.linkages.documents import fitted
-from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Place, Wheel
+from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, NonCircular, Place, Wheel
 from gruebler.linkages.four_bar import FourBar
 from gruebler.linkages.inverted_slider_crank import InvertedSliderCrank
 from gruebler.linkages.mapped_doors import Door, mapped
@@ -84,6 +84,7 @@ class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     pins: int | None = None
     slots: int | None = None
     internal: bool = False
+    transfer: str | None = None
 
 
 _KINDS = {
@@ -91,6 +92,7 @@ _KINDS = {
     "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"},
     "pins": {"pins", "angle"},
     "slots": {"slots", "angle", "internal"},
+    "transfer": {"transfer", "angle", "teeth"},
 }
 """What makes an element something else than a wheel, and its keys."""
 
@@ -233,7 +235,7 @@ def _element(raw: Any, where: str, slots: bool) -> object:
     return _numbers(raw, where, (2, 3))
 
 
-def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Wheel | Circle | Disc | Driver | Cross:
+def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element:
     kind = next((key for key in _KINDS if key in given), "")
     allowed = _KINDS.get(kind, {"radius", "teeth", "module", "belt"})
     wrong = next((key for key in given if key not in {"at", *allowed}), None)
@@ -250,6 +252,8 @@ def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Wheel |
         return Disc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
     if record.pins is not None:
         return Driver(x, y, angle, record.pins)
+    if record.transfer is not None:
+        return NonCircular(x, y, angle, record.transfer, record.teeth)
     assert record.slots is not None
     return Cross(x, y, angle, record.slots, record.internal)
 

@@ -12,7 +12,7 @@ from math import atan2, floor, hypot, log2
 from typing import NamedTuple, Protocol
 
 from gruebler.errors import LinkageError
-from gruebler.linkages.elements import CENTRED, Circle, Disc, Driver, Element, Line, Pin, Wheel
+from gruebler.linkages.elements import CENTRED, INVERSE, Circle, Disc, Driver, Element, Line, NonCircular, Pin, Wheel
 from gruebler.mechanism import Mechanism
 
 __all__ = ["Arm", "arms", "check_wheels", "factors", "redundant", "round_joints", "settled", "sliding_joint"]
@@ -150,6 +150,14 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             continue
         if isinstance(one, Driver) or isinstance(other, Driver):
             continue
+        if isinstance(one, NonCircular):
+            assert isinstance(other, NonCircular)
+            _check_noncircular(name, one, other)
+            if number not in held:
+                raise LinkageError(f"{name}: non-circular wheels need a link that carries both centres by pins")
+            if not held[number].distance > _SAME * _reach(elements, held[number].link):
+                raise LinkageError(f"{name}: the centre distance on {held[number].link!r} is too small: it is 0")
+            continue
         if isinstance(one, Line) or isinstance(other, Line):
             _check_rack(name, other if isinstance(one, Line) else one)
             continue
@@ -163,6 +171,20 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
                 f"{name}: the centres are {held[number].distance:.12g} apart on {held[number].link!r}, "
                 f"but the radii make {apart:.12g}"
             )
+
+
+def _check_noncircular(name: str, one: NonCircular, other: NonCircular) -> None:
+    if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (one, other)):
+        raise LinkageError(f"{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'")
+    if (one.transfer == INVERSE) == (other.transfer == INVERSE):
+        raise LinkageError(f"{name}: one of two non-circular wheels has a transfer function, the other {INVERSE!r}")
+    if bool(one.teeth) != bool(other.teeth):
+        raise LinkageError(f"{name}: tooth numbers on both wheels or on none")
+
+
+def _reach(elements: Elements, link: str) -> float:
+    """The largest distance of a joint on a link from its origin."""
+    return max(hypot(e.x, e.y) for (_, owner), e in elements.items() if owner == link)
 
 
 def _check_disc(name: str, disc: Element, other: Element) -> None:

@@ -1,0 +1,137 @@
+"""Non-circular wheels in pairs: transfer function, ratio, the curves that roll; docs/theory/wheels.md."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import lru_cache
+from math import degrees, pi, sqrt, tau
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.cams import Lift, read_lift
+from gruebler.errors import GrueblerError, LinkageError
+from gruebler.linkages import NonCircular
+
+__all__ = ["Transfer", "transfer_of"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_RATIOS = (1e-3, 1e3)  # beyond them a radius is less than a thousandth of the centre distance
+_FLATTEST = 0.8  # eccentricity: the ratio goes from 1/9 to 9; beyond, pieces of 0.04 rad are not exact
+_CLOSED = 1e-9  # radians, as the parts of a lift fill a turn
+_STEPS, _MOST = 360, 3600  # points of a lobe, and of a curve, at most
+_LOBES = 100  # equal parts of a curve: each has 36 points or more
+
+
+class Transfer(NamedTuple):
+    """The turn of the second wheel by that of the first, in opposite senses, both from the line of centres.
+
+    >>> pair = Transfer(Fraction(1), kappa=0.5)
+    >>> pair.ratio([0.0, pi]).round(12).tolist()
+    [3.0, 0.333333333333]
+    """
+
+    mean: Fraction
+    """Turns of the second wheel in one of the first."""
+    kappa: float = 0.0
+    """Of the ellipse: the ratio is mean (1 - kappa^2) / (1 - 2 kappa cos a + kappa^2)."""
+    lift: Lift | None = None
+    """What comes to the mean, in radians; None for an ellipse."""
+
+    def at(self, angle: ArrayLike) -> Reals:
+        """The second wheel's turn at turns of the first, of any shape; radians."""
+        a = np.asarray(angle, dtype=np.float64)
+        if self.lift is not None:
+            return float(self.mean) * a + self.lift.at(a)
+        k = self.kappa
+        return np.asarray(float(self.mean) * (a + 2 * np.arctan2(k * np.sin(a), 1 - k * np.cos(a))))
+
+    def ratio(self, angle: ArrayLike) -> Reals:
+        """The derivative of `at`: the second speed by the first."""
+        a = np.asarray(angle, dtype=np.float64)
+        if self.lift is not None:
+            return float(self.mean) + self.lift.at(a, 1)
+        k = self.kappa
+        return np.asarray(float(self.mean) * (1 - k * k) / (1 - 2 * k * np.cos(a) + k * k))
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Angles of the first wheel in [0, 2 pi) at which derivatives may jump."""
+        return () if self.lift is None else tuple(span.start for span in self.lift.spans())
+
+    def curves(self) -> tuple[Complexes, Complexes]:
+        """The closed curves of both wheels, centre distance 1, each in a frame whose x axis is the wheel's direction.
+
+        They touch where the first wheel has turned by a and the second by ``at(a)``: in the point of the first at the
+        angle -a, and in that of the second at the angle ``at(a)``; points at equal steps of a, the same for both.
+        """
+        lobes = self.mean.numerator, self.mean.denominator
+        fine = min(_STEPS, _MOST // max(lobes))
+        first, second = (tau / (fine * lobes[0]) * np.arange(fine * count) for count in lobes)
+        ratio, other = self.ratio(first), self.ratio(second)
+        return np.exp(-1j * first) * ratio / (1 + ratio), np.exp(1j * self.at(second)) / (1 + other)
+
+
+@lru_cache(maxsize=64)
+def transfer_of(wheel: NonCircular, other: NonCircular) -> Transfer:
+    """The transfer function of a wheel and the one that is its inverse; `LinkageError` for one that cannot be."""
+    mean = Fraction(wheel.teeth, other.teeth) if wheel.teeth else Fraction(1)
+    try:
+        made = _read(wheel.transfer, mean)
+    except GrueblerError as error:
+        raise LinkageError(f"transfer: {error}") from None
+    if max(mean.numerator, mean.denominator) > _LOBES:
+        raise LinkageError(f"transfer: the mean ratio is one of numbers up to {_LOBES}, not {mean}")
+    _check_ratio(made)
+    _check_closed(made)
+    return made
+
+
+def _read(text: str, mean: Fraction) -> Transfer:
+    word, *rest = text.split()
+    if word != "ellipse":
+        return Transfer(mean, lift=read_lift(text).scaled(pi / 180))
+    try:
+        (e,) = (float(value) for value in rest)
+    except ValueError:
+        e = float("nan")
+    if not 0 <= e <= _FLATTEST:
+        raise LinkageError(f"expected 'ellipse' and an eccentricity from 0 to {_FLATTEST}, but found {text[:40]!r}")
+    m = float(mean)
+    parameter = (1 - e * e) * m / (m + sqrt(1 - e * e + m * m * e * e))  # docs/theory/wheels.md
+    reach = 1 - parameter
+    return Transfer(mean, e / (reach + sqrt((reach - e) * (reach + e))))
+
+
+def _check_ratio(made: Transfer) -> None:
+    if made.lift is None:
+        extremes = [(float(a), float(made.ratio(a))) for a in (0.0, pi)]
+    else:
+        if jump := next((jump for jump in made.lift.jumps() if jump.order == 1), None):
+            raise LinkageError(
+                f"transfer: the ratio jumps by {jump.size:.4g} at {degrees(jump.at):.6g}°: no closed curve; "
+                "take a law that starts and ends at rest, such as 3-4-5"
+            )
+        extremes = [(a, float(made.mean) + slope) for a, slope in made.lift.extremes(1)]
+    for at, ratio in (min(extremes, key=lambda one: one[1]), max(extremes, key=lambda one: one[1])):
+        if not _RATIOS[0] <= ratio <= _RATIOS[1]:
+            raise LinkageError(
+                f"transfer: the ratio is {ratio:.4g} at {degrees(at):.6g}°; it must be positive everywhere, "
+                f"from {_RATIOS[0]:g} to {_RATIOS[1]:g}"
+            )
+
+
+def _check_closed(made: Transfer) -> None:
+    """The second curve is closed after one turn if the ratio repeats as often as the numerator of the mean says."""
+    times = made.mean.numerator
+    ends = np.array([*made.breaks, tau])
+    places = np.concatenate([np.linspace(0, tau, 721), ends, (ends[1:] + ends[:-1]) / 2])
+    off = made.at(places + tau / times) - made.at(places) - tau / made.mean.denominator
+    if np.abs(off).max() > _CLOSED:
+        raise LinkageError(
+            f"transfer: the second wheel's curve does not close: with a mean ratio of {made.mean} the ratio must "
+            f"repeat every {360 / times:.6g}° of the first wheel"
+        )
