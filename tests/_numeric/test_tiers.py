@@ -28,7 +28,6 @@ from gruebler.kinematics.turning import rotatability
 from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.alt_burmester import PROBLEMS, follow, generic
-from gruebler.synthesis.alt_burmester import PROBLEMS, follow, generic
 from tests.samples import CLASS_III, parallel_legs
 
 # Integers are equal. Numbers may differ in the last digits by powers, by divisions of complex numbers and by sums taken
@@ -36,7 +35,7 @@ from tests.samples import CLASS_III, parallel_legs
 CLOSE = 1e-11
 DOORS = {
     "walk", "_designs", "closing", "newton", "settle", "trace", "evaluate", "jacobian", "label_graph", "adjacency",
-    "_label_all", "grow", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
+    "_label_all", "grow", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments", "refine",
 }  # fmt: skip
 PARTS = {
     "_goes_on",
@@ -116,9 +115,6 @@ def work() -> None:
         circuit(entry(name).linkage())
     gr.move(entry("crane_cyl").linkage(), np.linspace(34.5, 47, 6), **steady)
     assembly_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
-    task = PROBLEMS[3]
-    base = generic(task)
-    follow(task, base.z[:1], base.parameters, base.parameters * (1 + 0.01j), 1e-3, threads=1)
     move_many(four_bars([25, 30], 70, 40, 70), gr.degrees(0, 60, 5), speed=1.0)
     for problem in PROBLEMS[2:]:  # four-bars through positions and points: a short way from known solutions
         begin, z = generic(problem)
