@@ -35,7 +35,8 @@ from tests.samples import CLASS_III, parallel_legs
 CLOSE = 1e-11
 DOORS = {
     "walk", "_designs", "closing", "newton", "settle", "trace", "evaluate", "jacobian", "label_graph", "adjacency",
-    "_label_all", "grow", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments", "refine",
+    "_label_all", "grow", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
+    "refine",
 }  # fmt: skip
 PARTS = {
     "_goes_on",
