@@ -16,6 +16,7 @@ import gruebler as gr
 from gruebler import _numeric
 from gruebler._numeric import compiling
 from gruebler._numeric.canonical import canonical_bulk, canonical_form
+from gruebler._numeric.tracing import Scratch
 from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.drawing import draw
@@ -164,8 +165,15 @@ def numpied(value: Any) -> Any:
     return value
 
 
+# Room of `tracing._reduce`, whose interpreted form works on lists.
+ROOM = {"work", "free", "lengths"}
+
+
 def agree(one: Any, other: Any) -> None:
-    if isinstance(one, tuple):
+    if isinstance(one, Scratch):
+        for name in set(one._fields) - ROOM:
+            agree(getattr(one, name), getattr(other, name))
+    elif isinstance(one, tuple):
         for a, b in zip(one, other, strict=True):
             agree(a, b)
     elif one is None:
