@@ -16,7 +16,7 @@ COMMANDS = [
     ["enumerate", "--links", "10", "--count"],
     ["enumerate", "--links", "14", "--count"],
     ["enumerate", "--links", "16", "--count"],
-    ["draw", "vcomp", "-o", os.devnull],
+    ["draw", "vcomp"],
     ["realise", CHAIN],
     ["analyse", "four-bar:25,70,40,70"],
     ["analyse", "wiper"],

@@ -7,7 +7,7 @@ are 1, 4, 17, 118, 1198, 17133, 311757 with 2, 3, ..., 8 loops.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -174,25 +174,28 @@ def packed_graphs(loops: int) -> Iterator[Packed]:
     """
     if not 2 <= loops <= MOST_LOOPS:
         raise GrueblerError(f"contracted graphs are made for 2 to {MOST_LOOPS} loops, not for {loops}")
-    return _grown(loops)
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.contracted import grow
+    from gruebler._numeric.work import growing
+
+    return _grown(loops, for_work(grow, growing(loops)))
 
 
-def _grown(loops: int) -> Iterator[Packed]:
+def _grown(loops: int, grow: Callable[..., tuple[int, int]]) -> Iterator[Packed]:
+    """The same, with the kernel to use."""
     if loops == 2:
         theta = np.zeros((1, _NODES), np.int64)
         theta[0, :2] = 3 << 4, 3
         yield theta
         return
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.contracted import grow, make_nursery
-    from gruebler._numeric.work import growing
+    from gruebler._numeric.contracted import make_nursery
 
     memory = make_nursery()
-    for parents in _grown(loops - 1):
+    for parents in _grown(loops - 1, grow):
         k = 0
         while k < len(parents):
             room = np.empty((_BLOCK, _NODES), np.int64)
-            total, k = for_work(grow, growing(loops, len(parents) - k))(parents, k, room, memory)
+            total, k = grow(parents, k, room, memory)
             if total:
                 yield room[:total]
 
