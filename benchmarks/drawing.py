@@ -10,10 +10,11 @@ import networkx as nx
 import numpy as np
 
 from gruebler import Chain, chains
-from gruebler.drawing import draw, gallery_html
-from gruebler.drawing.bodies import Bodies
-from gruebler.drawing.gallery import Item, Section
-from gruebler.drawing.layout import Layout, lay_out
+from gruebler.drawing.canvas import gallery_html
+from gruebler.drawing.canvas.gallery import Item, Section
+from gruebler.drawing.structure import draw
+from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.layout import Layout, lay_out
 
 Drawing = tuple[np.ndarray, list[tuple[int, ...]]]
 

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.motion import LEG, leg
+from gruebler.fourbar import FourBar
 from gruebler.geometry import CouplerCurve, centrodes, cognate_sizes, cognates, coupler_curve, poles, series
 from gruebler.kinematics import Motion, move
-from gruebler.linkages import FourBar
 from gruebler.statics import Loads, statics
 
 ROWS = 10_000

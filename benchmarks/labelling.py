@@ -9,8 +9,8 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.canonical import adjacency, canonical_bulk, label_graph
-from gruebler._numeric.label_workspace import make_workspace
+from gruebler._numeric.labelling.canonical import adjacency, canonical_bulk, label_graph
+from gruebler._numeric.labelling.label_workspace import make_workspace
 
 GRAPHS = 20_000
 JUDGED = 2_000  # of them igraph labels so many

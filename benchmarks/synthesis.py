@@ -7,8 +7,8 @@ from math import pi
 
 import numpy as np
 
+from gruebler.fourbar import FourBar
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar
 from gruebler.synthesis import PathTask, PositionTask, synthesise_path
 from gruebler.synthesis.alt_burmester import PROBLEMS, generic, parameters, solutions
 from gruebler.synthesis.curves import fit_curve

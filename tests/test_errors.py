@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from gruebler import Chain, FourBar, GrueblerError, NotationError, circuit, draw, measures, move
 from gruebler.errors import LONGEST, LinkageError, shortened
-from gruebler.linkages import linkage_from_json
+from gruebler.formats import linkage_from_json
 
 
 @given(st.text(), st.integers(0, 3000), st.sampled_from(["a", "a ", "\n", "ä\n "]))

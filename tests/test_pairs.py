@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from gruebler import PAIRS, Alphabet, PairError, Space, pair
-from gruebler.pairs import Contact, read_symbols
+from gruebler.chain.pairs import Contact, read_symbols
 
 # Table 2.2 of the seeds as reconstructed: German symbol -> f in space (f = sum of the indices, W counts 1).
 TABLE_2_2 = {

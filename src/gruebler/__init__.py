@@ -18,27 +18,32 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from gruebler import views
+from gruebler import notebook
 
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from gruebler.analysis import Measures, drive_range, motion_roles
+    from gruebler.analysis.measures import measures
+    from gruebler.analysis.rotatability import rotatability
     from gruebler.assur import assur_groups, decompose
     from gruebler.cams import Cam, CamError
     from gruebler.catalog.features import AccessFeatures, access_features
     from gruebler.chain import Chain, Joint
-    from gruebler.drawing import draw, gallery_html
-    from gruebler.drawing.animation import animated_svg
-    from gruebler.drawing.animation_frames import animated_frames
-    from gruebler.drawing.animation_page import animated_page
-    from gruebler.drawing.cam_picture import animate_cam, draw_cam
-    from gruebler.drawing.curve_plots import coupler_plot, family_plot, hodograph
-    from gruebler.drawing.geneva_picture import animate_geneva, draw_geneva
-    from gruebler.drawing.linkage_picture import draw_linkage
-    from gruebler.drawing.motion_picture import draw_motion
-    from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
-    from gruebler.drawing.plots import ratio_diagram
-    from gruebler.drawing.train_picture import animate_train, draw_train
+    from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space, pair
+    from gruebler.drawing.canvas import gallery_html
+    from gruebler.drawing.canvas.panels import ratio_diagram
+    from gruebler.drawing.linkage.animation import animated_svg
+    from gruebler.drawing.linkage.animation_frames import animated_frames
+    from gruebler.drawing.linkage.animation_page import animated_page
+    from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
+    from gruebler.drawing.linkage.motion_picture import draw_motion
+    from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
+    from gruebler.drawing.linkage.picture import draw_linkage
+    from gruebler.drawing.machines.cam_picture import animate_cam, draw_cam
+    from gruebler.drawing.machines.geneva_picture import animate_geneva, draw_geneva
+    from gruebler.drawing.machines.train_picture import animate_train, draw_train
+    from gruebler.drawing.structure import draw
     from gruebler.enumeration import chains, count_chains
     from gruebler.errors import (
         CatalogError,
@@ -50,7 +55,8 @@ if TYPE_CHECKING:
         SynthesisError,
     )
     from gruebler.exercises import exercise, fresh, solve, teaching_table
-    from gruebler.freedoms import Freedoms, freedom_report
+    from gruebler.formats import read_linkage, write_linkage
+    from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
     from gruebler.gears import GearError, Train, read_train
     from gruebler.geneva import Geneva, GenevaError
     from gruebler.geometry import (
@@ -70,44 +76,17 @@ if TYPE_CHECKING:
     )
     from gruebler.geometry.guidance import GUIDANCES, guidance
     from gruebler.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
-    from gruebler.inversion import driven_mechanisms, inversions
     from gruebler.isomorphism import code, decode, find_isomorphism, is_isomorphic, symmetry
-    from gruebler.kinematics import (
-        Circuit,
-        Measures,
-        Motion,
-        circuit,
-        degrees,
-        drive_range,
-        four_bars,
-        measures,
-        motion_roles,
-        move,
-        move_many,
-        rotatability,
-    )
-    from gruebler.linkages import (
-        Circle,
-        Cross,
-        Disc,
-        Driver,
-        FourBar,
-        InvertedSliderCrank,
-        Linkage,
-        NonCircular,
-        SliderCrank,
-        Wheel,
-        read_linkage,
-        write_linkage,
-    )
-    from gruebler.linkages.expressions import Expression
+    from gruebler.kinematics import Circuit, Motion, circuit, degrees, four_bars, move, move_many
+    from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage, NonCircular, Wheel
     from gruebler.mechanism import Mechanism, check_drives
+    from gruebler.mechanism.inversion import driven_mechanisms, inversions
     from gruebler.mobility import counted, generic_mobility, mobility_report
-    from gruebler.pairs import PAIRS, Alphabet, Pair, Space, pair
-    from gruebler.realisation import Realisation, realise
-    from gruebler.screws import JointPlace, SpatialLinkage
+    from gruebler.realisation import Realisation
+    from gruebler.realisation.realise import realise
+    from gruebler.screws import Freedoms, JointPlace, SpatialLinkage, freedom_report
     from gruebler.sheets import sheet
-    from gruebler.specialisation import Requirements, joint_types, variants
+    from gruebler.sheets.expressions import Expression
     from gruebler.statics import Loads, Statics, slide_friction, slider_friction
     from gruebler.synthesis import (
         DeadCentreTask,
@@ -125,7 +104,8 @@ if TYPE_CHECKING:
         synthesise_positions,
         synthesise_structures,
     )
-    from gruebler.transformation import derive, extend
+    from gruebler.transformations import derive, extend
+    from gruebler.type_synthesis import Requirements, joint_types, variants
 
 __all__ = [
     "GUIDANCES",
@@ -265,6 +245,13 @@ __all__ = [
 ]
 
 _ROOMS = {
+    "analysis": (
+        "Measures",
+        "drive_range",
+        "motion_roles",
+    ),
+    "analysis.measures": ("measures",),
+    "analysis.rotatability": ("rotatability",),
     "assur": (
         "assur_groups",
         "decompose",
@@ -281,37 +268,42 @@ _ROOMS = {
         "Chain",
         "Joint",
     ),
-    "drawing": (
-        "draw",
-        "gallery_html",
+    "chain.pairs": (
+        "Alphabet",
+        "PAIRS",
+        "Pair",
+        "Space",
+        "pair",
     ),
-    "drawing.animation": ("animated_svg",),
-    "drawing.animation_frames": ("animated_frames",),
-    "drawing.animation_page": ("animated_page",),
-    "drawing.cam_picture": (
-        "animate_cam",
-        "draw_cam",
-    ),
-    "drawing.curve_plots": (
+    "drawing.canvas": ("gallery_html",),
+    "drawing.canvas.panels": ("ratio_diagram",),
+    "drawing.linkage.animation": ("animated_svg",),
+    "drawing.linkage.animation_frames": ("animated_frames",),
+    "drawing.linkage.animation_page": ("animated_page",),
+    "drawing.linkage.curve_plots": (
         "coupler_plot",
         "family_plot",
         "hodograph",
     ),
-    "drawing.geneva_picture": (
-        "animate_geneva",
-        "draw_geneva",
-    ),
-    "drawing.linkage_picture": ("draw_linkage",),
-    "drawing.motion_picture": ("draw_motion",),
-    "drawing.motion_plots": (
+    "drawing.linkage.motion_picture": ("draw_motion",),
+    "drawing.linkage.motion_plots": (
         "transfer_plot",
         "transmission_plot",
     ),
-    "drawing.plots": ("ratio_diagram",),
-    "drawing.train_picture": (
+    "drawing.linkage.picture": ("draw_linkage",),
+    "drawing.machines.cam_picture": (
+        "animate_cam",
+        "draw_cam",
+    ),
+    "drawing.machines.geneva_picture": (
+        "animate_geneva",
+        "draw_geneva",
+    ),
+    "drawing.machines.train_picture": (
         "animate_train",
         "draw_train",
     ),
+    "drawing.structure": ("draw",),
     "enumeration": (
         "chains",
         "count_chains",
@@ -331,9 +323,14 @@ _ROOMS = {
         "solve",
         "teaching_table",
     ),
-    "freedoms": (
-        "Freedoms",
-        "freedom_report",
+    "formats": (
+        "read_linkage",
+        "write_linkage",
+    ),
+    "fourbar": (
+        "FourBar",
+        "InvertedSliderCrank",
+        "SliderCrank",
     ),
     "gears": (
         "GearError",
@@ -367,10 +364,6 @@ _ROOMS = {
         "lambdas_for",
         "symmetric_rocker",
     ),
-    "inversion": (
-        "driven_mechanisms",
-        "inversions",
-    ),
     "isomorphism": (
         "code",
         "decode",
@@ -380,63 +373,45 @@ _ROOMS = {
     ),
     "kinematics": (
         "Circuit",
-        "Measures",
         "Motion",
         "circuit",
         "degrees",
-        "drive_range",
         "four_bars",
-        "measures",
-        "motion_roles",
         "move",
         "move_many",
-        "rotatability",
     ),
     "linkages": (
         "Circle",
         "Cross",
         "Disc",
         "Driver",
-        "FourBar",
-        "InvertedSliderCrank",
         "Linkage",
         "NonCircular",
-        "SliderCrank",
         "Wheel",
-        "read_linkage",
-        "write_linkage",
     ),
-    "linkages.expressions": ("Expression",),
     "mechanism": (
         "Mechanism",
         "check_drives",
+    ),
+    "mechanism.inversion": (
+        "driven_mechanisms",
+        "inversions",
     ),
     "mobility": (
         "counted",
         "generic_mobility",
         "mobility_report",
     ),
-    "pairs": (
-        "PAIRS",
-        "Alphabet",
-        "Pair",
-        "Space",
-        "pair",
-    ),
-    "realisation": (
-        "Realisation",
-        "realise",
-    ),
+    "realisation": ("Realisation",),
+    "realisation.realise": ("realise",),
     "screws": (
+        "Freedoms",
         "JointPlace",
         "SpatialLinkage",
+        "freedom_report",
     ),
     "sheets": ("sheet",),
-    "specialisation": (
-        "Requirements",
-        "joint_types",
-        "variants",
-    ),
+    "sheets.expressions": ("Expression",),
     "statics": (
         "Loads",
         "Statics",
@@ -459,22 +434,27 @@ _ROOMS = {
         "synthesise_positions",
         "synthesise_structures",
     ),
-    "transformation": (
+    "transformations": (
         "derive",
         "extend",
+    ),
+    "type_synthesis": (
+        "Requirements",
+        "joint_types",
+        "variants",
     ),
 }
 _HOME = {name: room for room, names in _ROOMS.items() for name in names}
 
 
 _DRAWN: dict[str, tuple[str, str, dict[str, Any]]] = {
-    "Chain": ("structure", "draw", {"labels": True}),
-    "Mechanism": ("structure", "draw", {"labels": True}),
-    "Linkage": ("linkage_picture", "shown_linkage", {}),
-    "Motion": ("motion_picture", "draw_motion", {}),
-    "Cam": ("cam_picture", "draw_cam", {}),
-    "Geneva": ("geneva_picture", "draw_geneva", {}),
-    "Train": ("train_picture", "draw_train", {}),
+    "Chain": ("structure.picture", "draw", {"labels": True}),
+    "Mechanism": ("structure.picture", "draw", {"labels": True}),
+    "Linkage": ("linkage.picture", "shown_linkage", {}),
+    "Motion": ("linkage.motion_picture", "draw_motion", {}),
+    "Cam": ("machines.cam_picture", "draw_cam", {}),
+    "Geneva": ("machines.geneva_picture", "draw_geneva", {}),
+    "Train": ("machines.train_picture", "draw_train", {}),
 }
 
 
@@ -484,7 +464,7 @@ def _picture(thing: Any) -> str:
     return str(getattr(import_module(f"gruebler.drawing.{room}"), name)(thing, **options).svg())
 
 
-views.picture = _picture
+notebook.picture = _picture
 
 
 def __getattr__(name: str) -> Any:

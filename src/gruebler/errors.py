@@ -65,6 +65,10 @@ class SynthesisError(GrueblerError):
     """A task of dimensional synthesis that contradicts itself or cannot be read."""
 
 
+class TransformationError(GrueblerError):
+    """A transformation that cannot be done there: what was to be removed is not such, or the places do not fit."""
+
+
 def shortened(text: str) -> str:
     r"""One line of at most `LONGEST` characters: what is longer loses its middle, words first.
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler import views
+from gruebler import notebook
 from gruebler.errors import GrueblerError
 
 __all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
@@ -184,7 +184,7 @@ class Geneva:
 
     def _repr_svg_(self) -> str | None:
         """The drive to scale, a pin on the line of centres, for notebooks."""
-        return views.picture(self) if views.picture else None
+        return notebook.picture(self) if notebook.picture else None
 
     @property
     def _side(self) -> int:

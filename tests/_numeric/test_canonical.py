@@ -14,7 +14,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from gruebler._numeric.canonical import (
+from gruebler._numeric.compiling import njit
+from gruebler._numeric.labelling.canonical import (
     CanonicalResult,
     adjacency,
     canonical_bulk,
@@ -22,8 +23,7 @@ from gruebler._numeric.canonical import (
     label_graph,
     relabelled,
 )
-from gruebler._numeric.compiling import njit
-from gruebler._numeric.label_workspace import FACTOR, FACTORS, LABELLING, THOROUGH, Workspace, make_workspace
+from gruebler._numeric.labelling.label_workspace import FACTOR, FACTORS, LABELLING, THOROUGH, Workspace, make_workspace
 
 Form = tuple[tuple[int, ...], tuple[tuple[int, int, int], ...]]
 Array = NDArray[np.int64]

@@ -14,8 +14,8 @@ import pytest
 
 import gruebler
 from gruebler._numeric import compiling, kernel_cache
-from gruebler._numeric.bits import lowest, popcount
 from gruebler._numeric.compiling import compiled, for_work, interpreted, njit, on_compiling, price
+from gruebler._numeric.counting.bits import lowest, popcount
 from gruebler._numeric.lanes import choose, dot, give_back, lanes, number, square_root, subtract, taken, tally
 
 NUMERIC = Path(gruebler.__file__).parent / "_numeric"
@@ -29,7 +29,7 @@ def kernel_tier(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_every_kernel_is_compiled_by_our_decorator() -> None:
-    for path in NUMERIC.glob("*.py"):
+    for path in NUMERIC.rglob("*.py"):
         text = path.read_text(encoding="utf-8")
         if path.name != "compiling.py":
             assert not re.search(r"^from numba|^import numba|numba\.njit", text, re.MULTILINE), path.name
@@ -71,8 +71,8 @@ def test_little_work_is_interpreted_and_much_is_compiled(monkeypatch: pytest.Mon
 
 
 def test_the_price_falls_when_a_kernel_lies_in_the_cache_or_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
-    from gruebler._numeric.motion import walk
-    from gruebler._numeric.planar_layout import closest
+    from gruebler._numeric.layout import closest
+    from gruebler._numeric.motion.path import walk
 
     monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(compiling, "is_cached", lambda _: False)
@@ -188,7 +188,7 @@ def test_another_source_gives_another_folder(tmp_path: Path) -> None:
     first = folder()
     assert first == folder()
     assert first.name == kernel_cache._name()
-    with (tmp_path / "gruebler" / "_numeric" / "partition.py").open("a", encoding="utf-8") as file:
+    with (tmp_path / "gruebler" / "_numeric" / "labelling" / "partition.py").open("a", encoding="utf-8") as file:
         file.write("# changed\n")
     assert folder() != first
 
@@ -198,7 +198,7 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
     ask = """if True:
         import numpy as np
         from gruebler._numeric.compiling import compiled, price
-        from gruebler._numeric.planar_layout import closest
+        from gruebler._numeric.layout import closest
         before = price(closest)
         kernel = compiled(closest)
         kernel(np.zeros((3, 2)), np.array([[0, 1]]), np.array([[0, 2]]))

@@ -7,9 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import degrees, move
-from gruebler.kinematics.runs import run_rows
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.kinematics.kernel_calls import run_rows
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from tests.samples import class_iii, parallel_legs
 

@@ -3,8 +3,8 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gruebler._numeric import prime_field
-from gruebler._numeric.prime_field import (
+from gruebler._numeric import modular
+from gruebler._numeric.modular import (
     CoreTooLarge,
     P,
     echelon,
@@ -112,7 +112,7 @@ def test_a_core_of_several_panels(m, n, rank):
 @given(matrices())
 @settings(max_examples=40, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_null_spaces_by_column_and_random_solutions(monkeypatch, dense, matrix):
-    monkeypatch.setattr(prime_field, "_DENSE_BASIS", 10**9 if dense else -1)
+    monkeypatch.setattr(modular, "_DENSE_BASIS", 10**9 if dense else -1)
     form = echelon(sparse(matrix), matrix.shape[1])
     basis = null_space(form)
     by_column = null_space_by_column(form)
@@ -130,9 +130,9 @@ def test_null_spaces_by_column_and_random_solutions(monkeypatch, dense, matrix):
 
 def test_a_basis_with_too_many_entries_is_not_written_down(monkeypatch):
     rows = [{0: 1, 1: 1, 2: 1}, {3: 1, 4: 1, 5: 1}]
-    monkeypatch.setattr(prime_field, "_DENSE_BASIS", 0)
+    monkeypatch.setattr(modular, "_DENSE_BASIS", 0)
     assert len(null_space_by_column(echelon(rows, 6))) == 6
-    monkeypatch.setattr(prime_field, "_SPARSE_STEPS", 3)
+    monkeypatch.setattr(modular, "_SPARSE_STEPS", 3)
     assert null_space_by_column(echelon(rows, 6)) is None
 
 
@@ -149,13 +149,13 @@ def test_left_null_spaces_side_by_side(height, many, seed):
 
 def test_inverses_of_many():
     values = np.random.default_rng(1).integers(1, P, 1000)
-    assert (prime_field._inverses(values) * values % P == 1).all()
+    assert (modular._inverses(values) * values % P == 1).all()
 
 
 def test_what_is_long_or_large_is_refused_unless_it_is_wanted(monkeypatch):
     random = np.random.default_rng(2)
     matrix = random.integers(0, P, (60, 70))
-    monkeypatch.setattr(prime_field, "_LARGE", 1000)
+    monkeypatch.setattr(modular, "_LARGE", 1000)
     with pytest.raises(CoreTooLarge, match=r"60 equations"):
         echelon(sparse(matrix), 70)
     assert echelon(sparse(matrix), 70, large=True).rank == 60

@@ -15,18 +15,19 @@ import pytest
 import gruebler as gr
 from gruebler import _numeric
 from gruebler._numeric import compiling
-from gruebler._numeric.canonical import canonical_bulk, canonical_form
-from gruebler._numeric.tracing import Scratch
+from gruebler._numeric.labelling.canonical import canonical_bulk, canonical_form
+from gruebler._numeric.motion.tracing import Scratch
+from gruebler.analysis.rotatability import rotatability
 from gruebler.catalog import entry
 from gruebler.chain import Chain
-from gruebler.drawing import draw
+from gruebler.drawing.structure import draw
 from gruebler.enumeration import chains, count_chains, graph6_blocks
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.kinematics.assembly_modes import conditions
 from gruebler.kinematics.batch import four_bars, move_many
 from gruebler.kinematics.circuits import circuit
-from gruebler.kinematics.search import conditions
 from gruebler.kinematics.triads import assembly_modes
-from gruebler.kinematics.turning import rotatability
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.alt_burmester import PROBLEMS, follow, generic
 from tests.samples import CLASS_III, parallel_legs
@@ -64,7 +65,7 @@ class Call(NamedTuple):
 
 def modules() -> list[Any]:
     found = [
-        importlib.import_module(f"{_numeric.__name__}.{one.name}") for one in pkgutil.iter_modules(_numeric.__path__)
+        importlib.import_module(one.name) for one in pkgutil.walk_packages(_numeric.__path__, f"{_numeric.__name__}.")
     ]
     return [*found, *(module for name, module in sys.modules.items() if name == __name__)]
 

@@ -12,7 +12,7 @@ from gruebler.isomorphism import find_isomorphism
 from gruebler.mechanism import Drive, Mechanism, check_drives
 from gruebler.mobility import generic
 from gruebler.mobility.placement import Lock
-from gruebler.transformation import insert_group
+from gruebler.transformations import insert_group
 from tests.assur.oracles import blocks_by_subsets, closed_chains
 from tests.strategies import PLANAR, built_mechanisms, chains, renumbered
 

@@ -7,22 +7,11 @@ import numpy as np
 import pytest
 
 from gruebler import CatalogError, Chain
-from gruebler.catalog import (
-    Claims,
-    Query,
-    catalog_folder,
-    check,
-    check_all,
-    check_entry,
-    entries,
-    entry,
-    exercises,
-    read_entry,
-    search,
-)
+from gruebler.catalog import Query, catalog_folder, check, check_all, check_entry, entries, entry, exercises, search
+from gruebler.formats import Claims, read_entry
+from gruebler.formats.linkages import linkage_from_json, to_json
 from gruebler.isomorphism import is_isomorphic
 from gruebler.kinematics import move
-from gruebler.linkages.files import linkage_from_json, to_json
 from gruebler.mobility import pebble_mobility, theorem
 
 # REFERENCE A3, computed independently of this project: id, b, n, g1, g2, F, mobility with the real dimensions.

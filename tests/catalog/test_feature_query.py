@@ -17,10 +17,10 @@ from gruebler.catalog.feature_query import (
     structures,
 )
 from gruebler.catalog.features import access_features
+from gruebler.chain.pairs import pair
 from gruebler.enumeration import count
-from gruebler.inversion import inversions
-from gruebler.pairs import pair
-from gruebler.specialisation import Requirements, Wanted, typed_chains, variants
+from gruebler.mechanism.inversion import inversions
+from gruebler.type_synthesis import Requirements, Wanted, typed_chains, variants
 
 
 def number(**features):

@@ -6,9 +6,9 @@ from hypothesis import given
 from gruebler.catalog import entries, entry
 from gruebler.catalog.features import access_features
 from gruebler.chain import Chain
+from gruebler.chain.pairs import pair
 from gruebler.errors import ChainError
 from gruebler.mechanism import Mechanism
-from gruebler.pairs import pair
 from tests import strategies
 
 

@@ -9,10 +9,10 @@ import pytest
 
 from gruebler.catalog import entries, entry
 from gruebler.cli import main
-from gruebler.freedoms.files import screws_to_json
+from gruebler.formats.linkages import write_linkage
+from gruebler.formats.screws import screws_to_json
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, SliderCrank
-from gruebler.linkages.files import write_linkage
 
 CRANK_ROCKER = "four-bar:25,70,40,70"
 

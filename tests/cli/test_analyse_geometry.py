@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from gruebler.cli.geometry_columns import curvature_columns
+from gruebler.formats.linkages import write_linkage
+from gruebler.fourbar import FourBar
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, Linkage, Named
-from gruebler.linkages.files import write_linkage
+from gruebler.linkages import Linkage, Named
 from gruebler.mechanism import Mechanism
 from tests.cli.test_analyse import CRANK_ROCKER, run, table
 

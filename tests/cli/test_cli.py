@@ -218,8 +218,8 @@ def test_a_mechanism_is_checked_as_its_chain(capsys):
 
 
 def test_the_file_of_a_linkage_is_taken_wherever_a_chain_is(capsys, tmp_path):
-    from gruebler.linkages import FourBar
-    from gruebler.linkages.files import write_linkage
+    from gruebler.formats.linkages import write_linkage
+    from gruebler.fourbar import FourBar
 
     for suffix in ("toml", "json"):
         path = tmp_path / f"rocker.{suffix}"

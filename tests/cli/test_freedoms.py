@@ -6,9 +6,10 @@ import json
 import pytest
 
 from gruebler import GrueblerError
-from gruebler.catalog import check_entry, entry, read_entry
+from gruebler.catalog import check_entry, entry
 from gruebler.cli import freedoms_commands
 from gruebler.cli.freedoms import run as run_freedoms
+from gruebler.formats import read_entry
 
 
 def run(capsys, *arguments):

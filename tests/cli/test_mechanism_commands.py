@@ -6,9 +6,9 @@ import json
 import pytest
 
 from gruebler.cli import main
-from gruebler.inversion import Driven
-from gruebler.linkages.files import read_linkage
+from gruebler.formats.linkages import read_linkage
 from gruebler.mechanism import Mechanism
+from gruebler.mechanism.inversion import Driven
 
 
 def run(capsys, *arguments):

@@ -6,7 +6,7 @@ from importlib import import_module
 import pytest
 
 from gruebler.cli import linkage_commands, plot_commands
-from gruebler.drawing import animation_frames
+from gruebler.drawing.linkage import animation_frames
 from gruebler.errors import GrueblerError
 
 FOUR_BAR = "four-bar:25,70,40,70"

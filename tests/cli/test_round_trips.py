@@ -7,7 +7,7 @@ import pytest
 from gruebler import Chain, mobility_report
 from gruebler.catalog import entries, exercises
 from gruebler.cli import main
-from gruebler.freedoms.files import screws_to_json, spatial_from_json
+from gruebler.formats.screws import screws_to_json, spatial_from_json
 from gruebler.screws import SpatialLinkage
 
 

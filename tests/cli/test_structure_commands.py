@@ -8,7 +8,7 @@ import pytest
 from gruebler import Chain, GrueblerError, code
 from gruebler.assur import AssurGroup
 from gruebler.cli import assur, derive, extend
-from gruebler.transformation import Derivation
+from gruebler.transformations import Derivation
 
 WATT = "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"
 FOUR_BAR = "R(0-1) R(1-2) R(2-3) R(3-0)"

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from gruebler.cli import main
-from gruebler.linkages import read_linkage
+from gruebler.formats import read_linkage
 
 FIVE = """x,y,angle
 1.167361074190,1.604268422500,49.038042711511

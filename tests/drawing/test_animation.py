@@ -13,11 +13,12 @@ import pytest
 from gruebler import GrueblerError
 from gruebler.catalog import entry
 from gruebler.cli import animate
-from gruebler.drawing.animation import animated_svg, scene
-from gruebler.drawing.animation_page import animated_page
-from gruebler.drawing.stage import staged
+from gruebler.drawing.linkage.animation import animated_svg, scene
+from gruebler.drawing.linkage.animation_page import animated_page
+from gruebler.drawing.linkage.posed_linkage import staged
 from gruebler.errors import LinkageError
-from gruebler.linkages import FourBar, Linkage, SliderCrank
+from gruebler.fourbar import FourBar, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 from gruebler.catalog import entry
-from gruebler.drawing import animation_frames
-from gruebler.drawing.animation import scene
-from gruebler.drawing.animation_frames import FRAMES, animated_frames
-from gruebler.drawing.animation_page import animated_page
-from gruebler.drawing.styles import COLOURS
+from gruebler.drawing.canvas.frames import FRAMES
+from gruebler.drawing.canvas.styles import COLOURS
+from gruebler.drawing.linkage import animation_frames
+from gruebler.drawing.linkage.animation import scene
+from gruebler.drawing.linkage.animation_frames import animated_frames
+from gruebler.drawing.linkage.animation_page import animated_page
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.linkages import FourBar
+from gruebler.fourbar import FourBar
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70).linkage({"K": (35, 20)})
 # A page is run by a clock that is set by hand: what is seen at some times, after the slider, after the button.

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler.drawing.axes import angles, decades, decimals, said
+from gruebler.drawing.canvas.axes import angles, decades, decimals, said
 
 values = st.floats(-1e6, 1e6, allow_subnormal=False)
 

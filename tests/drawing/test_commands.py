@@ -112,8 +112,8 @@ def test_refusals(options, words):
 
 def test_pictures_of_a_printed_gallery_stay_legible():
     pytest.importorskip("matplotlib")
-    from gruebler.drawing.gallery import Section
-    from gruebler.drawing.plotting import _columns
+    from gruebler.drawing.canvas.gallery import Section
+    from gruebler.drawing.canvas.matplotlib_files import _columns
 
     small, large = (gallery._machine(id, Namespace(**(GALLERY | {"labels": True}))) for id in ("mzc", "excavator"))
     assert _columns(Section("", (small,))) == 5

@@ -6,9 +6,9 @@ from itertools import combinations, pairwise, permutations, product
 import networkx as nx
 import pytest
 
-from gruebler.drawing.embedding import an_embedding, ears, embeddings, faces, is_planar
-from gruebler.drawing.planarising import planarised
-from gruebler.drawing.starts import starts
+from gruebler.drawing.structure.embedding import an_embedding, ears, embeddings, faces, is_planar
+from gruebler.drawing.structure.initial_layouts import starts
+from gruebler.drawing.structure.planarisation import planarised
 
 
 def lists(graph):

@@ -9,11 +9,11 @@ import pytest
 
 from gruebler import FourBar, SliderCrank
 from gruebler.catalog import entry
-from gruebler.drawing.figure import Circle, Lines, Text
-from gruebler.drawing.instant_centres import instant_centres, pole_marks
-from gruebler.drawing.linkage_picture import draw_linkage
-from gruebler.drawing.sheet import Sheet
-from gruebler.drawing.stage import staged
+from gruebler.drawing.canvas.shapes import Circle, Lines, Text
+from gruebler.drawing.linkage.instant_centres import instant_centres, pole_marks
+from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.drawing.linkage.posed_linkage import staged
 from gruebler.geometry import poles
 from gruebler.linkages import Named
 

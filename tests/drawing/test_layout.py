@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given, settings
 
 from gruebler import Chain, chains, symmetry
-from gruebler.drawing.bodies import Bodies
-from gruebler.drawing.layout import lay_out
+from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.layout import lay_out
 from tests import strategies
 
 

@@ -15,17 +15,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis import follow
 from gruebler.catalog import entry
-from gruebler.drawing.curve_plots import coupler_plot, hodograph
-from gruebler.drawing.figure import Circle, Point, Text
-from gruebler.drawing.linkage_picture import draw_linkage
-from gruebler.drawing.motion_picture import draw_motion
-from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
-from gruebler.drawing.stage import stage_of, staged
+from gruebler.drawing.canvas.shapes import Circle, Point, Text
+from gruebler.drawing.linkage.curve_plots import coupler_plot, hodograph
+from gruebler.drawing.linkage.motion_picture import draw_motion
+from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
+from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.drawing.linkage.posed_linkage import stage_of, staged
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import centrodes, inflection_circle
-from gruebler.kinematics import degrees, follow, move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.kinematics import degrees, move
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 GOLDEN = Path(__file__).parent / "golden_linkages.json"
@@ -265,7 +267,7 @@ def test_pictures_are_small_and_lie_on_their_page():
 
 def test_a_bearing_that_a_body_would_hide_stands_before_it():
     """A frame pin below the plate of a coupler: its pedestal is drawn after the plate, the others before all bodies."""
-    from gruebler.drawing.linkage_bodies import BODIES, FRAME, parts
+    from gruebler.drawing.linkage.bodies import BODIES, FRAME, parts
 
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(2-4) R(4-5) R(0-5); frame=0; drive=R(0-1)")
     places = {0: (0, 0), 1: (2, 1), 2: (9, 6), 3: (12, 0), 4: (10, -6), 5: (12, -9), 6: (7, 0)}

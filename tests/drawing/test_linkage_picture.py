@@ -14,17 +14,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import GrueblerError
+from gruebler.analysis import follow, transmission_angle
 from gruebler.catalog import entry
 from gruebler.cli import draw
-from gruebler.drawing.figure import Circle, Lines, Point, Text
-from gruebler.drawing.linkage_bodies import corners_of, parts, slides
-from gruebler.drawing.linkage_layers import coupler_curve
-from gruebler.drawing.linkage_picture import draw_linkage
-from gruebler.drawing.stage import staged
-from gruebler.drawing.thinning import thinned
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Text
+from gruebler.drawing.canvas.simplification import thinned
+from gruebler.drawing.linkage.bodies import corners_of, parts, slides
+from gruebler.drawing.linkage.layers import coupler_curve
+from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.drawing.linkage.posed_linkage import staged
 from gruebler.errors import LinkageError
-from gruebler.kinematics import follow, move, transmission_angle
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, Named, Pin, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage, Named, Pin
 from gruebler.mechanism import Mechanism
 from tests.samples import CLASS_III, CYLINDER
 
@@ -356,7 +358,7 @@ def test_entries_are_drawn_to_scale_when_asked(capsys):
 
 
 def test_a_file_is_drawn_to_scale(capsys, tmp_path):
-    from gruebler.linkages.files import write_linkage
+    from gruebler.formats.linkages import write_linkage
 
     write_linkage(tmp_path / "x.json", WITH_POINT)
     assert re.search("Drive at 30°", drawn(capsys, str(tmp_path / "x.json"), pose="30", curve=["K"]))

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from gruebler.catalog import entry
-from gruebler.drawing.figure import Circle, Lines
-from gruebler.drawing.linkage_wheels import round_parts
-from gruebler.drawing.stage import staged
+from gruebler.drawing.canvas.shapes import Circle, Lines
+from gruebler.drawing.linkage.posed_linkage import staged
+from gruebler.drawing.linkage.wheels import round_parts
 from gruebler.linkages import Named
 
 

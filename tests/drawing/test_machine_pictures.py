@@ -11,17 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.cams import Cam, CamError, Flat, Lift, Roller, read_lift
-from gruebler.drawing.cam_follower import follower_body
-from gruebler.drawing.cam_picture import animate_cam, draw_cam
-from gruebler.drawing.figure import Arc, Circle, Lines, Point, Text
-from gruebler.drawing.geneva_picture import animate_geneva, draw_geneva
-from gruebler.drawing.geneva_shape import GenevaShape
-from gruebler.drawing.moving_files import moving_bytes, moving_page
-from gruebler.drawing.moving_picture import Body, Shift, Turn, at_time, figure_at, moving_svg
-from gruebler.drawing.teeth import toothed
-from gruebler.drawing.train_layout import stages
-from gruebler.drawing.train_picture import animate_train, draw_train
-from gruebler.drawing.train_turns import course_of
+from gruebler.drawing.canvas.moving_files import moving_bytes, moving_page
+from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn, at_time, figure_at, moving_svg
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Text
+from gruebler.drawing.machines.cam_follower import follower_body
+from gruebler.drawing.machines.cam_picture import animate_cam, draw_cam
+from gruebler.drawing.machines.geneva_picture import animate_geneva, draw_geneva
+from gruebler.drawing.machines.geneva_shape import GenevaShape
+from gruebler.drawing.machines.teeth import toothed
+from gruebler.drawing.machines.train_layout import stages
+from gruebler.drawing.machines.train_motion import course_of
+from gruebler.drawing.machines.train_picture import animate_train, draw_train
 from gruebler.errors import GrueblerError
 from gruebler.gears import GearError, read_train
 from gruebler.geneva import Geneva, GenevaError

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 
 from gruebler import Chain, GrueblerError, Mechanism, chains, inversions
 from gruebler.catalog import entries
-from gruebler.drawing import draw, draw_contracted, draw_graph, draw_loops, gallery_html, place
-from gruebler.drawing.files import picture_bytes, suffix_of
-from gruebler.drawing.gallery import Item, Section
-from gruebler.drawing.styles import COLOURS, LINES, STYLES
+from gruebler.drawing.canvas import gallery_html
+from gruebler.drawing.canvas.files import picture_bytes, suffix_of
+from gruebler.drawing.canvas.gallery import Item, Section
+from gruebler.drawing.canvas.styles import COLOURS, LINES, STYLES
+from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops, place
 from tests import strategies
 
 GOLDEN = Path(__file__).parent / "golden.json"

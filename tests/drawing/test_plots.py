@@ -10,17 +10,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler.drawing.axes import Axis, decimals
-from gruebler.drawing.curve_plots import coupler_plot, family_of, family_plot, hodograph
-from gruebler.drawing.figure import Circle, Lines, Point, Text
-from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
-from gruebler.drawing.plots import Band, Curve, Mark, Panel, Spot, plotted, ratio_diagram
+from gruebler.analysis import follow
+from gruebler.analysis.events import transfer_function
+from gruebler.analysis.outputs import find_output
+from gruebler.drawing.canvas.axes import Axis, decimals
+from gruebler.drawing.canvas.panels import Band, Curve, Mark, Panel, Spot, plotted, ratio_diagram
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Text
+from gruebler.drawing.linkage.curve_plots import coupler_plot, family_of, family_plot, hodograph
+from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.errors import GrueblerError, LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry.straight import coupler_path, piece_of_ratio
-from gruebler.kinematics import follow, move
-from gruebler.kinematics.events import transfer_function
-from gruebler.kinematics.outputs import find_output
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70)

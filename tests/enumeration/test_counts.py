@@ -128,9 +128,9 @@ def is_sound(nodes, strings, mobility):
 @pytest.mark.parametrize("loops", [2, 3])
 def test_fixed_assignments_of_every_automorphism(loops, mobility):
     """The kernel, automorphism by automorphism, against all weights on all strings."""
-    from gruebler._numeric.census import make_bench
-    from gruebler._numeric.string_count import count_strings
-    from gruebler._numeric.strings import survey_strings
+    from gruebler._numeric.counting.census import make_bench
+    from gruebler._numeric.counting.string_count import count_strings
+    from gruebler._numeric.counting.strings import survey_strings
 
     bench = make_bench(loops, mobility)
     for graph in contracted_graphs(loops):

@@ -10,8 +10,8 @@ from gruebler.enumeration.condition import CLASSES, fractionation, is_constraine
 from gruebler.enumeration.counting import count_chains
 from gruebler.enumeration.fractionated import fractionated_chains
 from gruebler.enumeration.fractionated_count import count_fractionated
-from gruebler.enumeration.kinematic import chains as plain
-from gruebler.enumeration.request import chains
+from gruebler.enumeration.listing import chains
+from gruebler.enumeration.simple_chains import chains as plain
 
 
 def composed(links, mobility, kind):

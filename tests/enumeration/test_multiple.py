@@ -7,9 +7,9 @@ import pytest
 
 from gruebler import Chain, code, mobility_report
 from gruebler.enumeration.condition import fractionation, is_constrained
+from gruebler.enumeration.listing import chains
 from gruebler.enumeration.multiple import merged, split, with_multiple_joints
 from gruebler.enumeration.multiple_assortment import joint_assortments
-from gruebler.enumeration.request import chains
 
 
 def simple(links, mobility=1):

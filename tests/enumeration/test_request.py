@@ -5,11 +5,12 @@ from itertools import pairwise
 import pytest
 
 from gruebler.enumeration.estimates import estimate, expected_chains
-from gruebler.enumeration.request import Request, RequestError, chains, count
-from gruebler.enumeration.work import _orbits
+from gruebler.enumeration.listing import chains, count
+from gruebler.enumeration.request import Request, RequestError
+from gruebler.enumeration.work_units import _orbits
 from gruebler.errors import GrueblerError
-from gruebler.inversion import driven_mechanisms, inversions
 from gruebler.isomorphism import symmetry
+from gruebler.mechanism.inversion import driven_mechanisms, inversions
 
 REQUESTS = [
     {"links": 4},

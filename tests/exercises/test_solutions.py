@@ -13,8 +13,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler import CatalogError, LinkageError
-from gruebler.catalog import Exercise, Text, check_exercise
-from gruebler.catalog.records import Asked
+from gruebler.catalog import check_exercise
 from gruebler.exercises import (
     all_exercises,
     compare,
@@ -33,7 +32,10 @@ from gruebler.exercises import (
     velocities,
 )
 from gruebler.exercises.solution import filled, number
-from gruebler.linkages import FourBar
+from gruebler.formats import Exercise
+from gruebler.formats.catalog_records import Asked
+from gruebler.fourbar import FourBar
+from gruebler.text import Text
 
 REFERENCE = json.loads((Path(__file__).parent / "reference.json").read_text(encoding="utf-8"))
 B1, B4, C = REFERENCE["B1"], REFERENCE["B4"], REFERENCE["C"]

@@ -6,7 +6,7 @@ import pytest
 
 from gruebler import GrueblerError
 from gruebler.exercises import Mark, all_exercises, fresh, mark, solve
-from gruebler.exercises.making import KINDS
+from gruebler.exercises.generation import KINDS
 
 TASKS = [
     *all_exercises().values(),

@@ -6,7 +6,7 @@ import pytest
 from gruebler import PAIRS, FourBar, GrueblerError, rotatability
 from gruebler.catalog import entries
 from gruebler.exercises import TABLES, lines_of_table, teaching_table
-from gruebler.linkages import FOUR_BAR_TYPES
+from gruebler.fourbar import FOUR_BAR_TYPES
 
 # Table 2.2 of the seeds, reconstructed: f, German symbol, German name.
 JOINTS = [

@@ -22,7 +22,7 @@ from gruebler.gears import (
     speeds,
 )
 from gruebler.gears.assembly import axes
-from gruebler.gears.prose import number
+from gruebler.gears.messages import number
 from gruebler.gears.rational import Elimination, echelon
 from tests.gears.oracles import fits, rolling, slow_echelon, slow_reduced
 

@@ -4,8 +4,9 @@ from math import atan2
 
 import numpy as np
 
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 SIX_BAR = Linkage.drawn(

@@ -8,9 +8,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import cognate_sizes, cognates, coupler_sextic, parallel_motion, slider_cognates
 from gruebler.kinematics import degrees, move
-from gruebler.linkages import FourBar, SliderCrank
 
 LENGTHS = st.floats(1, 6)
 PLACES = st.floats(-6, 6)

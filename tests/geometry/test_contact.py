@@ -9,10 +9,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import coupler_curve, series, tangent_contact
 from gruebler.geometry.curvature import inflection_circle, path_curvature
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, Named, SliderCrank
+from gruebler.linkages import Linkage, Named
 
 from .linkages import CYLINDER, MOVING
 

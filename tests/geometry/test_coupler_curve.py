@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import coupler_curve, coupler_sextic
 from gruebler.geometry.relative import against
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, Named, SliderCrank
+from gruebler.linkages import Linkage, Named
 
 from .linkages import CYLINDER, SIX_BAR
 

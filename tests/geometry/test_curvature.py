@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import inflection_circle, path_curvature
 from gruebler.geometry.relative import against
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, Linkage, Named, SliderCrank
+from gruebler.linkages import Linkage, Named
 
 from .linkages import MOVING, moved
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import coupler_path, longest_piece, piece, piece_of_ratio
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.guidance import GUIDANCES, guidance
 from gruebler.geometry.sizing import Window, longest_in_band, ratio_curve, sized, widest_piece
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank
 
 KAPPA = math.radians(15.79316904826399)
 LENKER = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)

@@ -8,11 +8,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import cognates, inflection_circle
 from gruebler.geometry.lever_contact import lever_contact
 from gruebler.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank
 
 KAPPA = 15.79316904826399
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import centrodes, poles
 from gruebler.geometry.relative import against
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, SliderCrank
 
 from .linkages import MOVING, moved
 

@@ -6,8 +6,8 @@ from hypothesis import given
 from numpy.polynomial.polynomial import polyval2d
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar
 from gruebler.geometry import coupler_sextic
-from gruebler.linkages import FourBar
 
 from .test_cognates import four_bars
 

@@ -7,8 +7,9 @@ import pytest
 from scipy.optimize import brentq
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 LENKER = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)

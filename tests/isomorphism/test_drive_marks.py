@@ -1,7 +1,7 @@
 """Drives on a part of a joint in codes: one of several freedoms, two links of a multiple joint.
 
-The oracle is the automorphism group acting on the choices of frame and drives themselves (`gruebler.inversion`), and a
-search through all renamings of small mechanisms.
+The oracle is the automorphism group acting on the choices of frame and drives themselves
+(`gruebler.mechanism.inversion`), and a search through all renamings of small mechanisms.
 """
 
 from itertools import combinations, permutations
@@ -9,9 +9,9 @@ from itertools import combinations, permutations
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler.inversion import driven_mechanisms
 from gruebler.isomorphism import decode, find_isomorphism
 from gruebler.mechanism import Drive, Mechanism
+from gruebler.mechanism.inversion import driven_mechanisms
 from tests.strategies import PLANAR, SPATIAL, chains, renumbered
 
 ANY = st.one_of(chains(pairs=PLANAR, most_links=6), chains(pairs=SPATIAL, space="spatial", most_links=5))

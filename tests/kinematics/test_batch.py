@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import degrees, move
 from gruebler.kinematics.batch import Designs, designs, four_bars, inverted_slider_cranks, move_many, slider_cranks
-from gruebler.linkages import FourBar, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 RANDOM = np.random.default_rng(5)

@@ -8,11 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import LinkageError
+from gruebler.analysis import measures
+from gruebler.analysis.drive_cycle import follow
 from gruebler.cams import read_lift
+from gruebler.formats import linkage_from_json, to_json
 from gruebler.geneva import Geneva
-from gruebler.kinematics import circuit, degrees, measures, move
-from gruebler.kinematics.course import follow
-from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage, linkage_from_json, to_json
+from gruebler.kinematics import circuit, degrees, move
+from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage
 from gruebler.mechanism import Mechanism
 
 LIFT = "rise 20 90; dwell 60; fall 20 120 cycloidal; dwell"

@@ -7,12 +7,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis.rotatability import drive_range, motion_roles, rotatability
 from gruebler.enumeration import chains
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
 from gruebler.kinematics.circuits import circuit
-from gruebler.kinematics.turning import drive_range, motion_roles, rotatability
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.roles import Role
 

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from gruebler.kinematics import circuit, measures
-from gruebler.linkages import FourBar, Linkage
+from gruebler.analysis import measures
+from gruebler.fourbar import FourBar
+from gruebler.kinematics import circuit
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 

@@ -7,11 +7,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis import measures
 from gruebler.catalog import entry
 from gruebler.errors import LinkageError
-from gruebler.kinematics import degrees, measures, move
-from gruebler.kinematics.moving import planned
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.kinematics import degrees, move
+from gruebler.kinematics.solve import planned
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 lengths = st.floats(0.2, 5).map(lambda x: round(x, 3))
@@ -107,8 +109,8 @@ def drawn(name):
 
 def around_home(linkage, rows, step):
     """A path through the home position."""
-    from gruebler.kinematics.home import at_home
-    from gruebler.kinematics.moving import planned
+    from gruebler.kinematics.reference_pose import at_home
+    from gruebler.kinematics.solve import planned
 
     home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives))).drives
     return home + step * np.arange(rows)[:, None]

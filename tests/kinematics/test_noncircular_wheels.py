@@ -8,12 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import LinkageError
+from gruebler.analysis import measures
 from gruebler.cams import read_lift
 from gruebler.catalog import entry
-from gruebler.drawing.linkage_picture import draw_linkage
-from gruebler.kinematics import circuit, degrees, measures, move
+from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.formats import linkage_from_json, read_linkage, to_json, write_linkage
+from gruebler.kinematics import circuit, degrees, move
 from gruebler.kinematics.noncircular import transfer_of
-from gruebler.linkages import Linkage, NonCircular, Wheel, linkage_from_json, read_linkage, to_json, write_linkage
+from gruebler.linkages import Linkage, NonCircular, Wheel
 from gruebler.mechanism import Mechanism
 
 HARMONIC = "rise 20 180 harmonic; fall 20 180 harmonic"

@@ -5,15 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gruebler.analysis import measures
 from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.errors import LinkageError
-from gruebler.freedoms import freedoms
-from gruebler.kinematics import circuit, degrees, measures, move
+from gruebler.kinematics import circuit, degrees, move
 from gruebler.kinematics.batch import move_many
-from gruebler.kinematics.moving import planned
+from gruebler.kinematics.solve import planned
 from gruebler.linkages import Linkage, Named
 from gruebler.mechanism import Drive, Mechanism
+from gruebler.screws import freedoms
 from gruebler.statics import Loads, statics
 
 LOCOMOTIVE = Mechanism.parse(

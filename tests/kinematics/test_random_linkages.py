@@ -12,8 +12,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.home import at_home
-from gruebler.kinematics.moving import planned
+from gruebler.kinematics.reference_pose import at_home
+from gruebler.kinematics.solve import planned
 from gruebler.linkages import Linkage
 from tests.strategies import built_mechanisms
 

@@ -14,10 +14,10 @@ import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis import measures
+from gruebler.analysis.measures import Measures
 from gruebler.catalog import entries
 from gruebler.errors import LinkageError
-from gruebler.kinematics import measures
-from gruebler.kinematics.measuring import Measures
 from gruebler.linkages import Circle, Disc, Linkage, Wheel
 from gruebler.linkages.elements import Element, Pin
 from gruebler.mechanism import Mechanism

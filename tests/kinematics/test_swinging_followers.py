@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 
 from gruebler import LinkageError
+from gruebler.analysis import measures
 from gruebler.cams import Cam, Flat, Roller, read_lift
 from gruebler.catalog import entry
-from gruebler.drawing.linkage_picture import draw_linkage
-from gruebler.kinematics import circuit, degrees, measures, move
-from gruebler.linkages import Circle, Disc, Linkage, Named, linkage_from_json, to_json
+from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.formats import linkage_from_json, to_json
+from gruebler.kinematics import circuit, degrees, move
+from gruebler.linkages import Circle, Disc, Linkage, Named
 from gruebler.mechanism import Mechanism
 
 LIFT = "rise 12 90; dwell 60; fall 12 120 cycloidal; dwell"

@@ -10,9 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.search import PIN, SLIDE, Conditions, Modes, conditions, search_modes
+from gruebler.kinematics.assembly_modes import PIN, SLIDE, Conditions, Modes, conditions, search_modes
 from gruebler.kinematics.triads import BOUNDS, assembly_modes, is_triad, triad_modes
-from tests.kinematics.test_search import TRUSSES, assembled, holds, open_by, same
+from tests.kinematics.test_assembly_modes import TRUSSES, assembled, holds, open_by, same
 
 JOINTS = [(0, 2), (2, 1), (0, 3), (3, 1), (0, 4), (4, 1)]  # base 0, hub 1, legs 2 to 4
 Points = Sequence[complex]

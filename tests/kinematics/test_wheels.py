@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import LinkageError
+from gruebler.analysis import measures, motion_roles, rotatability
 from gruebler.gears import Mesh, Train, speeds
-from gruebler.kinematics import circuit, degrees, measures, motion_roles, move, move_many, rotatability
+from gruebler.kinematics import circuit, degrees, move, move_many
 from gruebler.linkages import Circle, Linkage, Named, Wheel
 from gruebler.mechanism import Mechanism
 

@@ -5,8 +5,8 @@ from math import atan2, cos, degrees, hypot, radians, sin
 import pytest
 
 from gruebler import LinkageError
+from gruebler.formats.linkages import linkage_from_json
 from gruebler.linkages import Line, Pin
-from gruebler.linkages.files import linkage_from_json
 
 FOOT, HEAD = (100, -20), (30, 60)
 ANGLE = degrees(atan2(HEAD[1] - FOOT[1], HEAD[0] - FOOT[0]))

@@ -6,7 +6,8 @@ import tomllib
 import pytest
 
 from gruebler import LinkageError
-from gruebler.linkages import Circle, Linkage, Wheel, linkage_from_json, to_json, to_toml, with_lower_pairs
+from gruebler.formats import linkage_from_json, to_json, to_toml
+from gruebler.linkages import Circle, Linkage, Wheel, with_lower_pairs
 from gruebler.linkages.wheels import arms, factors, redundant
 from gruebler.mechanism import Mechanism
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from gruebler._numeric.prime_field import P, echelon, left_null_space, null_space, product, reduced, transposed
+from gruebler._numeric.modular import P, echelon, left_null_space, null_space, product, reduced, transposed
 
 BUDGET = 200
 LARGEST = 60

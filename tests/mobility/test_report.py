@@ -8,7 +8,7 @@ import pytest
 from gruebler import Chain, ChainError, GrueblerError
 from gruebler.mobility import mobility_report
 from gruebler.mobility.idle import When
-from gruebler.mobility.prose import SENTENCES
+from gruebler.mobility.messages import SENTENCES
 from gruebler.mobility.report import Verdict
 
 VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"

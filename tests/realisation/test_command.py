@@ -6,8 +6,8 @@ import json
 import pytest
 
 from gruebler.cli.realise import run
+from gruebler.formats.linkages import linkage_from_json, read_linkage
 from gruebler.kinematics import move
-from gruebler.linkages.files import linkage_from_json, read_linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 

@@ -8,8 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import Mechanism, Requirements, chains, driven_mechanisms, inversions, variants
+from gruebler.analysis import measures
 from gruebler.errors import LinkageError
-from gruebler.kinematics import measures, move
+from gruebler.kinematics import move
 from gruebler.linkages import Line
 from gruebler.realisation import realise, with_drives
 

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from gruebler import Mechanism
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
+from gruebler.realisation.layout_program import sketch
+from gruebler.realisation.layout_trial import followed, range_path
 from gruebler.realisation.measures import conditioning
-from gruebler.realisation.sketch import sketch
-from gruebler.realisation.trial import followed, range_path
 
 MECHANISMS = (
     "R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)",

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from gruebler import LinkageError
-from gruebler.linkages import FourBar
+from gruebler.fourbar import FourBar
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Closing, SpatialLinkage, exponential, follow, joint_value
-from tests.freedoms import machines
+from tests.screws import machines
 
 TURNS = np.linspace(0.2, 2 * pi + 0.2, 14)
 

@@ -9,8 +9,8 @@ import pytest
 from gruebler import LinkageError
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Closing, JointPlace, SpatialLinkage, common_group
-from gruebler.screws.groups import Kind
-from tests.freedoms import machines
+from gruebler.screws.motion_groups import Kind
+from tests.screws import machines
 
 WINCH = Mechanism.parse("spatial: R(frame-spindle) H(spindle-nut) P(frame-nut)")
 GOOD = {0: {"z": (0, 0, 1)}, 1: {"z": (0, 0, 1), "pitch": 0.8}, 2: {"x": (0, 0, 2), "at": (0, 5, 0)}}

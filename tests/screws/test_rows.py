@@ -5,11 +5,11 @@ from math import atan2, cos, hypot, inf, pi, sin, sqrt
 import numpy as np
 import pytest
 
-from gruebler.pairs import PAIRS, Space
+from gruebler.chain.pairs import PAIRS, Space
 from gruebler.screws import Closing, JointPlace, exponential
-from gruebler.screws.places import read_place
-from gruebler.screws.rows import rows
-from tests.freedoms import machines
+from gruebler.screws.closing_rows import rows
+from gruebler.screws.joint_places import read_place
+from tests.screws import machines
 
 RANDOM = np.random.default_rng(7)
 ROUND = ("rolling", "roll_slide")

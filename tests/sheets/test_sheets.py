@@ -11,11 +11,11 @@ import pytest
 
 from gruebler.catalog import catalog_folder
 from gruebler.errors import CatalogError, LinkageError
-from gruebler.linkages.expressions import Expression
 from gruebler.sheets import sheet, sheets
+from gruebler.sheets.expressions import Expression
 from gruebler.sheets.layout import page
+from gruebler.sheets.messages import Number, explained, value_lines
 from gruebler.sheets.model import Sheet, Told
-from gruebler.sheets.prose import Number, explained, value_lines
 from gruebler.sheets.records import read_sheet
 
 MZC = (catalog_folder() / "sheets" / "mzc.toml").read_text(encoding="utf-8")

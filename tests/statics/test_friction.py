@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.statics import Loads, slide_friction, slider_friction, statics
 
 

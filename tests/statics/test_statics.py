@@ -5,10 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis.drive_cycle import follow
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import degrees, move
-from gruebler.kinematics.course import follow
-from gruebler.linkages import FourBar, Linkage, Named, SliderCrank
+from gruebler.linkages import Linkage, Named
 from gruebler.mechanism import Mechanism
 from gruebler.statics import Loads, statics
 from tests.geometry.linkages import MOVING

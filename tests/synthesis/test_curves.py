@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import SynthesisError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import circuit, move
-from gruebler.linkages import FourBar, SliderCrank
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 from gruebler.synthesis import Demands, PathTask, pareto, synthesise_path, synthesise_structures

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from gruebler.analysis import measures
 from gruebler.errors import SynthesisError
-from gruebler.kinematics import measures
-from gruebler.linkages import FourBar, SliderCrank
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.synthesis import DeadCentreTask, synthesise_dead_centres
 from gruebler.synthesis.dead_centres import _member, dead_centre_family
 

@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import SynthesisError
-from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.synthesis import FunctionTask, synthesise_function
 from gruebler.synthesis.formulas import Formula, FunctionLaw, chebyshev_spacing
 from gruebler.synthesis.functions import Coordination, _errors, _moved, function_task, minimax, structural_error

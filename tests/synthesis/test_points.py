@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from gruebler._numeric.homotopy import evaluate
 from gruebler.errors import SynthesisError
+from gruebler.fourbar import FourBar
 from gruebler.geometry import cognates
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar
 from gruebler.synthesis import PathTask, synthesise_path
 from gruebler.synthesis.alt_burmester import PROBLEMS, generic, parameters, solutions
 from gruebler.synthesis.discs import certified

@@ -6,8 +6,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import SynthesisError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.synthesis import Demands, PositionTask, synthesise_positions
 from gruebler.synthesis.burmester import burmester_curves
 from gruebler.synthesis.dyads import Displacements, all_dyads, misfit

@@ -19,8 +19,8 @@ from pathlib import Path
 from gruebler import FourBar
 from gruebler.catalog import entries
 from gruebler.cli.parser import build_parser
+from gruebler.formats.linkages import to_json, to_toml
 from gruebler.isomorphism import code
-from gruebler.linkages.files import to_json, to_toml
 from tests.torture.processes import Outcome, partial_files, run, warm
 
 

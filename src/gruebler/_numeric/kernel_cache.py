@@ -29,7 +29,7 @@ _UNUSED_DAYS = 60  # after so long without use the kernels of another version ar
 @cache
 def _name() -> str:
     digest = sha256()
-    for path in sorted(_SOURCES.glob("*.py")):
+    for path in sorted(_SOURCES.rglob("*.py")):
         if path.name not in ("kernel_cache.py", "work.py"):  # nothing of these goes into compiled code
             digest.update(path.name.encode())
             digest.update(path.read_bytes())

@@ -17,9 +17,9 @@ from gruebler.assur.groups import AssurGroup
 from gruebler.assur.locking import Locked, independent, locked, whole_locks
 from gruebler.assur.splitting import Part, split
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
-from gruebler.pairs import Alphabet, Pair
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["Decomposition", "Group", "Share", "decompose"]
 
@@ -140,19 +140,19 @@ class Decomposition(Brief):
 
     def formula(self, lang: str = "en") -> str:
         """The structural formula, such as ``drive R(frame-crank) -> RRR{coupler, rocker}``."""
-        from gruebler.assur.prose import formula
+        from gruebler.assur.messages import formula
 
         return formula(self, lang)
 
     def message(self, lang: str = "en") -> str:
         """What keeps it from being complete: links left free, drives or constraints against one another; else empty."""
-        from gruebler.assur.prose import message
+        from gruebler.assur.messages import message
 
         return " ".join(message(self, lang))
 
     def explain(self, lang: str = "en") -> str:
         """The decomposition as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.assur.prose import explain
+        from gruebler.assur.messages import explain
 
         return explain(self, lang)
 

@@ -9,7 +9,7 @@ from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from gruebler.pairs import Alphabet, Pair, Space
+from gruebler.chain.pairs import Alphabet, Pair, Space
 
 __all__ = ["DYADS", "Member", "class_number", "form_name", "roman"]
 

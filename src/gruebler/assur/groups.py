@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from gruebler._numeric.prime_field import echelon
+from gruebler._numeric.modular import echelon
 from gruebler.assur.forms import DYADS, Member, class_number, form_name
 from gruebler.assur.locking import AssurError
 from gruebler.assur.splitting import Bound, split
 from gruebler.chain import Chain, Joint
+from gruebler.chain.pairs import Alphabet, Space
 from gruebler.isomorphism import canonical_order, code, decode
 from gruebler.mobility.placement import place
-from gruebler.pairs import Alphabet, Space
 
 __all__ = ["AssurGroup"]
 

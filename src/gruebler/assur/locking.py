@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from gruebler.assur.splitting import Bound
+from gruebler.chain.pairs import Space, pair
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic, pebble_rank
 from gruebler.mobility.placement import Lock
-from gruebler.pairs import Space, pair
 
 __all__ = ["AssurError", "Locked", "independent", "locked", "whole_locks"]
 

@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 from gruebler.assur.forms import Member, class_number
 from gruebler.assur.matching import components, dependencies, orientation
+from gruebler.chain.pairs import Pair, Space
 from gruebler.mobility import pebble_rank
-from gruebler.pairs import Pair, Space
 
 __all__ = ["Bound", "Part", "Split", "split"]
 

@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler import views
+from gruebler import notebook
 from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
 from gruebler.cams.lift import Lift
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["Cam", "Extreme", "Findings"]
 
@@ -148,7 +148,7 @@ class Cam(Brief):
 
     def _repr_svg_(self) -> str | None:
         """The cam with its follower, to scale, for notebooks."""
-        return views.picture(self) if views.picture else None
+        return notebook.picture(self) if notebook.picture else None
 
     def _at(self, angle: ArrayLike) -> _Contact:
         phi = finite(angle, "the cam's angles")

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.cams.contour import Touch, angle_of, face_coordinate
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["SmoothContour"]
 

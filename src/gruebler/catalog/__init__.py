@@ -1,8 +1,7 @@
 """The machines and exercises of the seeds as data, and every claim they make checked."""
 
 from gruebler.catalog.claims import Checked, WrongClaim, check
-from gruebler.catalog.records import Case, Claims, Entry, Exercise, Group, Text, read_entry, read_exercise
-from gruebler.catalog.shelf import (
+from gruebler.catalog.loader import (
     Query,
     catalog_folder,
     check_all,
@@ -15,14 +14,8 @@ from gruebler.catalog.shelf import (
 )
 
 __all__ = [
-    "Case",
     "Checked",
-    "Claims",
-    "Entry",
-    "Exercise",
-    "Group",
     "Query",
-    "Text",
     "WrongClaim",
     "catalog_folder",
     "check",
@@ -32,7 +25,5 @@ __all__ = [
     "entries",
     "entry",
     "exercises",
-    "read_entry",
-    "read_exercise",
     "search",
 ]

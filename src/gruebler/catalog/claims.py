@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gruebler.catalog.records import Claims
 from gruebler.chain import Chain
 from gruebler.errors import LinkageError
-from gruebler.freedoms import Freedoms, freedoms
+from gruebler.formats.catalog_records import Claims
 from gruebler.linkages import Linkage
 from gruebler.mobility import Count, MobilityReport, counted, mobility_report
-from gruebler.screws import SpatialLinkage
+from gruebler.screws import Freedoms, SpatialLinkage, freedoms
 
 __all__ = ["Checked", "WrongClaim", "check"]
 

@@ -11,14 +11,14 @@ from itertools import count
 from typing import Any
 
 from gruebler.catalog.features import AccessFeatures, access_features
-from gruebler.catalog.records import Entry
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Pair, Space, read_symbols
 from gruebler.errors import GrueblerError, PairError
-from gruebler.inversion import Driven, driven_mechanisms, inversions
+from gruebler.formats.catalog_records import Entry
 from gruebler.mechanism import Mechanism, check_drives
+from gruebler.mechanism.inversion import Driven, driven_mechanisms, inversions
 from gruebler.mobility import counted
-from gruebler.pairs import Pair, Space, read_symbols
-from gruebler.specialisation import Requirements, expected_seconds, typed_chains
+from gruebler.type_synthesis import Requirements, expected_seconds, typed_chains
 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 

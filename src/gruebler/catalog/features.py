@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import Mechanism
-from gruebler.pairs import Alphabet, Pair
 
 __all__ = ["AccessFeatures", "access_features"]
 

@@ -11,19 +11,18 @@ import numpy as np
 
 from gruebler.catalog.feature_query import entry_features, entry_mechanism, features_to_json
 from gruebler.catalog.features import AccessFeatures
-from gruebler.catalog.records import Entry
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
+from gruebler.formats.catalog_records import Entry
 from gruebler.linkages import Linkage
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import MobilityReport, mobility_report
-from gruebler.pairs import Alphabet
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 if TYPE_CHECKING:
-    from gruebler.freedoms import Freedoms
+    from gruebler.analysis.measures import Measures
     from gruebler.geometry import CouplerCurve
-    from gruebler.kinematics.measuring import Measures
-    from gruebler.screws import SpatialLinkage
+    from gruebler.screws import Freedoms, SpatialLinkage
 
 __all__ = ["GuidedPoint", "MachineReport", "Partial", "machine_report"]
 
@@ -135,15 +134,15 @@ def machine_report(entry: Entry) -> MachineReport:
 
 
 def _freedoms(placed: Linkage | SpatialLinkage) -> Freedoms:
-    from gruebler.freedoms import freedoms
+    from gruebler.screws import freedoms
 
     return freedoms(placed)
 
 
 def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]:
     """Measures and paths; None where the drive does not move the linkage."""
+    from gruebler.analysis.measures import measures
     from gruebler.geometry import coupler_curve
-    from gruebler.kinematics.measuring import measures
 
     try:
         found = measures(linkage)
@@ -159,10 +158,10 @@ def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]
 
 def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     """Transfer functions of order 1 by each drive, at home."""
+    from gruebler.analysis.outputs import find_output
     from gruebler.kinematics import move
-    from gruebler.kinematics.home import at_home
-    from gruebler.kinematics.moving import planned
-    from gruebler.kinematics.outputs import find_output
+    from gruebler.kinematics.reference_pose import at_home
+    from gruebler.kinematics.solve import planned
 
     names, plan = linkage.mechanism.drive_names(), planned(linkage)
     if plan.lower.home is None:
@@ -177,8 +176,8 @@ def _shown_transmission(entry: Entry, found: Measures | None) -> tuple[float, fl
     """Over the range that is shown; the whole motion often begins and ends where the angle is 0."""
     if found is None or found.transmission is None or entry.dimensions is None or entry.dimensions.range is None:
         return None
+    from gruebler.analysis.transmission import transmission_angle
     from gruebler.kinematics import move
-    from gruebler.kinematics.transmission import transmission_angle
 
     rows = np.linspace(*entry.dimensions.range, _ROWS)
     motion = move(found.linkage, np.radians(rows) if found.turning_drive else rows, speed=1.0)

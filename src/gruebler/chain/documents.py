@@ -7,9 +7,9 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from gruebler import notation
+from gruebler.chain import notation
+from gruebler.chain.pairs import Space
 from gruebler.errors import NotationError
-from gruebler.pairs import Space
 
 __all__ = ["read_document", "read_graph6"]
 

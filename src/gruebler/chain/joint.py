@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gruebler import notation
-from gruebler.pairs import Pair
+from gruebler.chain import notation
+from gruebler.chain.pairs import Pair
 
 __all__ = ["Joint"]
 

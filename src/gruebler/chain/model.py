@@ -14,12 +14,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from gruebler import notation, views
+from gruebler import notebook
+from gruebler.chain import notation
 from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
+from gruebler.chain.pairs import Alphabet, Pair, Space
 from gruebler.chain.soundness import checked_joint, checked_links, whole
 from gruebler.errors import ChainError, nearest
-from gruebler.pairs import Alphabet, Pair, Space
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -78,7 +79,7 @@ class Chain:
 
     @classmethod
     def parse(cls, text: str, space: str | Space | None = None) -> Chain:
-        """The chain that a text describes; see `gruebler.notation` for the grammar.
+        """The chain that a text describes; see `gruebler.chain.notation` for the grammar.
 
         ``g6:`` followed by a graph6 code gives a planar chain of revolute joints, its links named 0, 1, 2, ...
 
@@ -148,7 +149,7 @@ class Chain:
 
     def _repr_svg_(self) -> str | None:
         """The structure picture, for notebooks."""
-        return views.picture(self) if views.picture else None
+        return notebook.picture(self) if notebook.picture else None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a chain does not change; build another one instead of setting {name!r}")

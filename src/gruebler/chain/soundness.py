@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from gruebler.chain.joint import Joint
+from gruebler.chain.pairs import Pair, Space, pair
 from gruebler.errors import ChainError, PairError, nearest
-from gruebler.pairs import Pair, Space, pair
 
 __all__ = ["checked_joint", "checked_links", "whole"]
 

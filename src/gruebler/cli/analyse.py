@@ -11,6 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.analysis import motion_roles, rotatability
+from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.transmission import transmission_angle
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
@@ -18,18 +21,16 @@ from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.kinematics import Motion, motion_roles, move, rotatability
-from gruebler.kinematics.branches import all_branches, read_branch
-from gruebler.kinematics.moving import planned
-from gruebler.kinematics.outputs import Output, find_output
-from gruebler.kinematics.transmission import transmission_angle
+from gruebler.formats.linkages import to_json
+from gruebler.kinematics import Motion, move
+from gruebler.kinematics.branches import read_branch
+from gruebler.kinematics.solve import all_branches, planned
 from gruebler.linkages import Linkage, Named
-from gruebler.linkages.files import to_json
 
 if TYPE_CHECKING:
+    from gruebler.analysis.measures import Measures
+    from gruebler.analysis.rotatability import Rotatability
     from gruebler.kinematics.circuits import Circuit
-    from gruebler.kinematics.measuring import Measures
-    from gruebler.kinematics.turning import Rotatability
 
 __all__ = ["run"]
 
@@ -150,7 +151,7 @@ def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> lis
 
 
 def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argparse.Namespace) -> Measures:
-    from gruebler.kinematics.measuring import measures
+    from gruebler.analysis.measures import measures
 
     rpm = (arguments.speed[0] or None) if turning and arguments.speed else None
     return measures(linkage, rpm, arguments.branch, output.name)

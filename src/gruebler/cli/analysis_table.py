@@ -13,9 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.analysis.outputs import Output
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion
-from gruebler.kinematics.outputs import Output
 from gruebler.linkages import Linkage
 
 __all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]

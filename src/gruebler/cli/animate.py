@@ -7,8 +7,8 @@ import argparse
 from gruebler.cli.draw import entry_of, picture_suffix, sized
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.output import print_svg, write_file
-from gruebler.drawing.animation import Options, animated_svg
-from gruebler.drawing.animation_page import animated_page
+from gruebler.drawing.linkage.animation import Options, animated_svg
+from gruebler.drawing.linkage.animation_page import animated_page
 from gruebler.linkages import Linkage
 
 __all__ = ["run"]
@@ -43,6 +43,6 @@ def _content(linkage: Linkage, suffix: str, options: Options, dark: bool) -> byt
     if suffix in ("svg", "html"):
         text = animated_svg(linkage, **options) if suffix == "svg" else animated_page(linkage, **options)
         return text.encode("utf-8")
-    from gruebler.drawing.animation_frames import animated_frames
+    from gruebler.drawing.linkage.animation_frames import animated_frames
 
     return animated_frames(linkage, suffix, dark=dark, **options)

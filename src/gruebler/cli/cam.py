@@ -108,7 +108,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
-    from gruebler.drawing.cam_picture import animate_cam, draw_cam
+    from gruebler.drawing.machines.cam_picture import animate_cam, draw_cam
 
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
     write_picture(

@@ -7,10 +7,11 @@ from typing import Any
 
 import msgspec
 
-from gruebler.catalog import Entry, Exercise, entries, entry, exercises
+from gruebler.catalog import entries, entry, exercises
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
-from gruebler.linkages.documents import infinities_as_words
+from gruebler.documents import infinities_as_words
+from gruebler.formats import Entry, Exercise
 from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
 

@@ -9,28 +9,19 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import (
-    Checked,
-    Claims,
-    check_all,
-    check_entry,
-    check_exercise,
-    entries,
-    entry,
-    exercises,
-    read_entry,
-)
-from gruebler.catalog.records import entry_of_data
+from gruebler.catalog import Checked, check_all, check_entry, check_exercise, entries, entry, exercises
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
+from gruebler.documents import load
 from gruebler.errors import CatalogError, GrueblerError, NotationError
-from gruebler.freedoms.files import read_any_linkage, spatial_from_json
-from gruebler.linkages.documents import load
-from gruebler.linkages.files import linkage_from_json
+from gruebler.formats import Claims, read_entry
+from gruebler.formats.catalog_records import entry_of_data
+from gruebler.formats.linkages import linkage_from_json
+from gruebler.formats.screws import read_any_linkage, spatial_from_json
 from gruebler.mobility import mobility_report
-from gruebler.mobility.prose import verdict_word
+from gruebler.mobility.messages import verdict_word
 
 __all__ = ["explanation", "print_checked", "run"]
 

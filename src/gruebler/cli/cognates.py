@@ -11,8 +11,8 @@ from gruebler.cli.coupler_inputs import coupler_point, sizes
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry.roberts import Cognate, cognates, slider_cognates
-from gruebler.linkages import FourBar, SliderCrank
 
 __all__ = ["run"]
 

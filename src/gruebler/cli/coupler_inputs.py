@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from gruebler.errors import GrueblerError, nearest
-from gruebler.linkages import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 
 __all__ = ["coupler_point", "numbers", "sizes"]
 

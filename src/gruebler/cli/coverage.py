@@ -19,8 +19,8 @@ import msgspec
 from gruebler.catalog import catalog_folder, entries
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
+from gruebler.documents import fitted, load
 from gruebler.errors import CatalogError
-from gruebler.linkages.documents import fitted, load
 
 __all__ = ["Outcome", "Row", "execute", "find_function", "rows", "run"]
 

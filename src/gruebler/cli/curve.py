@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.analysis.drive_cycle import PathCourse
 from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
@@ -17,7 +18,6 @@ from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.geometry import Contact, CouplerCurve, coupler_curve
-from gruebler.kinematics.course import PathCourse
 
 __all__ = ["run"]
 

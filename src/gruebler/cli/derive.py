@@ -8,7 +8,7 @@ from gruebler.cli.inputs import chain_of
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_text
 from gruebler.isomorphism import code
-from gruebler.transformation import derive
+from gruebler.transformations import derive
 
 __all__ = ["run"]
 

@@ -14,14 +14,16 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import Entry, entries
+from gruebler.catalog import entries
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_of, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_svg, write_file
-from gruebler.drawing import Figure, draw, draw_contracted, draw_graph, draw_loops
-from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.drawing.canvas import Figure
+from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops
 from gruebler.errors import GrueblerError
+from gruebler.formats import Entry
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -116,7 +118,7 @@ def _figure(arguments: argparse.Namespace) -> Figure:
 
 
 def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figure:
-    from gruebler.drawing.linkage_picture import draw_linkage
+    from gruebler.drawing.linkage.picture import draw_linkage
 
     for option in ("space", "frame", "drive"):
         if getattr(arguments, option):

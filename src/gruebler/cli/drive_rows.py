@@ -14,7 +14,7 @@ from gruebler.kinematics import degrees
 from gruebler.linkages import Linkage
 
 if TYPE_CHECKING:
-    from gruebler.kinematics.course import Span
+    from gruebler.analysis.drive_cycle import Span
 
 __all__ = ["default_rows", "driven_path", "given_rows", "turning_drives"]
 

@@ -20,8 +20,8 @@ from gruebler.cli.tables import print_table
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
-from gruebler.enumeration.runs import Processes, Progress
-from gruebler.enumeration.work import Listing
+from gruebler.enumeration.work_units import Listing
+from gruebler.enumeration.worker_pool import Processes, Progress
 from gruebler.errors import GrueblerError, RunError
 
 __all__ = ["run"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 
-from gruebler.catalog import Exercise, Text
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
@@ -26,6 +25,8 @@ from gruebler.exercises import (
     solve,
     task_text,
 )
+from gruebler.formats import Exercise
+from gruebler.text import Text
 
 __all__ = ["run"]
 

@@ -10,7 +10,7 @@ from gruebler.cli.inputs import chain_of
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.mobility import mobility_report
-from gruebler.transformation import Extension, Place, extend
+from gruebler.transformations import Extension, Place, extend
 
 __all__ = ["run"]
 

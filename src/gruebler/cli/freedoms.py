@@ -6,14 +6,14 @@ import argparse
 import math
 from pathlib import Path
 
-from gruebler.catalog import entries, read_entry
+from gruebler.catalog import entries
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_text
 from gruebler.errors import GrueblerError
-from gruebler.freedoms import freedoms
+from gruebler.formats import read_entry
 from gruebler.linkages import Linkage
-from gruebler.screws import SpatialLinkage
+from gruebler.screws import SpatialLinkage, freedoms
 
 __all__ = ["run"]
 
@@ -34,8 +34,8 @@ def _linkage(word: str) -> Linkage | SpatialLinkage:
     if word in entries() and not path.is_file():
         record = entries()[word]
     elif path.suffix.lower() in (".toml", ".json") and path.is_file():
-        from gruebler.freedoms.files import read_any_linkage
-        from gruebler.linkages.documents import load
+        from gruebler.documents import load
+        from gruebler.formats.screws import read_any_linkage
 
         document = load(path, lambda text: GrueblerError(f"{path}: {text}"))
         if not (isinstance(document, dict) and "id" in document):

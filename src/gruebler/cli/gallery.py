@@ -14,14 +14,15 @@ from gruebler.chain import Chain
 from gruebler.cli.draw import german, subject
 from gruebler.cli.inputs import assortment_of, is_text, outputs_of
 from gruebler.cli.output import write_file
-from gruebler.drawing import Item, Section, draw, gallery_html
-from gruebler.drawing.files import suffix_of
-from gruebler.drawing.prose import chain_name
+from gruebler.drawing.canvas import Item, Section, gallery_html
+from gruebler.drawing.canvas.files import suffix_of
+from gruebler.drawing.structure import draw
+from gruebler.drawing.structure.messages import chain_name
 from gruebler.enumeration import Request, chains
 from gruebler.enumeration.estimates import estimate
 from gruebler.errors import GrueblerError
-from gruebler.inversion import family, inversions
 from gruebler.isomorphism import code
+from gruebler.mechanism.inversion import family, inversions
 
 __all__ = ["run"]
 
@@ -76,7 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
     if suffix == "html":
         content = gallery_html(title, sections, lang=arguments.lang, note=note).encode("utf-8")
     else:
-        from gruebler.drawing.plotting import gallery_pdf
+        from gruebler.drawing.canvas.matplotlib_files import gallery_pdf
 
         content = gallery_pdf(title, sections, note=note)
     write_file(arguments.output, content, arguments.lang)

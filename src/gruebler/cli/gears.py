@@ -13,7 +13,7 @@ from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
 from gruebler.gears.assembly import axes
-from gruebler.gears.prose import number, writable
+from gruebler.gears.messages import number, writable
 
 __all__ = ["run"]
 
@@ -56,7 +56,7 @@ _FEW = 6  # turns of the fastest link in a file of pictures
 
 
 def _picture(arguments: argparse.Namespace, reading: Reading) -> None:
-    from gruebler.drawing.train_picture import Options, animate_train, draw_train
+    from gruebler.drawing.machines.train_picture import Options, animate_train, draw_train
 
     options = Options(planets=reading.planets, teeth=arguments.teeth, lang=arguments.lang)
     most = {"most": _FEW} if is_few(arguments) else {}

@@ -76,7 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
-    from gruebler.drawing.geneva_picture import animate_geneva, draw_geneva
+    from gruebler.drawing.machines.geneva_picture import animate_geneva, draw_geneva
 
     at, plot, lang = angle_of(arguments), arguments.plot, arguments.lang
     write_picture(

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
-from gruebler.linkages.extremes import Arc
-from gruebler.linkages.four_bar import FourBar
-from gruebler.linkages.grashof import Grashof, LengthRange, turning_ranges, types_along
+from gruebler.fourbar.extremes import Arc
+from gruebler.fourbar.four_bar import FourBar
+from gruebler.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 
 __all__ = ["run"]
 

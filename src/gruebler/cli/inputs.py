@@ -32,7 +32,7 @@ def _of_file(word: str) -> Mechanism | None:
         return None
     if path.suffix.lower() not in (".toml", ".json"):
         raise GrueblerError(f"{path}: expected a .toml or .json file of a linkage, not {path.suffix}")
-    from gruebler.freedoms.files import read_any_linkage
+    from gruebler.formats.screws import read_any_linkage
 
     return read_any_linkage(path).mechanism
 
@@ -67,7 +67,7 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
 def outputs_of(word: str) -> tuple[str, ...]:
     """The output links that a text's mark, a linkage file or a catalog entry names."""
     if _of_file(word) is not None:
-        from gruebler.freedoms.files import read_any_linkage
+        from gruebler.formats.screws import read_any_linkage
 
         linkage = read_any_linkage(Path(word))
         return linkage.outputs if isinstance(linkage, Linkage) else ()

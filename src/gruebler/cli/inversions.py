@@ -9,7 +9,7 @@ from gruebler.cli.inputs import chain_of
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
-from gruebler.inversion import Driven, driven_mechanisms, family, inversions
+from gruebler.mechanism.inversion import Driven, driven_mechanisms, family, inversions
 
 __all__ = ["item", "run"]
 

@@ -6,7 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from gruebler.errors import GrueblerError
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.linkages import Linkage
 
 __all__ = ["linkage_of"]
 
@@ -28,7 +29,7 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
         return _door(kind, lengths), None
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
-        from gruebler.linkages.files import read_linkage
+        from gruebler.formats.linkages import read_linkage
 
         return read_linkage(path), None
     if "(" in word:

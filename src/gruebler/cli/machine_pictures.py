@@ -7,10 +7,10 @@ import math
 from collections.abc import Callable
 
 from gruebler.cli.output import write_file
-from gruebler.drawing import Figure
-from gruebler.drawing.files import SUFFIXES, picture_bytes, suffix_of
-from gruebler.drawing.moving_files import MOVING, moving_bytes
-from gruebler.drawing.moving_picture import MovingPicture
+from gruebler.drawing.canvas import Figure
+from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
+from gruebler.drawing.canvas.moving_files import MOVING, moving_bytes
+from gruebler.drawing.canvas.moving_picture import MovingPicture
 from gruebler.errors import GrueblerError
 
 __all__ = ["angle_of", "is_few", "refuse_picture", "write_picture"]

@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from gruebler.cli.draw import entry_of, german, picture_suffix, sized, told_picture
-from gruebler.drawing import Figure
-from gruebler.drawing.curve_plots import coupler_plot, family_plot, hodograph
-from gruebler.drawing.motion_plots import transfer_plot, transmission_plot
-from gruebler.drawing.plots import ratio_diagram
+from gruebler.drawing.canvas import Figure
+from gruebler.drawing.canvas.panels import ratio_diagram
+from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
+from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.errors import GrueblerError
 from gruebler.linkages import Linkage
 
@@ -142,7 +142,7 @@ def _place(key: str, text: str | None) -> complex | None:
 
 def _ratio(asked: _Asked) -> Figure:
     """Q_G and L/l1 of windows about a crank angle, against the tangent there."""
-    from gruebler.drawing.prose import title
+    from gruebler.drawing.structure.messages import title
     from gruebler.geometry.straight import Piece, linkage_path, piece, piece_of_ratio
     from gruebler.kinematics import move
 

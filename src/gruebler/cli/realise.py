@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.output import print_json, say_written
-from gruebler.linkages.files import check_linkage_path, to_json, to_toml, write_linkage
+from gruebler.formats.linkages import check_linkage_path, to_json, to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
 __all__ = ["run"]

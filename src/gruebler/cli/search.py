@@ -10,7 +10,7 @@ from typing import Any
 
 import msgspec
 
-from gruebler.catalog import Entry, Query, search
+from gruebler.catalog import Query, search
 from gruebler.catalog.feature_query import (
     FeatureQuery,
     entry_features,
@@ -21,14 +21,15 @@ from gruebler.catalog.feature_query import (
     structures_time,
 )
 from gruebler.catalog.features import AccessFeatures
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
-from gruebler.inversion import Driven, family
+from gruebler.formats import Entry
+from gruebler.mechanism.inversion import Driven, family
 from gruebler.mobility import counted, mobility_report
-from gruebler.pairs import Alphabet
 
 __all__ = ["run"]
 

@@ -11,7 +11,7 @@ from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.sheets import Sheet, Sized, Told, sheet, sheets
-from gruebler.sheets.prose import Number, explained
+from gruebler.sheets.messages import Number, explained
 
 __all__ = ["run"]
 
@@ -75,8 +75,9 @@ def _list(arguments: argparse.Namespace) -> None:
 
 
 def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
+    from gruebler.drawing.canvas.files import suffix_of
     from gruebler.sheets.layout import page
-    from gruebler.sheets.page import SUFFIXES, suffix_of
+    from gruebler.sheets.page import SUFFIXES
 
     suffix = "svg" if arguments.output is None else suffix_of(arguments.output, SUFFIXES)
     made = page(one, arguments.lang)

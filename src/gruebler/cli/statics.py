@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.analysis.drive_cycle import follow
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
@@ -18,7 +19,6 @@ from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.course import follow
 from gruebler.linkages import Linkage
 from gruebler.statics import Loads, Statics, slide_friction, statics
 

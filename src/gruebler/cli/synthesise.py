@@ -13,7 +13,7 @@ from typing import Any
 
 from gruebler.cli.tables import print_table
 from gruebler.errors import SynthesisError
-from gruebler.linkages.files import check_linkage_path, write_linkage
+from gruebler.formats.linkages import check_linkage_path, write_linkage
 from gruebler.synthesis import (
     DeadCentreTask,
     Demands,
@@ -187,7 +187,7 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
 def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> SynthesisResult:
     """A mechanism of any structure, from several starts."""
     from gruebler.cli.inputs import mechanism_of
-    from gruebler.realisation.finding import with_drives
+    from gruebler.realisation.realise import with_drives
     from gruebler.synthesis.structures import synthesise_structures
 
     mechanism = mechanism_of(arguments.structure, None, [])

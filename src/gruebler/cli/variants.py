@@ -12,9 +12,9 @@ from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
-from gruebler.inversion import Driven
 from gruebler.isomorphism import code
-from gruebler.specialisation import Requirements, Wanted, expected_seconds, variants
+from gruebler.mechanism.inversion import Driven
+from gruebler.type_synthesis import Requirements, Wanted, expected_seconds, variants
 
 __all__ = ["run"]
 

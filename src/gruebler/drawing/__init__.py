@@ -1,20 +1,5 @@
-"""Pictures: structure pictures of chains and mechanisms, their graphs, galleries; SVG without any dependency."""
+"""Pictures, in four folders.
 
-from gruebler.drawing.figure import Figure
-from gruebler.drawing.gallery import Item, Section, gallery_html
-from gruebler.drawing.graphs import draw_contracted, draw_graph, draw_loops
-from gruebler.drawing.structure import Placed, draw, paint, place
-
-__all__ = [
-    "Figure",
-    "Item",
-    "Placed",
-    "Section",
-    "draw",
-    "draw_contracted",
-    "draw_graph",
-    "draw_loops",
-    "gallery_html",
-    "paint",
-    "place",
-]
+canvas: figures and files; machines: cams, Geneva drives, gears; structure: chains and mechanisms; linkage: linkages to
+scale, animations, plots.
+"""

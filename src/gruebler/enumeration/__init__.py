@@ -4,13 +4,10 @@ from gruebler.enumeration.assortment import Assortment, assortment_number, assor
 from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
 from gruebler.enumeration.counting import ChainCount, count_chains
-from gruebler.enumeration.kinematic import chains_of, edge_blocks, graph6_blocks
-from gruebler.enumeration.multiple_assortment import (
-    each_joint_assortment,
-    joint_assortment_number,
-    joint_assortments,
-)
-from gruebler.enumeration.request import Request, RequestCount, chains, count
+from gruebler.enumeration.listing import chains, count
+from gruebler.enumeration.multiple_assortment import each_joint_assortment, joint_assortment_number, joint_assortments
+from gruebler.enumeration.request import Request, RequestCount
+from gruebler.enumeration.simple_chains import chains_of, edge_blocks, graph6_blocks
 
 __all__ = [
     "Assortment",

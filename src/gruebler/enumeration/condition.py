@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.chain import Chain
-from gruebler.pairs import Space
+from gruebler.chain.pairs import Space
 
 __all__ = ["CLASSES", "Fractionation", "fractionation", "freedoms_of_sets", "is_constrained", "joint_masks"]
 

@@ -87,7 +87,7 @@ class ContractedGraph:
         >>> ContractedGraph(((0, 1, 3),)).automorphisms
         ((0, 1), (1, 0))
         """
-        from gruebler._numeric.packed_graph import find_automorphisms
+        from gruebler._numeric.counting.packed_graph import find_automorphisms
 
         return tuple(sorted(tuple(image) for image in find_automorphisms(self._packed()).tolist()))
 
@@ -100,7 +100,7 @@ class ContractedGraph:
 
     def canonical(self) -> ContractedGraph:
         """The isomorphic graph that `contracted_graphs` yields; equal for isomorphic graphs."""
-        from gruebler._numeric.packed_graph import canonical_rows
+        from gruebler._numeric.counting.packed_graph import canonical_rows
 
         return _unpacked(canonical_rows(self._packed()))
 
@@ -175,8 +175,8 @@ def packed_graphs(loops: int) -> Iterator[Packed]:
     if not 2 <= loops <= MOST_LOOPS:
         raise GrueblerError(f"contracted graphs are made for 2 to {MOST_LOOPS} loops, not for {loops}")
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.contracted import grow
-    from gruebler._numeric.work import growing
+    from gruebler._numeric.counting.contracted import grow
+    from gruebler._numeric.work_estimates import growing
 
     return _grown(loops, for_work(grow, growing(loops)))
 
@@ -188,7 +188,7 @@ def _grown(loops: int, grow: Callable[..., tuple[int, int]]) -> Iterator[Packed]
         theta[0, :2] = 3 << 4, 3
         yield theta
         return
-    from gruebler._numeric.contracted import make_nursery
+    from gruebler._numeric.counting.contracted import make_nursery
 
     memory = make_nursery()
     for parents in _grown(loops - 1, grow):

@@ -153,9 +153,9 @@ def count_piece(piece: Piece, orbits: bool = False) -> tuple[PieceCount, ...]:
     Raises:
         OverflowError: a number beyond 64 bits.
     """
-    from gruebler._numeric.census import COLUMNS, DEGREES, DIGITS, make_bench, take_census
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.work import census
+    from gruebler._numeric.counting.census import COLUMNS, DEGREES, DIGITS, make_bench, take_census
+    from gruebler._numeric.work_estimates import census
 
     loops = loop_number(piece.links, piece.mobility)
     assert loops is not None
@@ -186,9 +186,9 @@ def list_piece(piece: Piece, form: str = "edges") -> NDArray[np.uint8]:
 
 
 def _blocks(piece: Piece, form: str) -> Iterator[NDArray[np.uint8]]:
-    from gruebler._numeric.chain_lists import line_length, list_chains, make_desk, write_graph6
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.work import census, writing
+    from gruebler._numeric.counting.chain_lists import line_length, list_chains, make_desk, write_graph6
+    from gruebler._numeric.work_estimates import census, writing
 
     loops, joints = loop_number(piece.links, piece.mobility), joint_number(piece.links, piece.mobility)
     assert loops is not None

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from gruebler.chain import Chain
 from gruebler.enumeration.condition import CLASSES
 from gruebler.enumeration.counting import ChainCount
 from gruebler.errors import GrueblerError
 
-__all__ = ["Request", "RequestCount", "RequestError", "chains", "count"]
+__all__ = [
+    "Request",
+    "RequestCount",
+    "RequestError",
+]
 
 
 class RequestError(GrueblerError):
@@ -115,67 +117,3 @@ class RequestCount(ChainCount):
         if len(self.by_fractionation) > 1:
             document["by_fractionation"] = dict(self.by_fractionation)
         return document
-
-
-def chains(
-    links: int,
-    mobility: int = 1,
-    *,
-    fractionated: str = "none",
-    assortment: Sequence[int] | None = None,
-    multiple_joints: int | str = 0,
-) -> Iterator[Chain]:
-    """Planar chains of revolute joints without any rigid part, each once, lazily and always in the same order.
-
-    Args:
-        links: number of links, n >= 3.
-        mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
-        fractionated: ``none``: chains that do not fall apart; ``link``, ``joint``: those that fall apart at a link
-            only, at some joint; ``all``: the three classes in this order.
-        assortment: only chains with these numbers of binary, ternary, ... links.
-        multiple_joints: exactly so many joints of more than two links, a range such as ``0-2``, or ``any``.
-
-    Raises `RequestError` for a request that makes no sense, and `GrueblerError` for more loops than can be worked on.
-    Cost: about 50 us for a chain that is not fractionated and has simple joints, 1 ms for others.
-
-    >>> len(list(chains(8))), len(list(chains(9, 2, fractionated="all"))), len(list(chains(6, multiple_joints="any")))
-    (16, 40, 4)
-    """
-    from gruebler.enumeration.work import chains_of_request
-
-    wanted = None if assortment is None else tuple(assortment)
-    return chains_of_request(Request(links, mobility, fractionated, wanted, multiple_joints))
-
-
-def count(
-    links: int,
-    mobility: int = 1,
-    *,
-    fractionated: str = "none",
-    assortment: Sequence[int] | None = None,
-    multiple_joints: int | str = 0,
-    orbits: bool = False,
-    executor: Executor | None = None,
-) -> RequestCount:
-    """How many chains `chains` gives, by assortment and by class, and how many mechanisms they give.
-
-    Args:
-        links: number of links, n >= 3.
-        mobility: F >= 0.
-        fractionated: as for `chains`.
-        assortment: as for `chains`.
-        multiple_joints: as for `chains`.
-        orbits: whether to count inversions, driven mechanisms and joint orbits too.
-        executor: where to do the pieces of the work; here if there is none.
-
-    Chains that are not fractionated and have simple joints are counted without being built.
-
-    >>> count(9, 2, fractionated="all").to_json()["by_fractionation"]
-    {'none': 35, 'link': 5, 'joint': 0}
-    """
-    from gruebler.enumeration.runs import perform
-    from gruebler.enumeration.work import Counter, add_tallies, work_of
-
-    wanted = None if assortment is None else tuple(assortment)
-    request = Request(links, mobility, fractionated, wanted, multiple_joints)
-    return add_tallies(request, orbits, perform(Counter(request, orbits), work_of(request), executor))

@@ -11,8 +11,8 @@ from gruebler.atomic_files import temporary_directory
 from gruebler.enumeration.assortment import loop_number
 from gruebler.enumeration.checkpoint import Checkpoint, PieceFiles
 from gruebler.enumeration.request import Request, RequestCount
-from gruebler.enumeration.runs import Progress, Watch, perform
-from gruebler.enumeration.work import Counter, Lister, Listing, Tally, Work, add_tallies, work_of
+from gruebler.enumeration.work_units import Counter, Lister, Listing, Tally, Work, add_tallies, work_of
+from gruebler.enumeration.worker_pool import Progress, Watch, perform
 
 __all__ = ["FORMATS", "run_count", "run_list"]
 

@@ -5,11 +5,11 @@ exercises of the seeds, the worked examples and fresh tasks alike; what is print
 as a result. docs/theory/exercises.md has the conventions and the misprints with the computed values.
 """
 
-from gruebler.exercises.making import KINDS, LEVELS, fresh
-from gruebler.exercises.marking import Mark, Marked, mark, plain_key, plain_name
-from gruebler.exercises.plain import plain_marks, plain_solution, plain_table, plain_task
-from gruebler.exercises.prose import lines_of_table, said_source, said_value, solution_text, task_text
-from gruebler.exercises.shelf import all_exercises, exercise
+from gruebler.exercises.generation import KINDS, LEVELS, fresh
+from gruebler.exercises.grading import Mark, Marked, mark, plain_key, plain_name
+from gruebler.exercises.loader import all_exercises, exercise
+from gruebler.exercises.messages import lines_of_table, said_source, said_value, solution_text, task_text
+from gruebler.exercises.serialisation import plain_marks, plain_solution, plain_table, plain_task
 from gruebler.exercises.solution import Check, Heading, Mistake, Result, Solution, Step, Table
 from gruebler.exercises.solving import Comparison, compare, methods, solve
 from gruebler.exercises.tables import TABLES, teaching_table

@@ -41,7 +41,7 @@ def read_answer(answer: str, result: Result) -> Given:
 
     Raises `GrueblerError` for what is no number and for a unit that does not measure the result.
 
-    >>> from gruebler.catalog import Text
+    >>> from gruebler.text import Text
     >>> read_answer("7,2 cm", Result("H", Text("stroke", "Hub"), 72.0, "mm")).number
     72.0
     """

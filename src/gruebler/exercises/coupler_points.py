@@ -8,14 +8,16 @@ from math import acos, asin, degrees, isclose, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.catalog import Text
+from gruebler.analysis import measures
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, angle, as_step, number
+from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import Path, coupler_path, linkage_path, piece
 from gruebler.geometry.sizing import longest_in_band
 from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import measures, move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage
+from gruebler.text import Text
 
 __all__ = ["conchoid", "four_bar"]
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from math import acos, asin, cos, degrees, hypot, pi, radians, sin, sqrt
 
-from gruebler.catalog import Text
+from gruebler.analysis import Measures, measures
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, angle, as_step, number
-from gruebler.kinematics import Measures, measures, move
-from gruebler.linkages import FourBar, SliderCrank
+from gruebler.fourbar import FourBar, SliderCrank
+from gruebler.kinematics import move
 from gruebler.linkages.quantities import as_positive
+from gruebler.text import Text
 
 __all__ = ["central_crank_rocker", "crank_rocker", "slider_crank", "stroke_middle", "stroke_table"]
 

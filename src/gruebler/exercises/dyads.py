@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from gruebler.catalog import Text
 from gruebler.chain import Chain
 from gruebler.exercises.solution import Solution, Step, Value, Way
-from gruebler.inversion import family
 from gruebler.mechanism import Mechanism
+from gruebler.mechanism.inversion import family
 from gruebler.mobility import count, counted, mobility_report
-from gruebler.transformation import Extension, extend
+from gruebler.text import Text
+from gruebler.transformations import Extension, extend
 
 __all__ = ["coupler", "dyad"]
 

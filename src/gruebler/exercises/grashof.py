@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from gruebler.catalog import Text
+from gruebler.analysis import drive_range
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Step, Way, number
-from gruebler.kinematics import drive_range
-from gruebler.linkages import FourBar, Grashof, LinkageType, turning_ranges
+from gruebler.fourbar import FourBar, Grashof, LinkageType, turning_ranges
+from gruebler.text import Text
 
 __all__ = ["condition", "length_range"]
 

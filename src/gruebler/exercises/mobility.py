@@ -6,12 +6,13 @@ import re
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from gruebler.catalog import Text, entry
+from gruebler.catalog import entry
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.exercises.solution import Heading, Solution, Step, Way
 from gruebler.mobility import count, mobility_report
-from gruebler.mobility.prose import verdict_word
-from gruebler.pairs import Alphabet
+from gruebler.mobility.messages import verdict_word
+from gruebler.text import Text
 
 __all__ = ["chain", "machines"]
 

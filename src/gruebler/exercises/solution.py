@@ -11,10 +11,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
-from gruebler.catalog import Text
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_finite
-from gruebler.views import Brief
+from gruebler.notebook import Brief
+from gruebler.text import Text
 
 __all__ = [
     "Check",

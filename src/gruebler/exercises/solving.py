@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib import import_module
 
-from gruebler.catalog import Exercise, Text
-from gruebler.catalog.records import Asked
 from gruebler.errors import CatalogError, nearest
 from gruebler.exercises.solution import Result, Solution, Value
+from gruebler.formats import Exercise
+from gruebler.formats.catalog_records import Asked
+from gruebler.text import Text
 
 __all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve"]
 

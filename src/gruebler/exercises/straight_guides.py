@@ -7,16 +7,16 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import numpy as np
 
-from gruebler.catalog import Text
 from gruebler.errors import LinkageError
 from gruebler.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path, headers
 from gruebler.exercises.solution import Solution, Way, as_step, number
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import Path, Piece, coupler_path, linkage_path, piece
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.lever_contact import lever_contact
 from gruebler.kinematics import degrees as turns
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, SliderCrank
+from gruebler.text import Text
 
 __all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
 

@@ -8,15 +8,17 @@ from math import degrees, pi, radians, tau
 
 import numpy as np
 
+from gruebler.analysis import motion_roles
 from gruebler.cams import read_lift
-from gruebler.catalog import Text, entries
+from gruebler.catalog import entries
 from gruebler.chain import Chain
+from gruebler.chain.pairs import PAIRS, Alphabet, Contact, Pair, Space
 from gruebler.errors import GrueblerError, nearest
 from gruebler.exercises.solution import Table, Value
+from gruebler.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
 from gruebler.geneva import Geneva
-from gruebler.kinematics import motion_roles
-from gruebler.linkages import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, Linkage, SliderCrank, grashof
-from gruebler.pairs import PAIRS, Alphabet, Contact, Pair, Space
+from gruebler.linkages import Linkage
+from gruebler.text import Text
 
 __all__ = ["TABLES", "teaching_table"]
 

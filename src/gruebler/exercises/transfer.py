@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from gruebler.catalog import Text
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, as_step, number
 from gruebler.gears import read_train, speeds
 from gruebler.linkages.quantities import as_positive
+from gruebler.text import Text
 
 __all__ = ["gear_pair"]
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from math import acos, asin, degrees, isclose, pi
 
-from gruebler.catalog import Text
+from gruebler.analysis import measures
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, angle, number
-from gruebler.kinematics import measures, move
-from gruebler.linkages import FourBar, Linkage, SliderCrank
+from gruebler.fourbar import FourBar, SliderCrank
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage
+from gruebler.text import Text
 
 __all__ = ["compare_rods", "four_bar", "slider_crank"]
 

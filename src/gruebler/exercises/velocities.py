@@ -7,12 +7,12 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 
 import numpy as np
 
-from gruebler.catalog import Text
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, Way, angle, number
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import Motion, move
-from gruebler.linkages import FourBar, SliderCrank
 from gruebler.linkages.quantities import as_finite
+from gruebler.text import Text
 
 __all__ = ["four_bar", "slider_crank"]
 

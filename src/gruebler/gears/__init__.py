@@ -1,8 +1,8 @@
 """Gear trains: meshes, one linear system for all speeds, exact ratios, torques and power, assembly of planets."""
 
 from gruebler.gears.assembly import Assembly, assembly
+from gruebler.gears.messages import explain
 from gruebler.gears.motion import Balance, Contradiction, Speeds, balance, influence, ratio, speeds
-from gruebler.gears.prose import explain
 from gruebler.gears.reading import Reading, read_toml, read_train
 from gruebler.gears.train import KINDS, GearError, Mesh, Train, Unit
 

@@ -14,7 +14,7 @@ from numbers import Rational
 from types import MappingProxyType
 from typing import NamedTuple
 
-from gruebler import views
+from gruebler import notebook
 from gruebler.errors import GrueblerError, nearest
 from gruebler.gears.rational import Elimination, Row, echelon
 
@@ -252,7 +252,7 @@ class Train:
 
     def _repr_svg_(self) -> str | None:
         """Its wheels to scale, for notebooks."""
-        return views.picture(self) if views.picture else None
+        return notebook.picture(self) if notebook.picture else None
 
 
 def comparable(units: Iterable[Unit]) -> bool:

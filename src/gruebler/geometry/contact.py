@@ -48,7 +48,7 @@ def tangent_contact(
     Raises `LinkageError` in a cusp, where there is no such order, and as `series`.
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> bar = FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4).linkage({"K": (8.018753738744802, 2.268046058132576)})
     >>> found = tangent_contact(move(bar, np.pi), "K")
     >>> found.points, round(abs(found.coefficient), 15)

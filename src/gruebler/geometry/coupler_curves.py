@@ -23,12 +23,12 @@ from gruebler.geometry.path_events import (
     turning_points,
     vertices,
 )
+from gruebler.geometry.point_path import Trail, trail_of
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.sampling import Samples, area, length, sampled
-from gruebler.geometry.trail import Trail, trail_of
 from gruebler.linkages import Linkage, Named
 from gruebler.linkages.quantities import as_finite
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["CouplerCurve", "coupler_curve"]
 
@@ -166,7 +166,7 @@ def coupler_curve(
     Error: events are exact to some 1e-13 of the parameter. Within 1/720 of the parameter's range from a limit of the
     drive none are looked for. Cost: some milliseconds; with double points some tens.
 
-    >>> from gruebler.linkages import InvertedSliderCrank
+    >>> from gruebler.fourbar import InvertedSliderCrank
     >>> conchoid = coupler_curve(InvertedSliderCrank(30, 50).linkage({"C": (90, 0)}), "C")
     >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
     [80.56, 147.1, 212.9, 279.44]

@@ -97,7 +97,7 @@ def inflection_circle(motion: Motion, link: str, reference: str | None = None) -
     Needs a motion with accelerations. Error: that of the pole times the link's turn in the time of one radian.
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import SliderCrank
+    >>> from gruebler.fourbar import SliderCrank
     >>> found = inflection_circle(move(SliderCrank(1, 1).linkage(), np.radians([20, 40]), speed=1), "coupler")
     >>> found.diameter.round(12).tolist()  # a Cardan circle: points on it move on straight lines
     [2.0, 2.0]
@@ -117,7 +117,7 @@ def path_curvature(motion: Motion, point: str | Named, reference: str | None = N
     Needs a motion with accelerations.
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> motion = move(FourBar(25, 70, 40, 70).linkage(), np.radians([0, 55]), speed=10)
     >>> path_curvature(motion, "R(coupler-rocker)").centre.round(9).tolist()  # a circle about B0
     [(70+0j), (70+0j)]

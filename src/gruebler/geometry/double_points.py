@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.geometry.point_path import Trail
 from gruebler.geometry.relative import Complexes, Flags, Reals
 from gruebler.geometry.sampling import Samples
-from gruebler.geometry.trail import Trail
 
 __all__ = ["DoublePoint", "double_points"]
 

@@ -14,11 +14,12 @@ from math import atan2, degrees, pi, radians, sqrt
 from typing import NamedTuple
 
 from gruebler.errors import LinkageError, nearest
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry.lever_contact import LeverContact, lever_contact, lever_pose
 from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
 from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, sized
 from gruebler.geometry.straight import Path, Piece, linkage_path, piece
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 __all__ = ["GUIDANCES", "Guidance", "guidance"]

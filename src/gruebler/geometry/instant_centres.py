@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, nearest
 from gruebler.geometry.relative import Complexes, against, link_numbers, resting_and_translating
 from gruebler.kinematics import Motion
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["Centrodes", "Poles", "centrodes", "poles"]
 
@@ -34,7 +34,7 @@ class Poles(Brief):
         """The pole of a pair of links; (rows,).
 
         >>> from gruebler.kinematics import move
-        >>> from gruebler.linkages import FourBar
+        >>> from gruebler.fourbar import FourBar
         >>> found = poles(move(FourBar(25, 70, 40, 70).linkage(), np.radians([55]), speed=10))
         >>> found.of("frame", "coupler").round(6)[0], found.of("crank", "rocker").round(6)[0]
         (np.complex128(127.802871+182.521416j), np.complex128(-64.233472+0j))
@@ -101,7 +101,7 @@ def centrodes(motion: Motion, link: str, reference: str | None = None) -> Centro
     """The fixed and the moving centrode of a link against another one (without a name: the frame).
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import SliderCrank
+    >>> from gruebler.fourbar import SliderCrank
     >>> cardan = move(SliderCrank(1, 1).linkage(), np.radians([20, 40]), speed=1)  # circle of 2 a, circle of a
     >>> found = centrodes(cardan, "coupler")
     >>> abs(found.fixed).round(12).tolist(), abs(found.moving).round(12).tolist()

@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry.relative import Complexes
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage
+from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_branch, as_finite
 
 __all__ = ["LeverContact", "LeverPose", "lever_contact", "lever_pose"]

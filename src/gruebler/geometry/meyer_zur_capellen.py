@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar
 from gruebler.geometry.lever_contact import LeverContact, lever_contact
-from gruebler.linkages import FourBar
 from gruebler.linkages.quantities import as_finite, as_positive
 
 _LEAST, _MOST = 0.501, 1.4999  # lambda: towards 0.5 links grow beyond all bounds, towards 1.5 they shrink to nothing

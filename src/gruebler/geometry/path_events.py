@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.errors import LinkageError
+from gruebler.geometry.point_path import Trail
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.series import series
-from gruebler.geometry.trail import Trail
-from gruebler.kinematics.zeros import Zero, zeros
+from gruebler.kinematics.root_finding import Zero, zeros
 from gruebler.linkages.quantities import as_finite
 
 __all__ = [
@@ -90,8 +90,8 @@ class TurningPoint(NamedTuple):
 def cusps(trail: Trail) -> tuple[Cusp, ...]:
     """Where the velocity is zero, found as roots of its square's derivative: error of some roundings.
 
-    >>> from gruebler.geometry.trail import trail_of
-    >>> from gruebler.linkages import SliderCrank
+    >>> from gruebler.geometry.point_path import trail_of
+    >>> from gruebler.fourbar import SliderCrank
     >>> [round(found.drive, 9) for found in cusps(trail_of(SliderCrank(2, 5).linkage(), "R(coupler-slider)"))]
     [0.0, 3.141592654]
     """

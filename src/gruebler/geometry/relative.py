@@ -53,7 +53,7 @@ def against(motion: Motion, link: str, reference: str | None = None, order: int 
     """How a link moves against another one (without a name: the frame), up to an order of derivatives.
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> seen = against(move(FourBar(25, 70, 40, 70).linkage(), [0.0, 0.1], speed=10), "frame", "crank")
     >>> seen.rates[0].tolist()
     [-10.0, -10.0]

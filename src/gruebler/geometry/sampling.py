@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.errors import LinkageError
+from gruebler.geometry.point_path import Trail
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.geometry.trail import Trail
 from gruebler.linkages.quantities import as_positive
 
 __all__ = ["Samples", "area", "length", "sampled"]

@@ -63,7 +63,7 @@ def series(motion: Motion, order: int) -> Series:
     Raises `LinkageError` at a limit of the drive or a change point, where there is no such series.
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import SliderCrank
+    >>> from gruebler.fourbar import SliderCrank
     >>> found = series(move(SliderCrank(1, 1).linkage(), [0.0]), 6)  # the slider at 2 cos(phi)
     >>> (found.point("R(coupler-slider)")[0].real.round(12) + 0.0).tolist()
     [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.linkages import FourBar
 from gruebler.linkages.quantities import as_finite
 
 __all__ = ["CouplerSextic", "coupler_sextic"]

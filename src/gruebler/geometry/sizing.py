@@ -60,7 +60,7 @@ def ratio_curve(path: Path, window: Window, samples: int = 721) -> RatioCurve:
     Raises `LinkageError` where the path has no points.
 
     >>> from gruebler.geometry import coupler_path
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> lever = coupler_path(FourBar(20, 50, 50, 40), 100, 0)
     >>> curve = ratio_curve(lever, Window(np.pi / 2, np.pi, 3 * np.pi / 2, 0.0))
     >>> round(float(curve.lengths[-1]), 6), round(float(curve.ratios[-1]), 6)
@@ -93,7 +93,7 @@ def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -
     Raises `LinkageError` if not even the smallest is so straight.
 
     >>> from gruebler.geometry import coupler_path
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> lever = coupler_path(FourBar(20, 50, 50, 40), 100, 0)
     >>> found = widest_piece(lever, Window(0, np.pi, 2 * np.pi, 0.0), 0.003)
     >>> round(float(np.degrees(found.start)), 2), round(found.length, 2)
@@ -129,7 +129,7 @@ def longest_in_band(path: Path, start: float, end: float, band: float, samples: 
     Raises `LinkageError` like `longest_piece`.
 
     >>> from gruebler.geometry import coupler_path
-    >>> from gruebler.linkages import InvertedSliderCrank
+    >>> from gruebler.fourbar import InvertedSliderCrank
     >>> found = longest_in_band(coupler_path(InvertedSliderCrank(30, 50), 90, 0), 0.0, np.pi, 0.5)
     >>> round(found.length, 3), round(found.band, 6)
     (32.559, 0.5)
@@ -164,7 +164,7 @@ def sized(path: Path, window: Window, length: float, tolerance: float) -> Sizing
     Both in one unit. Raises `LinkageError` like `widest_piece`.
 
     >>> from gruebler.geometry import coupler_path
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> lenker = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)
     >>> round(sized(lenker, Window(0, np.pi, 2 * np.pi, np.radians(15.79316904826399)), 15, 0.075).factor, 4)
     3.8389

@@ -9,9 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.kinematics import move
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_positive
 
 __all__ = ["Path", "Piece", "coupler_path", "linkage_path", "longest_piece", "piece", "piece_of_ratio"]

@@ -43,7 +43,7 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int |
     >>> four_bar.order, len(four_bar.link_orbits), len(four_bar.flag_orbits)
     (8, 1, 1)
     """
-    from gruebler._numeric.canonical import canonical_form
+    from gruebler._numeric.labelling.canonical import canonical_form
 
     graph = coloured(chain, frame, drives)
     found = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour)

@@ -44,7 +44,7 @@ def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[i
 
     Exact for every chain. Cost: microseconds for usual chains; see docs/theory/canonical-code.md.
     """
-    from gruebler._numeric.canonical import canonical_form
+    from gruebler._numeric.labelling.canonical import canonical_form
 
     graph = coloured(chain, frame, drives)
     place = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour).labelling

@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import PAIRS
 from gruebler.errors import ChainError
-from gruebler.pairs import PAIRS
 
 __all__ = ["Coloured", "DriveMark", "coloured"]
 

@@ -1,9 +1,8 @@
-"""Linkages in motion: poses, velocities, accelerations, jerks, along any path of the drives.
+"""The solver: poses, velocities, accelerations, jerks of linkages, along any path of the drives.
 
-`move` solves the groups of the Assur decomposition one after another; a `Motion` holds what it found. `circuit` follows
-all positions that belong together, all joints at once and without regard to the drive. `measures` tells dead centres,
-strokes, times, transmission angles; `rotatability` and `motion_roles` who turns fully. Conventions, theorems and what
-may err: docs/theory/kinematics.md, circuits.md, events.md, assembly-modes.md.
+`move` solves the groups of the Assur decomposition one after another and returns a `Motion`. `circuit` follows
+all positions that are connected, all joints at once and without regard to the drive. Conventions, theorems and
+what may err: docs/theory/kinematics.md, circuits.md, assembly-modes.md.
 """
 
 from gruebler.kinematics.batch import (
@@ -15,29 +14,21 @@ from gruebler.kinematics.batch import (
     move_many,
     slider_cranks,
 )
-from gruebler.kinematics.branches import all_branches
 from gruebler.kinematics.circuits import ChangePoint, Circuit, Extreme, Stretch, circuit
-from gruebler.kinematics.course import follow
 from gruebler.kinematics.drive_rows import degrees
-from gruebler.kinematics.measuring import Measures, measures
 from gruebler.kinematics.motion import Motion, Stop
-from gruebler.kinematics.moving import move
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.transmission import deviation_angle, transmission_angle
+from gruebler.kinematics.solve import all_branches, move
 from gruebler.kinematics.triads import assembly_modes
-from gruebler.kinematics.turning import DriveRange, Rotatability, drive_range, motion_roles, rotatability
 
 __all__ = [
     "ChangePoint",
     "Circuit",
     "Designs",
-    "DriveRange",
     "Extreme",
-    "Measures",
     "Motion",
     "Motions",
     "Poses",
-    "Rotatability",
     "Stop",
     "Stretch",
     "all_branches",
@@ -45,16 +36,9 @@ __all__ = [
     "circuit",
     "degrees",
     "designs",
-    "deviation_angle",
-    "drive_range",
-    "follow",
     "four_bars",
     "inverted_slider_cranks",
-    "measures",
-    "motion_roles",
     "move",
     "move_many",
-    "rotatability",
     "slider_cranks",
-    "transmission_angle",
 ]

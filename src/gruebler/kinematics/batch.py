@@ -14,13 +14,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics.branches import Unassembled, read_branch, starting
 from gruebler.kinematics.drive_rows import drive_path, drive_speeds
 from gruebler.kinematics.motion import Motion
-from gruebler.kinematics.moving import move, planned, start_of
 from gruebler.kinematics.plan import Plan
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank, with_lower_pairs
-from gruebler.views import Brief
+from gruebler.kinematics.solve import move, planned, start_of
+from gruebler.linkages import Linkage, with_lower_pairs
+from gruebler.notebook import Brief
 
 __all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
 
@@ -288,7 +289,7 @@ def _run(
     out: tuple[Complexes, Complexes, Reals, NDArray[np.int64]],
     threads: int | None,
 ) -> None:
-    from gruebler._numeric.batch import run_designs
+    from gruebler._numeric.motion.batch import run_designs
 
     program = made.plan.program
     longest = made.sizes[:, None] / program.size * program.most

@@ -12,16 +12,16 @@ dyad, the number of the mode (from 1) for a larger group.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.program import GROUP
+from gruebler._numeric.motion.program import GROUP
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Dyad, Larger, Plan
 
-__all__ = ["all_branches", "branch_of", "modes_of", "pose_before", "read_branch"]
+__all__ = ["branch_of", "modes_of", "pose_before", "read_branch"]
 
 Reals = NDArray[np.float64]
 
@@ -115,7 +115,7 @@ def _distance(one: Reals, other: Reals, size: float) -> float:
 
 def modes_of(plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals) -> Reals:
     """All assembly modes of a larger group with everything before it placed: (modes, bodies, 3)."""
-    from gruebler.kinematics.search import conditions as closing_conditions
+    from gruebler.kinematics.assembly_modes import conditions as closing_conditions
     from gruebler.kinematics.triads import assembly_modes
 
     places, turns = pose_before(plan, part, drives, signs, unknowns)
@@ -134,7 +134,7 @@ def pose_before(
     plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
     """Where the links lie before a group is placed: against the frame, or against the root of their body."""
-    from gruebler.kinematics.runs import run_rows
+    from gruebler.kinematics.kernel_calls import run_rows
 
     stop = next(k for k, operation in enumerate(plan.operations) if operation[:2] == (GROUP, part.number))
     program = plan.program._replace(operations=plan.program.operations[:stop])
@@ -142,30 +142,3 @@ def pose_before(
     if rows.reached == 0:
         raise Unassembled(part_at_fault(plan, rows.fault))
     return rows.places[0, 0], rows.turns[0]
-
-
-def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:
-    """Every branch that can be assembled at these drive values."""
-    yield from _extended(plan, drives, choices(plan), ())
-
-
-def _extended(
-    plan: Plan, drives: Reals, parts: tuple[Dyad | Larger, ...], labels: tuple[str, ...]
-) -> Iterator[tuple[str, ...]]:
-    from gruebler.kinematics.moving import move
-
-    if len(labels) == len(parts):
-        if len(move(plan, drives.reshape(1, -1), branch=labels)):
-            yield labels
-        return
-    part = parts[len(labels)]
-    if isinstance(part, Dyad):
-        for label in "+-":
-            yield from _extended(plan, drives, parts, (*labels, label))
-        return
-    try:
-        modes = modes_of(plan, part, drives, *starting(plan, labels, drives, part))
-    except Unassembled:
-        return
-    for number in range(len(modes)):
-        yield from _extended(plan, drives, parts, (*labels, str(number + 1)))

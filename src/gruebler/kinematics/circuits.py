@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.curve import System, Traced, on_curve, system, trace_circuit
-from gruebler.kinematics.moving import move
+from gruebler.kinematics.configuration_curve import System, Traced, on_curve, system, trace_circuit
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.zeros import Samples, zeros
+from gruebler.kinematics.root_finding import Samples, zeros
+from gruebler.kinematics.solve import move
 from gruebler.linkages import Linkage, Named, with_lower_pairs
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["ChangePoint", "Circuit", "Extreme", "Stretch", "circuit"]
 
@@ -118,8 +118,8 @@ class Circuit(Brief):
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
         from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.tracing import Curve, evaluate
-        from gruebler._numeric.work import sampling
+        from gruebler._numeric.motion.tracing import Curve, evaluate
+        from gruebler._numeric.work_estimates import sampling
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
@@ -189,7 +189,7 @@ class Circuit(Brief):
 
         ``quantity(poses, order)`` is the value (order 0) or its derivative by the arc (order 1) for each pose.
 
-        >>> from gruebler.linkages import FourBar
+        >>> from gruebler.fourbar import FourBar
         >>> made = circuit(FourBar(25, 70, 40, 70).linkage())
         >>> upright = made.roots(lambda poses, order: poses.angle("crank", order) - (order == 0) * np.pi / 2)
         >>> np.degrees(made.at(upright).angle("crank")).round(9).tolist()
@@ -303,7 +303,7 @@ def circuit(
 
     Cost: 10 (four-bar) to 200 us (ten links) a sample, some 100 to 1000 samples.
 
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> made = circuit(FourBar(30, 30, 50, 60).linkage())
     >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
     (True, [121.855431, -121.855431])

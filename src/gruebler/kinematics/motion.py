@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from cmath import rect
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,13 +10,17 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler import views
+from gruebler import notebook
 from gruebler.errors import LinkageError, nearest
+from gruebler.kinematics.contacts import law_at
+from gruebler.kinematics.contours import cam_law, turn_law
 from gruebler.kinematics.plan import Plan
-from gruebler.linkages import Linkage, Named, Place
-from gruebler.views import Brief
+from gruebler.linkages import Circle, Disc, Driver, Line, Linkage, Named, NonCircular, Place, Wheel
+from gruebler.linkages.elements import INVERSE
+from gruebler.linkages.wheels import arms, factors, round_joints, sliding_joint
+from gruebler.notebook import Brief
 
-__all__ = ["Motion", "Stop"]
+__all__ = ["Motion", "Stop", "joint_openings"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -81,7 +86,7 @@ class Motion(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Where and why it stopped, and in which rows rates are not finite; else empty."""
-        from gruebler.kinematics.prose import stopped
+        from gruebler.kinematics.messages import stopped
 
         return stopped(self, lang)
 
@@ -124,8 +129,6 @@ class Motion(Brief):
 
     def slide(self, joint: str | int, order: int = 0) -> Reals:
         """The way of a sliding joint from the first link's point to the second's, or its derivative; (rows,)."""
-        from gruebler.kinematics.ways import slide
-
         return slide(self, joint, order)
 
     def home(self, row: int = 0) -> dict[str, Place]:
@@ -139,8 +142,6 @@ class Motion(Brief):
     @cached_property
     def closure(self) -> float:
         """The largest distance by which a joint of any pose is open, relative to the linkage's size."""
-        from gruebler.kinematics.openness import openness
-
         return openness(self)
 
     @property
@@ -152,7 +153,7 @@ class Motion(Brief):
 
     def _repr_svg_(self) -> str | None:
         """The first pose with some others thinly, for notebooks."""
-        return views.picture(self) if views.picture else None
+        return notebook.picture(self) if notebook.picture else None
 
     def _link(self, link: str) -> int:
         links: Sequence[str] = self.plan.lower.mechanism.chain.links
@@ -168,3 +169,150 @@ class Motion(Brief):
                 if 0 <= order <= 3
                 else f"the order of a derivative is 0, 1, 2 or 3, not {order!r}"
             )
+
+
+def slide(motion: Motion, joint: str | int, order: int) -> Reals:
+    """See `Motion.slide`."""
+    mechanism = motion.linkage.mechanism
+    number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
+    if number is None or not sliding_joint(motion.linkage, number):
+        sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
+        raise LinkageError(f"{joint!r} is no sliding joint; there are {', '.join(sliding) or 'none'}")
+    first, other = mechanism.chain.joints[number].links[:2]
+    elements = motion.linkage.elements
+    if not isinstance(elements[number, first], Line) or (
+        other == mechanism.frame and isinstance(elements[number, other], Line)
+    ):
+        first, other = other, first
+    line = elements[number, first]
+    assert isinstance(line, Line)
+    far = elements[number, other]
+    gaps = [
+        motion.complex_point(Named(other, far.x, far.y), k) - motion.complex_point(Named(first, line.x, line.y), k)
+        for k in range(order + 1)
+    ]
+    k = motion._link(first)
+    w, a, j = (motion.rates[m, :, k] if m < order else np.zeros(len(motion)) for m in range(3))
+    direction = np.conj(motion.turns[:, k] * rect(1, line.angle))
+    # the gap in coordinates that turn with the line
+    if order == 0:
+        seen = gaps[0]
+    elif order == 1:
+        seen = gaps[1] - 1j * w * gaps[0]
+    elif order == 2:
+        seen = gaps[2] - 2j * w * gaps[1] + (-1j * a - w**2) * gaps[0]
+    else:
+        seen = gaps[3] - 3j * w * gaps[2] + 3 * (-1j * a - w**2) * gaps[1] + (1j * (w**3 - j) - 3 * w * a) * gaps[0]
+    out: Reals = (direction * seen).real
+    return out
+
+
+_LEADING = (Disc, Driver, NonCircular)
+
+
+def openness(motion: Motion) -> float:
+    """See `Motion.closure`."""
+    lower = motion.plan.lower
+    wheels = round_joints(lower.mechanism, lower.elements)
+    largest = max(
+        (_open_contact(motion, k) for k in round_joints(motion.linkage.mechanism, motion.linkage.elements)), default=0.0
+    )
+    gaps = [
+        joint_openings(motion, linkage, number)
+        for linkage, numbers in (
+            (lower, set(range(len(lower.mechanism.chain.joints))) - set(wheels)),
+            (motion.linkage, motion.plan.released),
+        )
+        for number in numbers
+    ]
+    return max([largest, *(float(gap.max(initial=0.0)) for gap in gaps)])
+
+
+def _open_contact(motion: Motion, number: int) -> float:
+    """How far wheels or circles leave each other, or turn against each other since the first row, in sizes."""
+    linkage = motion.linkage
+    chain, elements = linkage.mechanism.chain, linkage.elements
+    a, b = chain.joints[number].links
+    if isinstance(elements[number, b], Line):
+        a, b = b, a
+    one, other = elements[number, a], elements[number, b]
+    if isinstance(one, _LEADING) or isinstance(other, _LEADING):
+        return _open_curve(motion, number) / linkage.size
+    assert isinstance(other, Wheel | Circle)
+    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    touching = chain.joints[number].pair.name == "rolling" or isinstance(other, Circle)
+    if isinstance(one, Line):
+        gap *= np.conj(motion.turns[:, motion._link(a)] * rect(1, one.angle))
+        radius = np.copysign(other.radius, gap.imag)
+        far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
+    else:
+        assert isinstance(one, Wheel | Circle)
+        far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
+        arm = arms(linkage.mechanism, elements).get(number)
+        along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
+        if isinstance(one, Wheel) and isinstance(other, Wheel):
+            first, second = factors(one, other)
+            rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
+    largest = float(far.max()) if touching else 0.0
+    if isinstance(other, Wheel):
+        largest = max(largest, float(np.abs(rolled - rolled[0]).max()))
+    return largest / linkage.size
+
+
+def _open_curve(motion: Motion, number: int) -> float:
+    """How far a follower leaves its cam, or a Geneva or non-circular wheel its angle, times a length."""
+    elements = motion.linkage.elements
+    a, b = motion.linkage.mechanism.chain.joints[number].links
+    last = elements[number, b]
+    if isinstance(last, Disc | Driver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
+        a, b = b, a
+    one, other = elements[number, a], elements[number, b]
+    assert isinstance(one, Disc | Driver | NonCircular)
+    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    along = motion.turns[:, motion._link(a)] * rect(1, one.angle)
+    if isinstance(one, Driver | NonCircular):
+        law = turn_law(one, other)
+        bearing = np.unwrap(np.angle(gap))
+        turned = motion.angle(a) + one.angle - bearing
+        turned += np.angle(along[0] / gap[0] * abs(gap[0])) - turned[0]
+        wheel = motion.angle(b) - bearing
+        off = np.array([law_at(law, float(t)) for t in turned]) - wheel
+        return float(np.abs(off - off[0]).max()) * motion.linkage.size
+    law = cam_law(one)
+    if isinstance(other, Line):
+        normal = 1j * motion.turns[:, motion._link(b)] * rect(1, other.angle)
+        height = (np.conj(normal) * gap).real
+        normal, height = normal * np.sign(height), np.abs(height)
+        wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / along)])
+    else:
+        wanted = np.exp([law_at(law, float(t)) for t in np.angle(gap / along)])
+        height = np.abs(gap)
+    return float(np.abs(height - wanted).max())
+
+
+def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
+    """By how much a joint of pins and lines is open in each row, in sizes and radians; (rows,).
+
+    The linkage is that of the motion, or the one with lower pairs.
+    """
+    joint = linkage.mechanism.chain.joints[number]
+    out = np.zeros(len(motion))
+    for first, other in ((joint.links[0], other) for other in joint.links[1:]):
+        if not isinstance(linkage.elements[number, first], Line):
+            first, other = other, first  # noqa: PLW2901
+        one, two = linkage.elements[number, first], linkage.elements[number, other]
+        gap = (_at(motion, other, two.x, two.y) - _at(motion, first, one.x, one.y)) / linkage.size
+        if isinstance(one, Line):
+            line = motion.turns[:, motion._link(first)] * rect(1, one.angle)
+            if joint.pair.name != "double_slide":
+                out = np.maximum(out, np.abs((np.conj(line) * gap).imag))
+            if isinstance(two, Line):
+                out = np.maximum(out, np.abs(motion.turns[:, motion._link(other)] * rect(1, two.angle) - line))
+        else:
+            out = np.maximum(out, np.abs(gap))
+    return out
+
+
+def _at(motion: Motion, link: str, x: float, y: float) -> Complexes:
+    k = motion._link(link)
+    return motion.places[0, :, k] + motion.turns[:, k] * complex(x, y)

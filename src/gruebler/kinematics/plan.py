@@ -10,7 +10,7 @@ from math import radians
 
 import numpy as np
 
-from gruebler._numeric.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
+from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, Group, decompose
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
@@ -18,7 +18,7 @@ from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["Dyad", "Larger", "Plan", "plan"]
 

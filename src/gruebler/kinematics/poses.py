@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages import Element, Line, Linkage, Named, Place
 from gruebler.linkages.wheels import sliding_joint
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["Poses"]
 

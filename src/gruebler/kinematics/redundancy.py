@@ -17,22 +17,24 @@ from numpy.typing import NDArray
 
 from gruebler.assur import decompose
 from gruebler.chain import Chain, Joint
+from gruebler.chain.pairs import Pair, pair
 from gruebler.errors import LinkageError
 from gruebler.linkages import Element, Line, Linkage, Pin, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism import Drive, Mechanism
-from gruebler.pairs import Pair, pair
 
-__all__ = ["Independent", "independent_part", "regular"]
+__all__ = [
+    "Independent",
+    "independent_part",
+]
 
 if TYPE_CHECKING:
-    from gruebler.kinematics.motion import Motion
+    pass
 
 Reals = NDArray[np.float64]
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `gruebler freedoms`
-_SINGULAR = 1e-6  # of the largest singular value: poses at change points are known to some 1e-8 only
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
 _NEAR = 0.05  # sizes and radians: a closed position farther away is not the reference pose
 _WELL = 0.1  # of the largest share in the redundancy: conditions with less are not released
@@ -300,20 +302,6 @@ def _bar(linkage: Linkage, number: int, link: str) -> float | None:
     here = linkage.elements[number, link]
     there = linkage.elements[next(n for n in ends if n != number), link]
     return phase(complex(here.x - there.x, here.y - there.y))
-
-
-def regular(motion: Motion, row: int) -> bool:
-    """Whether in a pose all conditions together, with the drives held, fix every link: then it is no change point."""
-    conditions = _Conditions(motion.linkage)
-    x = []
-    for link in conditions.bodies:
-        k = motion._link(link)
-        z = motion.places[0, row, k] / motion.linkage.size
-        x += [z.real, z.imag, float(np.angle(motion.turns[row, k]))]
-    pose = np.array(x)
-    matrix = np.vstack([conditions.linearised(pose)[1], conditions.drives(pose)])
-    values = np.linalg.svd(matrix, compute_uv=False)
-    return bool(values[matrix.shape[1] - 1] > _SINGULAR * values[0])
 
 
 def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> list[_Release]:

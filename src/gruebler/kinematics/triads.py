@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.search import (
+from gruebler.kinematics.assembly_modes import (
     PIN,
     SLIDE,
     Conditions,
@@ -128,7 +128,7 @@ def triad_modes(group: Conditions) -> Modes:
     Raises:
         LinkageError: if the group is not of that structure, or has two PP legs, which hold the hub's angle twice.
 
-    >>> from gruebler.kinematics.search import conditions
+    >>> from gruebler.kinematics.assembly_modes import conditions
     >>> base, hub = (0j, 15.91 + 0j, 10j), (0j, 17.04 + 0j, 13.2122 + 16.1161j)
     >>> rows = []
     >>> for k, length in enumerate((14.98, 15.38, 12.0), start=1):

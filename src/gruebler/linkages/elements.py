@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import cos, hypot, isfinite, sin
 from typing import NamedTuple
 
+from gruebler.chain.pairs import Pair
 from gruebler.errors import LinkageError
-from gruebler.pairs import Pair
 
 __all__ = [
     "CENTRED",

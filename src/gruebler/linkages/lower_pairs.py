@@ -8,11 +8,11 @@ from __future__ import annotations
 from math import cos, pi, sin
 
 from gruebler.chain import Chain, Joint
+from gruebler.chain.pairs import pair
 from gruebler.linkages.elements import Circle, Element, Line, Pin
 from gruebler.linkages.model import Linkage
 from gruebler.linkages.wheels import arms, redundant, round_joints
 from gruebler.mechanism import Drive, Mechanism
-from gruebler.pairs import pair
 
 __all__ = ["with_lower_pairs"]
 

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from gruebler import notation, views
-from gruebler.chain import Chain
+from gruebler import notebook
+from gruebler.chain import Chain, notation
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import DriveMark, code, decode
-from gruebler.pairs import Alphabet
 
 __all__ = ["Drive", "Mechanism"]
 
@@ -149,7 +149,7 @@ class Mechanism:
 
     def _repr_svg_(self) -> str | None:
         """The structure picture, for notebooks."""
-        return views.picture(self) if views.picture else None
+        return notebook.picture(self) if notebook.picture else None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a mechanism does not change; build another one instead of setting {name!r}")

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.prime_field import (
+from gruebler._numeric.modular import (
     P,
     Support,
     echelon,

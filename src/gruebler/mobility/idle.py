@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from gruebler._numeric.prime_field import P, inverse
+from gruebler._numeric.modular import P, inverse
 from gruebler.chain import Chain
 from gruebler.mobility.rank import Generic
 

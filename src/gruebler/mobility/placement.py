@@ -1,6 +1,6 @@
 """A chain put at a random place: the linear constraints its joints lay on the twists of its links.
 
-Everything is counted modulo the prime P of `gruebler._numeric.prime_field`. Each joint gets a random frame
+Everything is counted modulo the prime P of `gruebler._numeric.modular`. Each joint gets a random frame
 of its own (a rotation from a random quaternion, and a random origin), common to all its links. A pair with
 freedoms D allows relative twists in the span of D; the functionals that vanish on D are its constraints, u
 of them. In the joint's own axes they are the unit functionals of the directions that D leaves out; for a
@@ -20,9 +20,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.prime_field import P, Row
+from gruebler._numeric.modular import P, Row
 from gruebler.chain import Chain, Joint
-from gruebler.pairs import Space
+from gruebler.chain.pairs import Space
 
 __all__ = ["Lock", "Placement", "place"]
 

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler._numeric.prime_field import CoreTooLarge, Echelon, Row, echelon, null_space, random_solutions, transposed
+from gruebler._numeric.modular import CoreTooLarge, Echelon, Row, echelon, null_space, random_solutions, transposed
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 from gruebler.mobility.placement import Lock, Placement, place

@@ -11,7 +11,7 @@ from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
 from gruebler.mobility.rank import generic
-from gruebler.views import Brief
+from gruebler.notebook import Brief
 
 __all__ = ["MobilityReport", "Verdict", "mobility_report"]
 
@@ -69,7 +69,7 @@ class MobilityReport(Brief):
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.mobility.prose import explain
+        from gruebler.mobility.messages import explain
 
         return explain(self, lang)
 

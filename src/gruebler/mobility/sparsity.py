@@ -19,8 +19,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Space
 from gruebler.errors import ChainError
-from gruebler.pairs import Space
 
 __all__ = ["License", "pebble_mobility", "pebble_rank", "theorem"]
 

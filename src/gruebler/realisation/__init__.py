@@ -4,7 +4,7 @@
 docs/theory/realisation.md says why that works.
 """
 
-from gruebler.realisation.finding import realise, with_drives
+from gruebler.realisation.realise import realise, with_drives
 from gruebler.realisation.result import Realisation
 
 __all__ = ["Realisation", "realise", "with_drives"]

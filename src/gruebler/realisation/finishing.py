@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.home import at_home
 from gruebler.kinematics.motion import Motion
-from gruebler.kinematics.moving import move, planned
+from gruebler.kinematics.reference_pose import at_home
+from gruebler.kinematics.solve import move, planned
 from gruebler.linkages import Line, Linkage
+from gruebler.realisation.layout_program import Sketch, places
+from gruebler.realisation.layout_trial import FLOOR, Trial, closes, range_path
 from gruebler.realisation.measures import conditioning
-from gruebler.realisation.sketch import Sketch, places
-from gruebler.realisation.trial import FLOOR, Trial, closes, range_path
 
 __all__ = ["Finished", "finished", "judged"]
 

@@ -16,7 +16,7 @@ from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.plan import Plan
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion import Program
+    from gruebler._numeric.motion.program import Program
 
 __all__ = ["conditioning"]
 

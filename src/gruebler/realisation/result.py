@@ -9,12 +9,12 @@ from math import degrees
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.analysis.drive_cycle import Span, follow
 from gruebler.errors import LinkageError
-from gruebler.kinematics.course import Span, follow
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
-from gruebler.realisation.trial import range_path
-from gruebler.views import Brief
+from gruebler.notebook import Brief
+from gruebler.realisation.layout_trial import range_path
 
 __all__ = ["Realisation"]
 

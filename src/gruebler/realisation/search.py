@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.realisation.sketch import Sketch
-from gruebler.realisation.trial import Trial, tried
+from gruebler.realisation.layout_program import Sketch
+from gruebler.realisation.layout_trial import Trial, tried
 
 __all__ = ["Found", "searched"]
 

@@ -1,26 +1,39 @@
-"""Linkages given by the screws of their joints in one position, planar, spherical or spatial.
+"""Linkages given by the screws of their joints, and the mobility of linkages with dimensions.
 
-A `SpatialLinkage` is a mechanism whose joints have places; `Closing` holds the equations that close its joints, with
-their Jacobian; `follow` moves one of its joints; `common_group` finds the group of motions that no link ever leaves.
-docs/theory/freedoms.md has the conventions.
+A `SpatialLinkage` is a mechanism whose joints have places; `Closing` holds the equations that close its joints,
+with their Jacobian. `freedoms` takes it, or a planar `Linkage`, and compares the mobility by count, at almost all
+sizes, at the pose, and finite. docs/theory/freedoms.md has the conventions, the theorems and what may err.
 """
 
+from gruebler.screws.closed_poses import known
 from gruebler.screws.closing import Closing
+from gruebler.screws.finite_mobility import Evidence, Finite
 from gruebler.screws.following import follow, joint_value
-from gruebler.screws.groups import Group, common_group
+from gruebler.screws.instant_mobility import Instant
+from gruebler.screws.joint_geometry import Reason
+from gruebler.screws.joint_places import JointPlace
+from gruebler.screws.mobility_report import Freedoms, freedom_report, freedoms
 from gruebler.screws.model import SpatialLinkage
-from gruebler.screws.motions import adjoint, exponential, hat
-from gruebler.screws.places import JointPlace
+from gruebler.screws.motion_groups import Group, common_group
+from gruebler.screws.rigid_motions import adjoint, exponential, hat
 
 __all__ = [
     "Closing",
+    "Evidence",
+    "Finite",
+    "Freedoms",
     "Group",
+    "Instant",
     "JointPlace",
+    "Reason",
     "SpatialLinkage",
     "adjoint",
     "common_group",
     "exponential",
     "follow",
+    "freedom_report",
+    "freedoms",
     "hat",
     "joint_value",
+    "known",
 ]

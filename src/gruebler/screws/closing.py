@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.chain.pairs import Space
 from gruebler.mechanism import Mechanism
-from gruebler.pairs import Space
+from gruebler.screws.closing_rows import Bent, rows
+from gruebler.screws.joint_places import JointPlace
 from gruebler.screws.model import SpatialLinkage
-from gruebler.screws.motions import exponential, exponential_rate, inverse
-from gruebler.screws.places import JointPlace
-from gruebler.screws.rows import Bent, rows
+from gruebler.screws.rigid_motions import exponential, exponential_rate, inverse
 
 __all__ = ["Closing", "Tie"]
 

@@ -9,10 +9,10 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError, nearest
 from gruebler.mechanism import Mechanism
-from gruebler.pairs import Space
-from gruebler.screws.places import JointPlace, Vector, axes, read_place
+from gruebler.screws.joint_places import JointPlace, Vector, axes, read_place
 
 __all__ = ["SpatialLinkage"]
 

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from gruebler.drawing import Figure, draw
-from gruebler.drawing.figure import text_width
-from gruebler.drawing.plots import ratio_diagram
+from gruebler.drawing.canvas import Figure
+from gruebler.drawing.canvas.panels import ratio_diagram
+from gruebler.drawing.canvas.shapes import text_width
+from gruebler.drawing.structure import draw
 from gruebler.errors import CatalogError
+from gruebler.sheets.messages import Number, example_lines, explained, lowered, value_lines, words_of
 from gruebler.sheets.model import Sheet, Told
 from gruebler.sheets.page import HEIGHT, WIDTH, Page, Placed, Rule, Words
 from gruebler.sheets.picture import scale_picture
-from gruebler.sheets.prose import Number, example_lines, explained, lowered, value_lines, words_of
 
 __all__ = ["page"]
 

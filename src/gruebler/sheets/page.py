@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 from xml.sax.saxutils import escape
 
-from gruebler.drawing.figure import Figure
-from gruebler.drawing.files import suffix_of
-from gruebler.drawing.styles import COLOURS
-from gruebler.drawing.svg import element, number, style_sheet
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.files import suffix_of
+from gruebler.drawing.canvas.styles import COLOURS
+from gruebler.drawing.canvas.svg import element, number, style_sheet
 
 __all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "Page", "Placed", "Rule", "Words", "suffix_of"]
 
@@ -93,7 +93,7 @@ class Page:
         """The content of a file of this kind; `GrueblerError` if matplotlib is needed and missing."""
         if suffix in ("svg", "html"):
             return (self.svg() if suffix == "svg" else self.html()).encode("utf-8")
-        from gruebler.drawing.plotting import painted
+        from gruebler.drawing.canvas.matplotlib_files import painted
 
         canvas = painted(Figure((), WIDTH, HEIGHT, self.title, self.description))
         for item in self.items:
@@ -156,7 +156,7 @@ def _paint_rule(canvas: Any, item: Rule) -> None:
 
 
 def _paint_placed(canvas: Any, item: Placed) -> None:
-    from gruebler.drawing.plotting import paint_on
+    from gruebler.drawing.canvas.matplotlib_files import paint_on
 
     wide, high = item.scale * item.figure.width, item.scale * item.figure.height
     axes = canvas.add_axes((item.x / WIDTH, 1 - (item.y + high) / HEIGHT, wide / WIDTH, high / HEIGHT))

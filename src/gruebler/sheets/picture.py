@@ -5,12 +5,13 @@ from __future__ import annotations
 import cmath
 import math
 
-from gruebler.drawing.figure import Circle, Figure, Lines, Point, Shape, Text, figure_of
-from gruebler.drawing.labels import noted
-from gruebler.drawing.linkage_picture import draw_linkage
-from gruebler.drawing.stage import Stage, staged
+from gruebler.drawing.canvas.figure import Figure, figure_of
+from gruebler.drawing.canvas.labels import noted
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text
+from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.drawing.linkage.posed_linkage import Stage, staged
+from gruebler.sheets.messages import lowered
 from gruebler.sheets.model import Sheet
-from gruebler.sheets.prose import lowered
 
 __all__ = ["scale_picture"]
 

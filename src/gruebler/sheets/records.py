@@ -9,10 +9,11 @@ from typing import Literal
 
 import msgspec
 
-from gruebler.catalog import Text, entry
+from gruebler.catalog import entry
+from gruebler.documents import fitted, load
 from gruebler.errors import CatalogError, GrueblerError
-from gruebler.linkages.documents import fitted, load
-from gruebler.linkages.expressions import Expression
+from gruebler.sheets.expressions import Expression
+from gruebler.text import Text
 
 __all__ = ["CognateLength", "Dimension", "Guide", "Picture", "Quantity", "RockerValue", "SheetRecord", "read_sheet"]
 

@@ -8,11 +8,11 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
-from gruebler.linkages import SliderCrank
+from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
 from gruebler.statics.loads import Reals
-from gruebler.statics.rates import again
+from gruebler.statics.motion_rates import again
 from gruebler.statics.solution import Statics
 
 __all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]

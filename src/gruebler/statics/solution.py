@@ -10,10 +10,10 @@ import numpy as np
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages.model import joint_number
+from gruebler.notebook import Brief
 from gruebler.statics.equilibrium import Contact, Reactions, contacts, reactions
 from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, placed
-from gruebler.statics.rates import again, drive_speed
-from gruebler.views import Brief
+from gruebler.statics.motion_rates import again, drive_speed
 
 __all__ = ["Statics", "statics"]
 
@@ -87,7 +87,7 @@ class Statics(Brief):
 
         At a driven slide without the drive's own force. It acts at the pin, or at the point of the later link's line.
 
-        >>> from gruebler.linkages import SliderCrank
+        >>> from gruebler.fourbar import SliderCrank
         >>> from gruebler.kinematics import move
         >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0]))
         >>> held = statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)}))
@@ -159,7 +159,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     Raises `LinkageError` for loads on points that are not there, and for a linkage without drives.
 
     >>> from gruebler.kinematics import move
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> pose = move(FourBar(25, 70, 40, 70).linkage(), np.radians([55.0]))
     >>> held = statics(pose, Loads(moments={"rocker": -1000}))
     >>> held.drive.round(6).tolist(), held.work.round(6).tolist()  # the rocker turns 0.478521 times as fast

@@ -111,7 +111,7 @@ def generic(problem: Problem) -> Generic:
     """The stored solutions, sharpened to full precision."""
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import refine
-    from gruebler._numeric.work import refining
+    from gruebler._numeric.work_estimates import refining
 
     name = problem.name.replace(" ", "_")
     raw = (files("gruebler.synthesis") / "data" / f"{name}.npz").read_bytes()
@@ -160,7 +160,7 @@ def follow(
     """Ends and statuses of all paths; threads share them, the answer does not depend on how many there are."""
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import track
-    from gruebler._numeric.work import tracking
+    from gruebler._numeric.work_estimates import tracking
 
     kernel = for_work(track, tracking(len(starts)))
     out, status = np.empty_like(starts), np.empty(len(starts), np.int64)
@@ -191,7 +191,7 @@ def solutions(
     """
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import ARRIVED, INFINITE, refine
-    from gruebler._numeric.work import refining
+    from gruebler._numeric.work_estimates import refining
 
     base = generic(problem)
     ends, status = follow(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)

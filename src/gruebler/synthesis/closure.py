@@ -36,7 +36,7 @@ class Slopes(NamedTuple):
 class Closure:
     """The conditions of a linkage; lengths are in the units of the linkage.
 
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> closure = Closure(FourBar(25, 70, 40, 70).linkage())
     >>> closure.equations, closure.unknowns, len(closure.sizes)
     (8, 9, 16)

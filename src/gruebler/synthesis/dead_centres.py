@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, SynthesisError
-from gruebler.linkages import FourBar, SliderCrank
+from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.synthesis.judging import Demands, pivots_inside, size_ratio
 from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
 from gruebler.synthesis.tasks import DeadCentreTask

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError, SynthesisError
-from gruebler.linkages import FourBar, InvertedSliderCrank, Linkage, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing

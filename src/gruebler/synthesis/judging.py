@@ -14,8 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.analysis import transmission_angle
 from gruebler.errors import LinkageError
-from gruebler.kinematics import Circuit, Poses, circuit, move, transmission_angle
+from gruebler.kinematics import Circuit, Poses, circuit, move
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
@@ -129,7 +130,7 @@ def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], 
 def judged(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
     """The design of a linkage with a home, and its verdict. Cost: 3 to 30 ms, most for the circuit.
 
-    >>> from gruebler.linkages import FourBar
+    >>> from gruebler.fourbar import FourBar
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
     >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
     >>> bar = bar.with_home(motion.home(0))

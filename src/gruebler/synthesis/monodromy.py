@@ -55,7 +55,7 @@ def find_generic(
     """All solutions of a random task; ``report`` gets the number of the way and how many solutions there are."""
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import ARRIVED, refine
-    from gruebler._numeric.work import refining
+    from gruebler._numeric.work_estimates import refining
 
     rng = np.random.default_rng(seed)
     p, z = known_solution(problem, rng)

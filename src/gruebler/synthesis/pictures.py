@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from math import degrees, isnan
 
-from gruebler.drawing import gallery_html
-from gruebler.drawing.figure import Figure
-from gruebler.drawing.gallery import Item, Section
-from gruebler.drawing.linkage_picture import draw_linkage
+from gruebler.drawing.canvas import gallery_html
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.gallery import Item, Section
+from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.linkages import Linkage
 from gruebler.synthesis.results import Design, SynthesisResult
 from gruebler.synthesis.tasks import PathTask, PositionTask, Task

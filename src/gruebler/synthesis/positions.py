@@ -16,7 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, SynthesisError
-from gruebler.linkages import Linkage, grashof
+from gruebler.fourbar import grashof
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.burmester import burmester_curves
 from gruebler.synthesis.dyads import (

@@ -55,7 +55,7 @@ class Design:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage."""
-        from gruebler.linkages import to_json
+        from gruebler.formats import to_json
 
         turning = bool(self.linkage.mechanism.drives) and self.linkage.mechanism.drives[0].direction.startswith("R")
         verdict = self.verdict

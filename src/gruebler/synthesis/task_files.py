@@ -15,9 +15,9 @@ from typing import Any
 import msgspec
 
 from gruebler.atomic_files import atomic_file
+from gruebler.documents import fitted, load
 from gruebler.errors import SynthesisError
-from gruebler.linkages.angles import in_degrees, in_radians
-from gruebler.linkages.documents import fitted, load
+from gruebler.formats.angles import in_degrees, in_radians
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 
 __all__ = ["read_task", "task_from_json", "task_to_json", "write_task"]

@@ -1,0 +1,1 @@
+"""Chains counted and listed: contracted graphs, strings of links, Burnside's lemma."""

@@ -1,0 +1,1 @@
+"""Canonical labelling of coloured multigraphs."""

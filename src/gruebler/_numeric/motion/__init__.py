@@ -1,0 +1,1 @@
+"""Linkages moved: dyads in closed form, larger groups by Newton's method, curves of positions."""

@@ -1,0 +1,147 @@
+"""Derivatives of closing conditions: what is known of them beside the Jacobian times the unknown rates."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import njit
+from gruebler._numeric.motion.closure import FACE, MESH, PIN, POLAR, RACK, REACH, SLIDE, law, wound
+from gruebler._numeric.motion.planar_jets import turned
+
+__all__ = ["closing_rates"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def closing_rates(
+    order: int,
+    kinds: Ints,
+    values: Reals,
+    pieces: Reals,
+    owners: Ints,
+    points: Complexes,
+    lines: Complexes,
+    spins: Reals,
+    turns: Complexes,
+    rates: Reals,
+    places: Complexes,
+    size: float,
+    gap: Complexes,
+    spun: Reals,
+    target: Reals,
+) -> None:
+    """Write the right-hand side of ``jacobian @ unknown = target`` for the derivatives of that order.
+
+    ``turns``, ``places`` (derivatives of origins) and ``rates`` are those of the bodies up to order - 1; their entries
+    of this order and above are zero. ``gap`` (4,) and ``spun`` (2, 3) are scratch. Not for TRAIN and TRAVEL.
+    """
+    row = 0
+    for c in range(len(kinds)):
+        for k in range(4):
+            gap[k] = 0j
+        line, other = lines[2 * c], lines[2 * c + 1]
+        for side in range(2):
+            slot, sign = 2 * c + side, 2 * side - 1
+            body = owners[slot]
+            for k in range(3):
+                spun[side, k] = spins[slot, k]
+            if body < 0:
+                for k in range(order + 1):
+                    gap[k] += sign * points[slot, k]
+                continue
+            for k in range(order + 1):
+                gap[k] += sign * places[body, k]
+                gap[k] += sign * turned(
+                    k,
+                    turns[body],
+                    rates[body, 0],
+                    rates[body, 1],
+                    rates[body, 2],
+                    points[slot, 0],
+                    points[slot, 1],
+                    points[slot, 2],
+                    points[slot, 3],
+                )
+            for k in range(3):
+                spun[side, k] += rates[body, k]
+            if side == 0:
+                line = turns[body] * line
+            else:
+                other = turns[body] * other
+        w, a, j = spun[0, 0], spun[0, 1], spun[0, 2]
+        difference = spun[1, order - 1] - spun[0, order - 1]
+        kind = kinds[c]
+        if kind == PIN:
+            target[row], target[row + 1] = -gap[order].real, -gap[order].imag
+            row += 2
+            continue
+        if kind == SLIDE:
+            target[row] = -difference * size
+            row += 1
+        one, two = values[c, 0], values[c, 1]
+        first, second = 1.0, 0.0  # the angle on which a law depends: its rates are those of a logarithm less a spin
+        if kind == REACH:
+            target[row] = -_square_rate(order, gap) / (2 * values[c, 2])
+            row += 1
+            continue
+        if kind in (MESH, POLAR):
+            first, second = _log_rate(1, gap).imag, _log_rate(2, gap).imag if order > 2 else 0.0
+            first, second = first - w, second - a
+        elif kind == FACE:
+            first, second = w - spun[1, 0], a - spun[1, 1]
+        bent, slope = 0.0, 1.0
+        if values[c, 6] > 0 or kind == MESH:
+            angle = 0.0
+            if kind == MESH:
+                angle, first, second = wound(line * gap[0].conjugate(), values[c, 3]), -first, -second
+            elif kind == POLAR:
+                angle = wound(line.conjugate() * gap[0], 0.0)
+            else:
+                angle = wound(-values[c, 1] * 1j * line * other.conjugate(), 0.0)
+            _, slope, curve, third = law(pieces, values[c], angle)
+            if order == 2:
+                bent = curve * first * first
+            elif order == 3:
+                bent = third * first * first * first + 3 * curve * first * second
+        if kind == MESH:
+            turning = _log_rate(order, gap).imag
+            target[row] = -one * (slope * (spun[0, order - 1] - turning) + bent) - two * (spun[1, order - 1] - turning)
+        elif kind == POLAR:
+            found = _log_rate(order, gap)
+            target[row] = one * (slope * (found.imag - spun[0, order - 1]) + bent - found.real)
+        else:
+            seen = turned(order, line.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
+            if kind == RACK:
+                target[row] = -(one * difference + two * seen.real)
+            elif kind == FACE:
+                target[row] = bent - slope * difference - two * seen.imag
+            else:
+                target[row] = -seen.imag
+        row += 1
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _log_rate(order: int, gap: Complexes) -> complex:
+    """The derivative of that order of the logarithm of a vector: of its length, and i times its direction."""
+    first = gap[1] / gap[0]
+    if order == 1:
+        return complex(first)
+    second = gap[2] / gap[0]
+    if order == 2:
+        return complex(second - first * first)
+    return complex(gap[3] / gap[0] - 3 * first * second + 2 * first * first * first)
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _square_rate(order: int, gap: Complexes) -> float:
+    """The derivative of that order of the squared length of a vector."""
+    out = 2 * (gap[0].conjugate() * gap[order]).real
+    if order == 2:
+        out += 2 * (gap[1].conjugate() * gap[1]).real
+    if order == 3:
+        out += 6 * (gap[1].conjugate() * gap[2]).real
+    return float(out)

@@ -1,0 +1,494 @@
+"""A linkage moved along a path of its drives: every group after the other, every step checked for continuity.
+
+`run` takes a `Program` (what to place in which order) and rows of drive values, and walks from row to row. Between rows
+the drives move on straight lines; a step is halved until what is found is near what was foretold, so that nothing
+jumps. Where rows are close and nothing special happens, `sweep` takes many of them at once. The theorems behind the
+checks are in docs/theory/kinematics.md.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import for_work, njit
+from gruebler._numeric.motion.dyads import dyad_square
+from gruebler._numeric.motion.placing import attempt, commit, forget, set_drives, zero_ahead
+from gruebler._numeric.motion.program import (
+    APART,
+    APPROACH,
+    CARRY,
+    DONE,
+    FLAT,
+    GOOD,
+    GROUP,
+    LEAST,
+    LIMIT,
+    LOST,
+    MEET,
+    NEAR,
+    NEAREST,
+    PUSH,
+    RPR,
+    SINGULAR,
+    START,
+    TURN,
+    Memory,
+    Poses,
+    Program,
+    Scratch,
+    new_memory,
+    new_scratch,
+)
+from gruebler._numeric.motion.registers import REGISTERS
+from gruebler._numeric.motion.sweep import steady, sweep, swept_links
+from gruebler._numeric.work_estimates import walking
+
+__all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
+
+Reals = NDArray[np.float64]
+_NOISE = 1e-14  # of squared roots: a hundred roundings
+_PAUSE = 16  # rows to walk after a sweep was stopped
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _square_at(
+    program: Program, path: Reals, speeds: Reals, at: float, wanted: int, memory: Memory, s: Scratch
+) -> float:
+    """The squared root of one dyad somewhere near the last pose; NaN where something before it cannot be placed."""
+    set_drives(path, speeds, at, s)
+    verdict = attempt(program, 0, at, memory, s)
+    if verdict in (APPROACH, APART) and memory.which[0] == wanted:
+        for operation in program.operations:
+            if 2 <= operation[0] < GROUP and operation[9] == wanted:
+                return dyad_square(operation[0], s.points, s.lines, program.size)
+    if verdict == GOOD or (verdict == MEET and memory.which[0] == wanted):
+        return float(memory.roots[3, wanted] ** 2)
+    return np.nan
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _look_for_change(
+    program: Program, path: Reals, speeds: Reals, reach: float, turn: float, number: int, memory: Memory, s: Scratch
+) -> tuple[float, bool]:
+    """Where the square of a small root is least ahead of the last pose, and the sign behind that place.
+
+    If the least square is zero the root goes through zero (an exact change point) and changes its sign; if it is above
+    zero the linkage only passes near one. If it is below zero, there is a limit: returns where the square is negative.
+    """
+    low, high = memory.at[0], reach
+    ratio = 0.6180339887498949
+    inner, outer = high - ratio * (high - low), low + ratio * (high - low)
+    at_inner = _square_at(program, path, speeds, inner, number, memory, s)
+    at_outer = _square_at(program, path, speeds, outer, number, memory, s)
+    at, least = reach, np.inf  # the best so far: next to the zero dyads before this one may not be placed at all
+    for _ in range(200):
+        if at_inner < least:
+            at, least = inner, at_inner
+        if at_outer < least:
+            at, least = outer, at_outer
+        if at_inner < -FLAT:
+            return inner, True
+        if at_outer < -FLAT:
+            return outer, True
+        if high - low < 1e-9 * (reach - memory.at[0]) or high - low < 1e-15 * (1 + abs(high)):
+            break
+        if at_inner <= at_outer or np.isnan(at_inner):
+            high, outer, at_outer = outer, inner, at_inner
+            inner = high - ratio * (high - low)
+            at_inner = _square_at(program, path, speeds, inner, number, memory, s)
+        else:
+            low, inner, at_inner = inner, outer, at_outer
+            outer = low + ratio * (high - low)
+            at_outer = _square_at(program, path, speeds, outer, number, memory, s)
+    end = _square_at(program, path, speeds, reach, number, memory, s)  # NaN where something before is not placed
+    if least == np.inf or end <= 1.5 * least + _NOISE:  # still falling up to there: nothing is decided yet
+        return reach if reach == turn else memory.at[0] + 0.9 * (reach - memory.at[0]), False
+    memory.change[number] = at
+    memory.after[number] = -memory.signs[number] if least < FLAT else memory.signs[number]
+    return at, False
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _record(row: int, poses: Poses, memory: Memory, s: Scratch) -> None:
+    """Count whole turns, and write a row if it is one."""
+    order = len(poses.rates)
+    for link in range(len(s.turns)):
+        turn, last = s.turns[link], s.before[link]
+        if (turn.imag < 0) != (last.imag < 0) and last.real * abs(turn.imag) + turn.real * abs(last.imag) < 0:
+            s.turned[link] += 1 if turn.imag < 0 else -1
+        s.before[link] = turn
+        if row < 0:
+            continue
+        poses.turns[link, row] = turn
+        poses.whole[link, row] = s.turned[link]
+        for k in range(order + 1):
+            poses.places[k, link, row] = s.places[link, k]
+        for k in range(order):
+            poses.rates[k, link, row] = s.rates[link, k]
+    if row >= 0:
+        for m in range(len(poses.roots)):
+            poses.roots[m, row] = memory.roots[3, m]
+        for m in range(len(poses.unknowns)):
+            poses.unknowns[m, row] = memory.unknowns[3, m]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _recall(row: int, poses: Poses, memory: Memory, s: Scratch) -> None:
+    """Remember the rows up to this one as if they had been walked."""
+    memory.filled[0] = min(row + 1, 3)
+    for k in range(memory.filled[0]):
+        memory.at[k] = row - k
+        for m in range(len(poses.roots)):
+            memory.roots[k, m] = poses.roots[m, row - k]
+    for link in range(len(s.turns)):
+        s.before[link] = poses.turns[link, row]
+        s.turned[link] = poses.whole[link, row]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _least_root(memory: Memory) -> float:
+    """The least of the roots, at most 1; 1 too if it is zero, since then nothing is lost."""
+    least = 1.0
+    for m in range(memory.roots.shape[1]):
+        root = abs(memory.roots[0, m])
+        if 0 < root < least:
+            least = root
+    return least
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _expecting(memory: Memory) -> bool:
+    """Whether a root is going to be zero, or least, at a place that is known."""
+    for change in memory.change:
+        if change < np.inf:
+            return True
+    return False
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _fill_fixed(placed: int, poses: Poses) -> None:
+    """The links that nothing places rest, for a sweep."""
+    for link in range(len(poses.turns)):
+        if placed >> link & 1:
+            continue
+        poses.turns[link] = 1
+        for k in range(len(poses.places)):
+            poses.places[k, link] = 0
+        for k in range(len(poses.rates)):
+            poses.rates[k, link] = 0
+
+
+def run(
+    program: Program, path: Reals, speeds: Reals, signs: Reals, start: Reals, poses: Poses
+) -> tuple[int, int, float, int]:
+    """Move along the path.
+
+    Args:
+        program: the linkage.
+        path: (rows, drives) drive values.
+        speeds: (order, rows, drives) their time derivatives.
+        signs: (dyads,) the signs of the assembly modes at the first row.
+        start: (3 bodies and windings,) near the unknowns of larger groups at the first row.
+        poses: written.
+
+    Returns how it ended, how many rows are written, where on the path it stopped (in rows), and what is at fault: the
+    number of the dyad, or -1 minus the number of the larger group.
+    """
+    memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
+    s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
+    move = for_work(walk, walking(program, len(path), len(poses.rates)))
+    return move(program, path, speeds, signs, start, poses, memory, s, np.zeros(REGISTERS))
+
+
+@njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
+def walk(
+    program: Program,
+    path: Reals,
+    speeds: Reals,
+    signs: Reals,
+    start: Reals,
+    poses: Poses,
+    memory: Memory,
+    s: Scratch,
+    registers: Reals,
+) -> tuple[int, int, float, int]:
+    """`run` with arrays to work in."""
+    memory.filled[0] = 0
+    for k in range(len(signs)):
+        memory.signs[k] = signs[k]
+        memory.change[k] = memory.met[k] = np.nan
+    memory.singular[0] = 0
+    for k in range(len(start)):
+        memory.unknowns[0, k] = start[k]
+    order = len(poses.rates)
+    set_drives(path, speeds, 0.0, s)
+    verdict = attempt(program, order, 0.0, memory, s)
+    while verdict == MEET:
+        _meet(program, path, speeds, 0.0, memory, s)
+        set_drives(path, speeds, 0.0, s)
+        verdict = attempt(program, order, 0.0, memory, s)
+    if verdict != GOOD:
+        return START, 0, 0.0, memory.which[0] if verdict == APART else -1 - memory.which[0]
+    for link in range(len(s.turns)):
+        s.before[link] = s.turns[link]
+        s.turned[link] = 0
+    commit(0.0, memory)
+    _record(0, poses, memory, s)
+    placed = swept_links(program) if len(path) > 8 else 0
+    if placed:
+        _fill_fixed(placed, poses)
+    row, pause = 1, 2
+    step, fault = 1.0, np.inf
+    while row < len(path):
+        if placed and row >= pause and fault == np.inf and not _expecting(memory):
+            reached = sweep(program, path, speeds, memory.signs, row, placed, poses, registers)
+            pause = reached + _PAUSE
+            if reached > row:
+                row, step, pause = reached, 1.0, reached
+                _recall(row - 1, poses, memory, s)
+                continue
+        status, at, step, fault, number = _walk_to(program, path, speeds, row, step, fault, poses, memory, s)
+        if status != DONE:
+            return status, row, at, number
+        row += 1
+    return DONE, row, float(row - 1), 0
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _walk_to(
+    program: Program,
+    path: Reals,
+    speeds: Reals,
+    row: int,
+    step: float,
+    fault: float,
+    poses: Poses,
+    memory: Memory,
+    s: Scratch,
+) -> tuple[int, float, float, float, int]:
+    """From the last pose to a row, in as many steps as are needed.
+
+    Returns the status, the place on the path, the next step, where ahead something cannot be assembled, and what.
+    """
+    unit = memory.unit[0] = _unit(program, path, row)
+    at, longest = memory.at[0], min(1.0, unit)
+    if not _remembered(path, row, memory):
+        memory.filled[0] = 1
+        step = min(step, 0.01 * unit * _least_root(memory))
+    while at < row:
+        left = row - at
+        full = step >= left * (1 - 1e-9)
+        trial = float(row) if full else at + step
+        set_drives(path, speeds, trial, s)
+        verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
+        if verdict == GOOD:
+            number = _reversed(program, memory, s)
+            if number >= 0:
+                memory.change[number], memory.after[number] = at, -1.0 if memory.roots[3, number] > 0 else 1.0
+                verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
+                if verdict != GOOD or _reversed(program, memory, s) >= 0:
+                    return SINGULAR, at, step, fault, number
+            commit(trial, memory)
+            _record(row if full else -1, poses, memory, s)
+            at = trial
+            if at >= fault:
+                fault = np.inf
+            step = min(2 * step, longest) if fault == np.inf else (fault - at) / 2
+            if step < LEAST * (1 + abs(at)) and at < row:
+                return LIMIT, at, step, fault, memory.which[0]
+            continue
+        number = memory.which[0]
+        if verdict == APPROACH and abs(memory.roots[0, number]) < NEAR and fault == np.inf:
+            step, fault = _approach(program, path, speeds, step, number, memory, s)
+            continue
+        if verdict == MEET:
+            _meet(program, path, speeds, trial, memory, s)
+            continue
+        if verdict == APART:
+            fault = min(fault, trial)
+        step = min(step, left) / 2
+        if verdict == LOST and _straight(number, program, memory):
+            if _cross(program, path, speeds, row, number, poses, memory, s):
+                at, step = memory.at[0], max(memory.at[0] - at, longest / 64)
+                continue
+        if step < LEAST * (1 + abs(at)):
+            if verdict == LOST:
+                return SINGULAR, at, step, fault, -1 - number
+            return LIMIT, at, step, fault, number
+    return DONE, at, step, fault, 0
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
+    """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
+
+    Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
+    changes. Steps are too short for any other turn like that.
+    """
+    for operation in program.operations:
+        if operation[0] == RPR:
+            number, body = operation[9], operation[7]
+            if memory.change[number] < np.inf and memory.after[number] == memory.signs[number]:
+                continue  # it has only passed near a change point, and may turn fast
+            turn, last = s.turns[body], s.before[body]
+            if abs(memory.roots[3, number]) < NEAR and turn.real * last.real + turn.imag * last.imag < 0:
+                return int(number)
+    return -1
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _remembered(path: Reals, row: int, memory: Memory) -> bool:
+    """Measure the past in the way to this row, on one straight line with it or back; false if it foretells nothing."""
+    if row < 2:
+        return False
+    most, ratio, off = 0.0, 0.0, 0.0
+    for d in range(path.shape[1]):
+        past = path[row - 1, d] - path[row - 2, d]
+        if abs(past) > most:
+            most, ratio = abs(past), (path[row, d] - path[row - 1, d]) / past
+    for d in range(path.shape[1]):
+        way, past = path[row, d] - path[row - 1, d], path[row - 1, d] - path[row - 2, d]
+        off = max(off, abs(way - ratio * past))
+    if ratio == 0 or off > 1e-9 * most:
+        return steady(path, row)
+    for k in range(memory.filled[0]):
+        memory.at[k] = row - 1 + (memory.at[k] - (row - 1)) / ratio
+    if memory.filled[0] > 1 and (memory.at[0] > row or (memory.at[0] < row - 1 and ratio < 0)):
+        forget(memory)  # a pose behind a change point, where this way does not come from or lead to
+    return True
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _unit(program: Program, path: Reals, row: int) -> float:
+    """The longest step of the drives, in rows, on the way to a row."""
+    out = 1e6
+    for d in range(path.shape[1]):
+        way = abs(path[row, d] - path[row - 1, d])
+        if way * out > program.most[d]:
+            out = program.most[d] / way
+    return out
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: Memory, s: Scratch) -> None:
+    """Find the direction of a dyad whose outer joints meet, from poses shortly before (at the start: after) it."""
+    number, body = memory.which[0], 0
+    for operation in program.operations:
+        if 2 <= operation[0] < GROUP and operation[9] == number:
+            body = operation[7]
+    turn, weights = 0j, (3.0, -3.0, 1.0)
+    for k in range(3):
+        if len(path) > 1:
+            row = max(1, int(np.ceil(at)))
+            step = min(0.3, 1e-3 * _unit(program, path, row)) * (k + 1)
+            place = at + step if at < 1 and at - step < 0 else at - step
+            set_drives(path, speeds, place, s)
+            if attempt(program, 0, place, memory, s) == GOOD:
+                turn += weights[k] * s.turns[body]
+                continue
+        turn = s.before[body] if at > 0 else 1 + 0j
+        break
+    memory.direction[number] = turn / abs(turn)
+    memory.met[number] = at
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _straight(number: int, program: Program, memory: Memory) -> bool:
+    """Whether a larger group comes straight to a singular position: then it is a change point, else a limit.
+
+    At a limit the rates of the unknowns grow as the determinant falls, one over the other; at a change point they stay.
+    """
+    if memory.filled[0] < 3 or not 10 * NEAREST < zero_ahead(number, memory) / memory.unit[0] < 1e-3:
+        return False
+    t, y, d = memory.at, memory.unknowns, memory.determinants
+    growth = (d[2, number] - d[0, number]) / (d[0, number] + d[1, number])
+    bend = slope = 0.0
+    for k in range(3 * program.bodies[number], 3 * program.bodies[number + 1]):
+        scale = program.size if k % 3 == 2 else 1.0
+        late, early = (y[0, k] - y[1, k]) / (t[0] - t[1]), (y[1, k] - y[2, k]) / (t[1] - t[2])
+        bend, slope = max(bend, scale * abs(late - early)), max(slope, scale * abs(early))
+    straight: bool = growth > 0.05 and bend < 0.1 * growth * slope
+    return straight
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _cross(
+    program: Program, path: Reals, speeds: Reals, row: int, number: int, poses: Poses, memory: Memory, s: Scratch
+) -> bool:
+    """Go straight through a change point of a larger group; a row that lies in it is placed between both sides."""
+    at, unit, order = memory.at[0], memory.unit[0], len(poses.rates)
+    ahead, left = zero_ahead(number, memory), row - at
+    inside = left < 6 * ahead
+    if inside and ahead > 3e-5 * unit:
+        return False
+    beyond = (
+        row + min(1e-2 * unit, 0.5) if inside else min(at + 8 * ahead, float(row))
+    )  # behind it even if four ranks are lost
+    full = beyond == row
+    memory.singular[0] = 1 + number
+    if inside:
+        for d in range(path.shape[1]):
+            s.drives[0, d] = path[row, d] + (beyond - row) * (path[row, d] - path[row - 1, d])
+    else:
+        set_drives(path, speeds, beyond, s)
+    verdict = attempt(program, order if full else 0, beyond, memory, s)
+    memory.singular[0] = 0
+    if verdict == GOOD:
+        commit(beyond, memory)
+        if not inside:
+            _record(row if full else -1, poses, memory, s)
+            return True
+    elif not inside or row < len(path) - 1:
+        return False
+    memory.singular[0] = -1 - number
+    set_drives(path, speeds, float(row), s)
+    verdict = attempt(program, order, float(row), memory, s)
+    memory.singular[0] = 0
+    if verdict != GOOD:
+        return False
+    if memory.at[0] < row:
+        commit(float(row), memory)
+    _record(row, poses, memory, s)
+    return True
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _turn_ahead(path: Reals, at: float, reach: float) -> float:
+    """The first row ahead at which the drives turn back or rest, or the last one, as far as the reach needs it.
+
+    Behind it a root comes to the same change point once more, and its square has a second least value there.
+    """
+    row = int(np.floor(at)) + 1
+    while row < len(path) - 1 and row < reach:
+        forth = 0.0
+        for d in range(path.shape[1]):
+            forth += (path[row + 1, d] - path[row, d]) * (path[row, d] - path[row - 1, d])
+        if forth <= 0:
+            return float(row)
+        row += 1
+    return float(len(path) - 1)
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _approach(
+    program: Program, path: Reals, speeds: Reals, step: float, number: int, memory: Memory, s: Scratch
+) -> tuple[float, float]:
+    """A small root that falls: look ahead for the place where it is least. Returns the next step and fault."""
+    at, now, past = memory.at[0], memory.roots[0, number], memory.roots[1, number]
+    slope = (now - past) / (at - memory.at[1])
+    ahead = abs(now / slope) if slope != 0 else step
+    memory.change[number] = np.nan
+    turn = _turn_ahead(path, at, at + 4 * ahead)
+    if now * now < _NOISE and at + ahead < turn:  # an exact change point: squares do not tell its place
+        memory.change[number], memory.after[number] = at + ahead, -memory.signs[number]
+        return max(2 * ahead, 1e-12), np.inf
+    reach = min(at + max(4 * ahead, 1e-13 * (1 + at)), turn)
+    place, negative = _look_for_change(program, path, speeds, reach, turn, number, memory, s)
+    if negative:
+        return place - at, place
+    if not np.isnan(memory.change[number]):
+        return max(2 * (place - at), 1e-12), np.inf
+    memory.change[number] = place  # falling all the way: as it was, up to there and no further
+    memory.after[number] = 0
+    return place - at, np.inf

@@ -1,0 +1,400 @@
+"""One pose of a linkage: everything placed in solving order, and whether that may be trusted."""
+
+from __future__ import annotations
+
+from math import cos, sin, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler._numeric.compiling import njit
+from gruebler._numeric.motion.closure import MESH, closing, wound
+from gruebler._numeric.motion.closure_rates import closing_rates
+from gruebler._numeric.motion.dyads import dyad_place, dyad_rates, dyad_square, meeting
+from gruebler._numeric.motion.newton import factor, newton, settle, solve_factored
+from gruebler._numeric.motion.planar_jets import carry, element, turned
+from gruebler._numeric.motion.program import (
+    APART,
+    APPROACH,
+    FARTHEST,
+    GOOD,
+    GROUP,
+    LOST,
+    MEET,
+    NEAREST,
+    PRP,
+    RPP,
+    RPR,
+    RRR,
+    TURN,
+    Memory,
+    Program,
+    Scratch,
+)
+
+__all__ = ["attempt", "commit", "forget", "set_drives", "zero_ahead"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Ints = NDArray[np.int64]
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _drive(kind: int, operation: Ints, program: Program, order: int, s: Scratch) -> None:
+    """Place a driven link against the link that its drive holds on to."""
+    near, far = program.links[operation[2]], program.links[operation[3]]
+    one, other = operation[2], operation[3]
+    sign, d = operation[4], operation[1]
+    element(
+        order, near, program.points[one], program.lines[one], s.places, s.turns, s.rates, 0, s.points, s.lines, s.spins
+    )
+    point = program.points[other]
+    if kind == TURN:
+        angle = sign * s.drives[0, d]
+        turn = s.turns[near] * complex(cos(angle), sin(angle))
+        s.turns[far] = turn
+        s.places[far, 0] = s.points[0, 0] - turn * point
+        if order == 0:
+            return
+        for k in range(order):
+            s.rates[far, k] = s.rates[near, k] + sign * s.drives[k + 1, d]
+        w, a, j = s.rates[far, 0], s.rates[far, 1], s.rates[far, 2]
+        for k in range(1, order + 1):
+            s.places[far, k] = s.points[0, k] - turned(k, turn, w, a, j, point, 0j, 0j, 0j)
+        return
+    line = s.lines[0]
+    turn = line * program.lines[other].conjugate()
+    s.turns[far] = turn
+    way0, way1, way2, way3 = s.drives[0, d] + 0j, s.drives[1, d] + 0j, s.drives[2, d] + 0j, s.drives[3, d] + 0j
+    if sign < 0:  # the way is measured along the far link's line, to the near link's point
+        way0, way1, way2, way3 = -way0, -way1, -way2, -way3
+    for k in range(order):
+        s.rates[far, k] = s.rates[near, k]
+    w, a, j = s.rates[near, 0], s.rates[near, 1], s.rates[near, 2]
+    for k in range(order + 1):
+        s.places[far, k] = (
+            s.points[0, k]
+            + turned(k, line, w, a, j, way0, way1, way2, way3)
+            - turned(k, turn, w, a, j, point, 0j, 0j, 0j)
+        )
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _root(square: float, number: int, at: float, memory: Memory) -> tuple[int, float]:
+    """The signed root of a dyad at a place on the path, and whether it may be trusted."""
+    if not square >= -1e-13:
+        return APART, 0.0
+    root = sqrt(square) if square > 0 else 0.0
+    sign = memory.signs[number]
+    change = memory.change[number]
+    if not np.isnan(change):
+        sign = sign if at <= change else memory.after[number]  # 0 if nothing is known of what lies there
+        return GOOD if sign != 0 else APPROACH, root * sign
+    count = memory.filled[0]
+    if count == 0:
+        return GOOD, root * sign
+    now = memory.roots[0, number]
+    if count > 1:
+        slope = (now - memory.roots[1, number]) / (memory.at[0] - memory.at[1])
+        foretold = now + slope * (at - memory.at[0])
+        if sign * foretold < 0.5 * sign * now:
+            return APPROACH, root * sign
+    if root < 0.25 * abs(now):
+        return APPROACH, root * sign
+    return GOOD, root * sign
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _sine(sine: float, number: int, memory: Memory) -> tuple[int, float]:
+    """The same for a dyad of one mode: its lines may not become parallel."""
+    if not abs(sine) > 1e-12 or (memory.filled[0] > 0 and sine * memory.roots[0, number] < 0):
+        return APART, sine
+    return GOOD, sine
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
+    """Extrapolate the unknowns of a larger group from the last poses into the trial."""
+    t = memory.at
+    count = memory.filled[0]
+    if count > 2 and abs(t[0] - t[2]) < 1e-6 * abs(t[0] - t[1]):  # there and back by equal steps
+        count = 2
+    for k in range(first, last):
+        y = memory.unknowns[0, k]
+        if count > 2 and memory.singular[0] > 0:  # a straight line: near poses are too near one another for more
+            y += (y - memory.unknowns[2, k]) / (t[0] - t[2]) * (at - t[0])
+        elif count > 1:
+            d01 = (y - memory.unknowns[1, k]) / (t[0] - t[1])
+            y += d01 * (at - t[0])
+            if count > 2:
+                d12 = (memory.unknowns[1, k] - memory.unknowns[2, k]) / (t[1] - t[2])
+                y += (d01 - d12) / (t[0] - t[2]) * (at - t[0]) * (at - t[1])
+        memory.unknowns[3, k] = y
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def zero_ahead(number: int, memory: Memory) -> float:
+    """How far ahead of the last pose the determinant of a larger group is zero if it falls on so, or infinity."""
+    now, past = memory.determinants[0, number], memory.determinants[1, number]
+    if now * past <= 0 or abs(now) >= abs(past) or memory.at[0] <= memory.at[1]:
+        return np.inf
+    return float((memory.at[0] - memory.at[1]) * now / (past - now))
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _expected(number: int, first: int, last: int, size: float, at: float, memory: Memory, s: Scratch) -> bool:
+    """Whether the trial of a larger group is near what was foretold, and on the same side of singular positions."""
+    missed = moved = 0.0
+    for k in range(first, last):
+        scale = size if k % 3 == 2 else 1.0
+        missed = max(missed, scale * abs(memory.unknowns[3, k] - s.foretold[k - first]))
+        moved = max(moved, scale * abs(memory.unknowns[3, k] - memory.unknowns[0, k]))
+    if memory.singular[0] == 1 + number:
+        return missed <= 0.02 * moved
+    if missed > 1e-7 * size and missed > (0.25 * moved if memory.filled[0] > 1 else 0.01 * size):
+        return False
+    ahead = zero_ahead(number, memory) if memory.filled[0] > 1 else np.inf
+    if at - memory.at[0] > 0.5 * ahead and ahead > NEAREST * memory.unit[0]:
+        return False
+    far: bool = memory.determinants[3, number] / memory.determinants[0, number] > 0.1
+    return far
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _values(start: int, end: int, program: Program, memory: Memory, s: Scratch) -> None:
+    """The numbers of the closing conditions; angles that count whole turns as they were in the last pose."""
+    for c in range(start, end):
+        for k in range(3):
+            s.values[c - start, k], s.values[c - start, 5 + k] = program.values[c, k], program.values[c, 3 + k]
+        first = program.windings[c]
+        if first >= 0:
+            s.values[c - start, 3], s.values[c - start, 4] = memory.unknowns[0, first], memory.unknowns[0, first + 1]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _wind(start: int, end: int, root: int, program: Program, memory: Memory, s: Scratch) -> bool:
+    """Write the angles that count whole turns into the trial; false if one has turned too far to be sure of them."""
+    for c in range(start, end):
+        first = program.windings[c]
+        if first < 0:
+            continue
+        points, lines = s.ends, s.directions
+        for side in range(2):
+            slot = 2 * (c - start) + side
+            body = program.owners[2 * c + side]
+            points[side], lines[side] = s.group_points[slot, 0], s.group_lines[slot]
+            if body >= 0:
+                k = 3 * (root + body)
+                turn = complex(cos(memory.unknowns[3, k + 2]), sin(memory.unknowns[3, k + 2]))
+                points[side] = complex(memory.unknowns[3, k], memory.unknowns[3, k + 1]) + turn * points[side]
+                lines[side] = turn * lines[side]
+        near = memory.unknowns[0, first], memory.unknowns[0, first + 1]
+        if program.kinds[c] == MESH:
+            along = (points[1] - points[0]).conjugate()
+            memory.unknowns[3, first] = wound(lines[0] * along, near[0])
+            memory.unknowns[3, first + 1] = wound(lines[1] * along, near[1])
+        else:
+            memory.unknowns[3, first] = wound(lines[0].conjugate() * lines[1], near[0])
+            memory.unknowns[3, first + 1] = 0
+        for k in range(2):
+            if memory.filled[0] > 0 and abs(memory.unknowns[3, first + k] - near[k]) > FARTHEST:
+                return False
+    return True
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def _group(number: int, program: Program, order: int, at: float, memory: Memory, s: Scratch) -> bool:
+    """Place the bodies of a larger group by Newton's method from what is foretold."""
+    start, end = program.conditions[number], program.conditions[number + 1]
+    first, last = program.bodies[number], program.bodies[number + 1]
+    kinds, owners = program.kinds[start:end], program.owners[2 * start : 2 * end]
+    points, lines, spins = s.group_points, s.group_lines, s.group_spins
+    for slot in range(2 * (end - start)):
+        e = program.sides[2 * start + slot]
+        link = program.links[e]
+        element(
+            order, link, program.points[e], program.lines[e], s.places, s.turns, s.rates, slot, points, lines, spins
+        )
+    _foretell(at, 3 * first, 3 * last, memory)
+    unknowns = memory.unknowns[3, 3 * first : 3 * last]
+    foretold = s.foretold
+    for k in range(len(unknowns)):
+        foretold[k] = unknowns[k]
+    size = program.size
+    _values(start, end, program, memory, s)
+    values, at_it = s.values, memory.singular[0] == -1 - number
+    if at_it:
+        settle(
+            kinds,
+            values,
+            program.pieces,
+            owners,
+            points,
+            lines,
+            unknowns,
+            size,
+            s.residual,
+            s.jacobian,
+            s.normal,
+            s.pivots,
+        )
+    else:
+        steps, determinant = newton(
+            kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian, s.pivots, 8
+        )
+        memory.determinants[3, number] = determinant
+        if steps < 0 or (memory.filled[0] > 0 and not _expected(number, 3 * first, 3 * last, size, at, memory, s)):
+            return False
+    if not _wind(start, end, first, program, memory, s):
+        return False
+    n = 3 * (last - first)
+    for k in range(last - first):
+        turn = complex(cos(unknowns[3 * k + 2]), sin(unknowns[3 * k + 2]))
+        s.body_turns[k] = turn
+        for m in range(4):
+            s.body_places[k, m] = 0
+        for m in range(3):
+            s.body_rates[k, m] = 0
+        s.body_places[k, 0] = complex(unknowns[3 * k], unknowns[3 * k + 1])
+    if order > 0:
+        closing(kinds, values, program.pieces, owners, points, lines, unknowns, size, s.residual, s.jacobian)
+        factor(s.jacobian, n, s.pivots)
+        for k in range(1, order + 1):
+            closing_rates(
+                k,
+                kinds,
+                values,
+                program.pieces,
+                owners,
+                points,
+                lines,
+                spins,
+                s.body_turns,
+                s.body_rates,
+                s.body_places,
+                size,
+                s.gap,
+                s.spun,
+                s.residual,
+            )
+            solve_factored(s.jacobian, n, s.pivots, s.residual)
+            for b in range(last - first):
+                s.body_places[b, k] = complex(s.residual[3 * b], s.residual[3 * b + 1])
+                s.body_rates[b, k - 1] = np.nan if at_it else s.residual[3 * b + 2]
+    for k in range(last - first):
+        link = program.roots[first + k]
+        s.turns[link] = s.body_turns[k]
+        for m in range(order + 1):
+            s.places[link, m] = s.body_places[k, m]
+        for m in range(order):
+            s.rates[link, m] = s.body_rates[k, m]
+    return True
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def attempt(program: Program, order: int, at: float, memory: Memory, s: Scratch) -> int:
+    """Place everything at a place on the path; the drives stand in the scratch. Returns whether to trust it."""
+    for link in range(len(s.turns)):
+        s.turns[link] = 1
+        s.places[link, 0] = 0
+        for k in range(order):
+            s.places[link, k + 1] = 0
+            s.rates[link, k] = 0
+    for o in range(len(program.operations)):
+        operation = program.operations[o]
+        kind = operation[0]
+        if kind < RRR:
+            _drive(kind, operation, program, order, s)
+        elif kind < GROUP:
+            for slot in range(6):
+                e = operation[1 + slot]
+                link = program.links[e]
+                element(
+                    order,
+                    link,
+                    program.points[e],
+                    program.lines[e],
+                    s.places,
+                    s.turns,
+                    s.rates,
+                    slot,
+                    s.points,
+                    s.lines,
+                    s.spins,
+                )
+            number = operation[9]
+            square = dyad_square(kind, s.points, s.lines, program.size)
+            if kind in (PRP, RPP):
+                verdict, root = _sine(square, number, memory)
+            else:
+                verdict, root = _root(square, number, at, memory)
+            memory.roots[3, number] = root
+            if verdict != GOOD:
+                memory.which[0] = number
+                return verdict
+            one, two = operation[7], operation[8]
+            if kind in (RRR, RPR) and meeting(kind, s.points, s.lines, program.size):
+                if memory.met[number] != at:
+                    memory.which[0] = number
+                    return MEET
+                s.turns[one] = memory.direction[number]
+            dyad_place(kind, root, s.points, s.lines, one, two, s.places, s.turns, program.size)
+            if order > 0:
+                dyad_rates(kind, order, s.points, s.lines, s.spins, one, two, s.places, s.turns, s.rates)
+        elif kind == GROUP:
+            if not _group(operation[1], program, order, at, memory, s):
+                memory.which[0] = operation[1]
+                return LOST
+        else:
+            carry(order, operation[1], operation[2], s.places, s.turns, s.rates)
+    return GOOD
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def set_drives(path: Reals, speeds: Reals, at: float, s: Scratch) -> None:
+    row = min(int(at), len(path) - 1)
+    part = at - row
+    for d in range(path.shape[1]):
+        s.drives[0, d] = path[row, d]
+        if part > 0:
+            s.drives[0, d] += part * (path[row + 1, d] - path[row, d])
+    if part == 0:
+        for k in range(len(speeds)):
+            for d in range(path.shape[1]):
+                s.drives[k + 1, d] = speeds[k, row, d]
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def _copy(memory: Memory, source: int, target: int) -> None:
+    memory.at[target] = memory.at[source]
+    for m in range(memory.roots.shape[1]):
+        memory.roots[target, m] = memory.roots[source, m]
+    for m in range(memory.unknowns.shape[1]):
+        memory.unknowns[target, m] = memory.unknowns[source, m]
+    for m in range(memory.determinants.shape[1]):
+        memory.determinants[target, m] = memory.determinants[source, m]
+
+
+@njit(cache=True, error_model="numpy", _nrt=False)
+def forget(memory: Memory) -> None:
+    """Take the last pose back."""
+    _copy(memory, 1, 0)
+    _copy(memory, 2, 1)
+    memory.filled[0] -= 1
+
+
+@njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
+def commit(at: float, memory: Memory) -> None:
+    memory.at[3] = at
+    _copy(memory, 1, 2)
+    _copy(memory, 0, 1)
+    _copy(memory, 3, 0)
+    memory.filled[0] = min(memory.filled[0] + 1, 3)
+    if (memory.at[0] - memory.at[1]) * (memory.at[1] - memory.at[2]) <= 0:  # turned back: two poses may be one
+        memory.filled[0] = min(memory.filled[0], 2)
+    for number in range(len(memory.signs)):
+        change = memory.change[number]
+        if at >= change:  # not if it is NaN
+            if memory.after[number] != 0:
+                memory.signs[number] = memory.after[number]
+            memory.change[number] = np.nan

@@ -1,0 +1,23 @@
+"""What a motion shows: dead centres, strokes, times, transmission angles, and which links turn fully.
+
+`measures` computes all of them for a linkage with one drive; `rotatability` and `motion_roles` tell who turns
+fully: docs/theory/events.md.
+"""
+
+from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.measures import Measures, measures
+from gruebler.analysis.rotatability import DriveRange, Rotatability, drive_range, motion_roles, rotatability
+from gruebler.analysis.transmission import deviation_angle, transmission_angle
+
+__all__ = [
+    "DriveRange",
+    "Measures",
+    "Rotatability",
+    "deviation_angle",
+    "drive_range",
+    "follow",
+    "measures",
+    "motion_roles",
+    "rotatability",
+    "transmission_angle",
+]

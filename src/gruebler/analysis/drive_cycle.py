@@ -1,0 +1,405 @@
+"""The whole motion of a linkage with one drive: the drive's range, the poses in it, any further pose on demand.
+
+docs/theory/events.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import degrees, pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.change_point_rates import mend_rates
+from gruebler.kinematics.contacts import MESH, POLAR, Condition
+from gruebler.kinematics.drive_rows import drive_path
+from gruebler.kinematics.kernel_calls import follow_path
+from gruebler.kinematics.motion import Complexes, Motion, Reals, Stop
+from gruebler.kinematics.plan import Plan
+from gruebler.kinematics.reference_pose import at_home
+from gruebler.kinematics.root_finding import Samples, bracketed
+from gruebler.kinematics.solve import motion_of, move, planned
+from gruebler.linkages import Linkage
+from gruebler.notebook import Brief
+
+__all__ = ["Course", "PathCourse", "Span", "follow", "follow_path_of"]
+
+_CELLS = 360  # of the first grid
+_LEVELS = 5  # how often a cell is halved where the motion bends
+_STILL = 1e-12  # of the natural size: a rate (of a turn, by the drive) below it is a rounding
+_BEND = 1e-3  # by how much a rate may differ from its cubic, of the usual rate
+_MOST_TURNS = 8  # after which a linkage must be back where it was
+_MOST_WITH_WHEELS = 720  # the same with wheels, whose tooth numbers make long cycles
+_FAR = 20.0  # sizes: a slide that goes as far without a limit has none
+_BACK = 1e-7  # how near it is then
+_WELL = 1e-3  # a start with a root below it is near a change point or limit
+_END = 0.3  # how far from an end (of pi for the range) the nodes for values at it lie
+_NODES = 10
+_NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
+_ROUND = 1e-11  # radians: a full turn less than that is none
+_LAW_NOISE = (
+    1e-11,
+    1e-9,
+    1e-6,
+    1e-3,
+)  # of the usual size: errors of the pieces of laws and their derivatives, and room
+_OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
+
+
+class Span(NamedTuple):
+    """The range of a drive: radians, or lengths for a slide."""
+
+    low: float
+    high: float
+    full: bool
+    """Whether the drive goes round, and the linkage is back after ``turns`` turns."""
+    turns: int
+    """After how many turns of the drive everything repeats; 0 if it does not go round."""
+    stops: tuple[Stop | None, Stop | None]
+    """What ends it below and above; None where no limit was found (full turns, endless slides)."""
+
+    @property
+    def period(self) -> float:
+        """After how much the motion repeats; infinite if the drive does not go round."""
+        return 2 * pi * self.turns if self.full else float("inf")
+
+    @property
+    def width(self) -> float:
+        """How far the drive can go."""
+        return self.high - self.low
+
+    def wrapped(self, drive: float) -> float:
+        """A drive value as it is reported: of full turns the one in 0 to the period."""
+        if not self.full:
+            return drive
+        value = drive % self.period
+        return 0.0 if self.period - value < _ROUND else value
+
+
+@dataclass(frozen=True, repr=False)
+class Course(Brief):
+    """A linkage on one branch over the whole range of its drive."""
+
+    plan: Plan
+    start: Motion
+    """One row: where it was begun."""
+    span: Span
+    grid: Reals
+    """Drive values, ascending, finer where the motion bends; of a full turn the first comes once more at the end."""
+
+    @property
+    def linkage(self) -> Linkage:
+        """The linkage."""
+        return self.plan.linkage
+
+    @property
+    def turning_drive(self) -> bool:
+        """Whether the drive turns; else it slides."""
+        return _turns(self.plan)
+
+    def samples(self, order: int = 1) -> Samples:
+        """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""
+        noise = _LAW_NOISE[order:] if self.joints else ()
+        return Samples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
+
+    @cached_property
+    def joints(self) -> tuple[float, ...]:
+        """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
+        return law_joints(self)
+
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
+
+        Raises `LinkageError` if one of them cannot be reached.
+        """
+        order_of = np.argsort(drives, kind="stable")
+        first = self.start.drives[0]
+        path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
+        found, rows = _run(self.plan, path, order, self.start)
+        if not found.complete:
+            raise LinkageError(
+                f"the branch is lost within its range. {found.message()}",
+                f"die Einbaulage geht innerhalb des Bereichs verloren. {found.message('de')}",
+            )
+        return _rows(found, rows[1 + np.argsort(order_of, kind="stable")])
+
+    def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
+        """The value of a function of the poses at an end of the range, where poses themselves are ill-conditioned.
+
+        In t, drive = middle - cos t times half the width, it is analytic: it is extrapolated by a polynomial of degree
+        9 from t up to 0.3. Error of the order of 1e-10 of the function's size.
+        """
+        middle, half = (self.span.low + self.span.high) / 2, self.span.width / 2
+        if self.span.stops[int(upper)] is None:
+            return float(function(self.at(np.array([self.span.high if upper else self.span.low])))[0])
+        k = np.arange(_NODES)
+        t = _END / 2 * (1 - np.cos((2 * k + 1) * pi / (2 * _NODES)))
+        from_end = half * 2 * np.sin(t / 2) ** 2
+        values = function(self.at(middle + half - from_end if upper else middle - half + from_end))
+        weights = (-1.0) ** k * np.sin((2 * k + 1) * pi / (2 * _NODES)) / t
+        return float(weights @ values / weights.sum())
+
+
+def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Course:
+    """The course of a linkage with one drive.
+
+    It is begun at the linkage's home, else at drive value 0 or the first multiple of 5 degrees (for a slide: 1/40 of
+    the size) at which the branch can be assembled well away from its limits and change points.
+
+    Raises `LinkageError` if it has more drives than one, or cannot be assembled or moved at all.
+    """
+    plan = planned(linkage)
+    count = len(plan.linkage.mechanism.drives)
+    if count != 1:
+        raise LinkageError(
+            f"measures are those of linkages with one drive; this one has {count}",
+            f"Kenngrößen gehören zu Getrieben mit einem Antrieb; dieses hat {count}",
+        )
+    start = _begun(plan, branch)
+    span = _span(plan, start)
+    for stop in span.stops:
+        if stop is not None and stop.reason == "open":
+            found = replace(start, stop=stop)
+            raise LinkageError(found.message(), found.message("de"))
+    size = 1.0 if _turns(plan) else plan.lower.size
+    if span.width < _NARROW * size:
+        middle = (span.low + span.high) / 2
+        at = f"{round(degrees(middle), 4) + 0:g}°" if _turns(plan) else f"{middle:.9g} {linkage.unit}"
+        raise LinkageError(
+            f"the drive cannot move: all that can be assembled is one position, drive = {at}",
+            f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
+        )
+    course = Course(plan, start, span, np.array([span.low, span.high]))
+    return replace(course, grid=_grid(course))
+
+
+@dataclass(frozen=True, repr=False)
+class PathCourse(Course):
+    """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
+
+    ends: Reals
+    """(2, drives): where the path begins and ends."""
+
+    @property
+    def turning_drive(self) -> bool:
+        """The part of a path is no angle."""
+        return False
+
+    @property
+    def joints(self) -> tuple[float, ...]:
+        """None are sought along a path of several drives."""
+        return ()
+
+    def values(self, parts: Reals) -> Reals:
+        """The drive values at parts of the path; (n, drives)."""
+        return np.asarray(self.ends[0] + np.asarray(parts, np.float64)[:, None] * (self.ends[1] - self.ends[0]))
+
+    def at(self, drives: Reals, order: int = 3) -> Motion:
+        """The poses at parts of the path, in any order; rates by the part."""
+        order_of = np.argsort(drives, kind="stable")
+        parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
+        found = move(
+            self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
+        )
+        if not found.complete:
+            raise LinkageError(found.message(), found.message("de"))
+        return _rows(found, 1 + np.argsort(order_of, kind="stable"))
+
+
+def follow_path_of(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCourse:
+    """The course of a linkage along a straight path of its drives, (rows, drives), from the first row to the last.
+
+    Raises `LinkageError` if the drives do not move, or if the linkage cannot be moved to the end of the path.
+    """
+    plan = planned(linkage)
+    rows = drive_path(plan, path)
+    ends = np.array([rows[0], rows[-1]])
+    if (ends[0] == ends[1]).all():
+        raise LinkageError(
+            "the path of the drives has no length: its first row is its last",
+            "der Weg der Antriebe hat keine Länge: seine erste Zeile ist seine letzte",
+        )
+    start = move(plan, ends[:1], branch=branch)
+    if not start.complete:
+        raise LinkageError(start.message(), start.message("de"))
+    course = PathCourse(plan, start, Span(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
+    return replace(course, grid=_grid(course))
+
+
+def _turns(plan: Plan) -> bool:
+    return plan.lower.mechanism.drives[0].direction.startswith("R")
+
+
+def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, np.ndarray]:
+    """As `move` at speed 1, begun from a pose, by small rows; and the rows of the places."""
+    parts = np.maximum(1, np.ceil(np.abs(np.diff(places)) / plan.longest_steps[0])).astype(np.int64)
+    rows = np.concatenate([[0], np.cumsum(parts)])
+    path = np.interp(np.arange(rows[-1] + 1), rows, places).reshape(-1, 1)
+    speeds = np.zeros((order, *path.shape))
+    speeds[:1] = 1
+    signs = np.where(start.roots[0] < 0, -1.0, 1.0)
+    motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
+    if order:
+        mend_rates(plan, motion, path, speeds, signs)
+    return motion, rows
+
+
+def _rows(motion: Motion, rows: np.ndarray) -> Motion:
+    return replace(
+        motion,
+        drives=motion.drives[rows],
+        places=motion.places[:, rows],
+        turns=motion.turns[rows],
+        rates=motion.rates[:, rows],
+        whole=motion.whole[rows],
+        roots=motion.roots[rows],
+        unknowns=motion.unknowns[rows],
+    )
+
+
+def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
+    """One row on the branch, well assembled if there is one."""
+    labels = branch if branch is None or isinstance(branch, str) else tuple(branch)
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    best, margin = None, 0.0
+    for value in _candidates(plan):
+        motion = move(plan, [value], branch=labels)
+        root = float(np.abs(motion.roots[:, branching]).min(initial=1.0)) if len(motion) else -1.0
+        if best is None or root > margin:
+            best, margin = motion, root
+        if margin > _WELL:
+            break
+    assert best is not None
+    if not len(best):
+        raise LinkageError(
+            f"there is no position of the drive in which it can be assembled so. {best.message()}",
+            f"es gibt keine Antriebslage, in der es sich so zusammenbauen lässt. {best.message('de')}",
+        )
+    return best
+
+
+def _candidates(plan: Plan) -> Iterator[float]:
+    if plan.lower.home is not None:
+        yield float(at_home(plan, np.zeros(1)).drives[0])
+    step, count = (pi / 36, 36) if _turns(plan) else (plan.lower.size / 40, 120)
+    yield 0.0
+    for k in range(1, count + 1):
+        yield k * step
+        yield -k * step
+
+
+def _span(plan: Plan, start: Motion) -> Span:
+    q = float(start.drives[0, 0])
+    turning = _turns(plan)
+    most = _MOST_WITH_WHEELS if plan.wheels else _MOST_TURNS
+    longest = 2 * pi * most if turning else _FAR * plan.lower.size
+    steps = np.linspace(0, longest, (most if turning else 40) + 1)
+    above, rows = _run(plan, q + steps, 0, start)
+    back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
+    if back:
+        return Span(q, q + 2 * pi * back[0], True, back[0], (None, None))
+    short = steps[: _MOST_TURNS + 1] if turning else steps
+    if above.complete:
+        above = _rows(above, rows[: len(short)])
+    below, _ = _run(plan, q - short, 0, start)
+    low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
+    return Span(low, high, False, 0, (below.stop, above.stop))
+
+
+def _same(plan: Plan, motion: Motion, row: int) -> bool:
+    places = np.abs(motion.places[0, row] - motion.places[0, 0]).max() / plan.lower.size
+    return bool(max(places, np.abs(motion.turns[row] - motion.turns[0]).max()) < _BACK)
+
+
+def _grid(course: Course) -> Reals:
+    """Places in the span between which the rates are near to their cubics."""
+    span = course.span
+    if span.full:
+        first = span.low + _OFFSET * 2 * pi / _CELLS
+        s = first + np.linspace(0, span.width, _CELLS * span.turns + 1)
+    else:
+        s = pi * (np.arange(_CELLS) + 0.5) / _CELLS
+
+    def drive(s: Reals) -> Reals:
+        return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
+
+    least = _STILL / (1 if course.turning_drive else course.plan.lower.size)
+    suspect = np.ones(len(s) - 1, bool)
+    for _ in range(_LEVELS):
+        middles = (s[:-1] + s[1:])[suspect] / 2
+        rates = course.at(drive(np.concatenate([s, middles])), 2).rates
+        speed, change, between = rates[0, : len(s)], rates[1, : len(s)], rates[0, len(s) :]
+        usual = np.quantile(np.abs(speed), 0.9, axis=0)
+        width = np.diff(drive(s))[:, None]
+        cubic = (speed[:-1] + speed[1:]) / 2 + width / 8 * (change[:-1] - change[1:])
+        off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + least
+        bent = np.zeros(len(s) - 1, bool)
+        bent[suspect] = off.any(axis=1)
+        order = np.argsort(np.concatenate([s, middles]), kind="stable")
+        halved = np.flatnonzero(suspect)
+        parts = np.ones(len(s) - 1, int)
+        parts[halved] = 2
+        s = np.concatenate([s, middles])[order]
+        suspect = np.repeat(bent, parts)
+        if not suspect.any():
+            break
+    return drive(s)
+
+
+_SAME = 1e-9  # of the range: joints of two laws that are nearer are one
+
+
+def law_joints(course: Course) -> tuple[float, ...]:
+    """Drive values at which derivatives may jump, in rising order; of full turns in the period from the grid on."""
+    laws = [c for group in course.plan.conditions for c in group if c.law.joints]
+    if not laws:
+        return ()
+    grid = course.grid
+    motion = course.at(grid, 0)
+    found: list[float] = []
+    for condition in laws:
+        seen = _direction(motion, condition)
+        for angle in sorted({joint % (2 * pi) for joint in condition.law.joints}):
+            against = seen * np.exp(-1j * angle)
+            above = against.imag >= 0
+            cells = np.flatnonzero((above[:-1] != above[1:]) & (against.real[:-1] > 0))
+            low, high = grid[cells], grid[cells + 1]
+
+            def off(drives: Reals, condition: Condition = condition, angle: float = angle) -> Reals:
+                return np.asarray((_direction(course.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
+
+            found += bracketed(off, low, high).tolist() if len(cells) else []
+    return _merged(sorted(found), _SAME * course.span.width, course.span.period)
+
+
+def _merged(places: list[float], near: float, period: float) -> tuple[float, ...]:
+    out: list[float] = []
+    for place in places:
+        if not out or place - out[-1] > near:
+            out.append(place)
+    if len(out) > 1 and out[0] + period - out[-1] <= near:
+        out.pop()
+    return tuple(out)
+
+
+def _direction(motion: Motion, condition: Condition) -> Complexes:
+    """The argument of a law as a direction, as in the kernel `closure`."""
+    plan, chain = motion.plan, motion.plan.lower.mechanism.chain
+    points, lines = plan.element_arrays(plan.lower)
+    turns, places, along = [], [], []
+    for side in condition.sides:
+        k = chain.index(plan.keys[side][1])
+        turns.append(motion.turns[:, k])
+        places.append(motion.places[0, :, k] + motion.turns[:, k] * points[side])
+        along.append(motion.turns[:, k] * lines[side])
+    gap = places[1] - places[0]
+    if condition.kind == MESH:
+        return np.asarray(along[0] * np.conj(gap) / np.abs(gap))
+    if condition.kind == POLAR:
+        return np.asarray(np.conj(along[0]) * gap / np.abs(gap))
+    return np.asarray(-condition.values[1] * 1j * along[0] * np.conj(along[1]))

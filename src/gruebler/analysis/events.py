@@ -1,0 +1,432 @@
+"""Events of a motion, found as roots: dead centres, change points, zeros of the transfer functions.
+
+The transfer functions are those of the geometry: the output over the drive, its first and its second derivative with
+respect to the drive. Definitions, method and errors: docs/theory/events.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.analysis.drive_cycle import Course
+from gruebler.analysis.outputs import Output
+from gruebler.assur import Group
+from gruebler.kinematics.circuits import Circuit, circuit
+from gruebler.kinematics.motion import Motion, Reals
+from gruebler.kinematics.plan import Dyad
+from gruebler.kinematics.poses import Poses
+from gruebler.kinematics.redundancy import _Conditions
+from gruebler.kinematics.root_finding import Zero, bracketed, vanishing, zeros
+
+__all__ = [
+    "ChangePoint",
+    "Crossing",
+    "DeadCentre",
+    "Dwell",
+    "change_points",
+    "crossings",
+    "dead_centres",
+    "drive_pivot",
+    "dwells",
+    "dyad_change_points",
+    "natural",
+    "output_turns",
+    "stops",
+    "transfer_function",
+]
+
+_STILL = 1e-11  # a velocity (lengths in sizes) that is hardly ever larger is none
+_ASIDE = np.array(
+    [0.5**k for k in range(6, 0, -1)]
+)  # of the way from a dwell to the next joint: where the output is seen to move
+_NEAR = 1e-9  # of the range: joints of a law that are nearer are one
+_EVEN = 1e-9  # the same for its derivatives
+_EQUAL = 1e-9  # two distances that differ by less (of the size) say nothing about inner and outer
+_THERE = 1e-5  # radians: a pose that differs by less is the same
+_TOGETHER = 1e-8  # radians or sizes: change points that are nearer are one
+_LOST = 1e-6  # of the largest singular value: less is zero
+_AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
+_STEP = 0.02  # radians, or parts of the size
+
+
+class DeadCentre(NamedTuple):
+    """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
+
+    drive: float
+    """The drive's value; of full turns in 0 to the period."""
+    output: float
+    kind: str
+    """``maximum`` or ``minimum`` of the output, or ``flat``: it goes on in the same direction."""
+    flat: bool
+    """Whether the second derivative vanishes as well, so that the output dwells."""
+    side: str
+    """``inner`` or ``outer`` for the two extreme ones, else empty."""
+
+
+class Dwell(NamedTuple):
+    """A stretch of the drive on which the output rests: behind a cam or a Geneva drive."""
+
+    begin: float
+    """The drive's value; of full turns in 0 to the period."""
+    end: float
+    """The same, larger than ``begin``: beyond the period if the dwell goes over its end."""
+    output: float
+    kind: str
+    """``maximum`` or ``minimum`` of the output, or ``flat``: it goes on in the same direction."""
+    side: str
+    """``inner`` or ``outer`` for the two extreme ones, dead centres among them, else empty."""
+
+    @property
+    def duration(self) -> float:
+        """How far the drive moves meanwhile."""
+        return self.end - self.begin
+
+    @property
+    def drive(self) -> float:
+        """The drive's value in the middle; it may lie beyond the period."""
+        return (self.begin + self.end) / 2
+
+
+class Crossing(NamedTuple):
+    """A zero of a transfer function of order 0, 1 or 2, or of the next derivative."""
+
+    drive: float
+    order: int
+    value: float
+    """The transfer function of one order less: the extreme, if the order is 1 or more; for order 0 the slope."""
+    kind: str
+    """``maximum``, ``minimum`` or ``flat`` of that function; for order 0 ``rising``, ``falling`` or ``touching``."""
+
+
+class ChangePoint(NamedTuple):
+    """Where the assembly modes of a group meet and the motion goes on through."""
+
+    drive: float
+    links: tuple[str, ...]
+    form: str
+    several: bool = False
+    """Whether more than two curves of positions meet there, or two that touch one another."""
+
+
+def transfer_function(course: Course, output: Output, drives: Reals, order: int = 0) -> Reals:
+    """The transfer function of order 0 to 3 at drive values: psi, psi', psi'', psi''' in radians or lengths; (n,)."""
+    return output.track(course.at(np.asarray(drives, np.float64), max(order, 1)), order)
+
+
+def natural(course: Course, output: Output) -> float:
+    """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
+    size = course.plan.lower.size
+    return (1.0 if output.turning else size) / (1.0 if course.turning_drive else size)
+
+
+def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...]:
+    """The zeros of a transfer function: of order 0; 1, the output's extremes; 2, those of its velocity; 3, of psi''.
+
+    Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
+    """
+    least = (_EVEN if order > 1 else _STILL) * natural(course, output)
+    if not course.turning_drive:
+        least /= course.plan.lower.size ** max(order - 1, 0)
+
+    def jet(drives: Reals) -> Reals:
+        motion = course.at(drives)
+        rows = [output.track(motion, k) for k in range(order, 4)]
+        if order == 0 and output.turning:
+            half = rows[0] / 2
+            sine, cosine = np.sin(half), np.cos(half)
+            rows = [2 * sine, rows[1] * cosine, rows[2] * cosine - rows[1] ** 2 * sine / 2]
+        return np.stack(rows[:3])
+
+    samples = course.samples(order)
+    if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
+        samples = samples._replace(period=None)
+    found = _inside(course, zeros(jet, samples, least))
+    if order == 0 and output.turning and found:  # that sine falls where the angle rises through an odd multiple
+        turned = np.round(transfer_function(course, output, np.array([zero.at for zero in found])) / (2 * pi)) % 2 == 1
+        found = tuple(zero._replace(rises=zero.rises != odd) for zero, odd in zip(found, turned.tolist(), strict=True))
+    before = _before(course, output, found, order)
+    words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
+    return tuple(
+        Crossing(course.span.wrapped(zero.at), order, float(value), words[2 if zero.multiplicity == 2 else zero.rises])
+        for zero, value in zip(found, before, strict=True)
+    )
+
+
+def _before(course: Course, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
+    if not found:
+        return np.empty(0)
+    return transfer_function(course, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
+
+
+def _inside(course: Course, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+    """The zeros in the order in which they are reported."""
+    return tuple(sorted(found, key=lambda zero: course.span.wrapped(zero.at)))
+
+
+def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
+    """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
+
+    A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
+    output lies farther from the pivot of the drive, be it the maximum or the minimum of the output. Where there is no
+    such pivot or point, or both lie as far, the maximum of an angle is the inner one, the maximum of a way the outer
+    one. Dwells at the largest or smallest output are inner and outer in the same sense. Error of the drive
+    value: some 1e-15 by the curvature psi'', relative to its usual size; of multiple zeros some 1e-12.
+    """
+    return stops(course, output)[0]
+
+
+def dwells(course: Course, output: Output) -> tuple[Dwell, ...]:
+    """The stretches on which the output rests; none of an output that never moves.
+
+    An output can only begin or end to rest where a cam or Geneva drive passes to the next piece of its law: between
+    these places the motion is analytic. Error of begin and end: some 1e-14 of a turn.
+    """
+    return stops(course, output)[1]
+
+
+def stops(course: Course, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
+    """`dead_centres` and `dwells`."""
+
+    def jet(drives: Reals) -> Reals:
+        motion = course.at(drives)
+        return np.stack([output.track(motion, k) for k in (1, 2, 3)])
+
+    least, samples = _STILL * natural(course, output), course.samples(1)
+    found = _inside(course, zeros(jet, samples, least))
+    resting = vanishing(jet, samples, least) if course.joints else ()
+    values = transfer_function(course, output, np.array([zero.at for zero in found])) if found else np.empty(0)
+    centres = [
+        DeadCentre(
+            course.span.wrapped(zero.at),
+            float(value),
+            "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
+            zero.multiplicity > 1,
+            "",
+        )
+        for zero, value in zip(found, values, strict=True)
+    ]
+    rests = sorted(_dwell(course, output, begin, end) for begin, end in resting)
+    sides = _sides(course, output, [*centres, *rests])
+    return (
+        tuple(one._replace(side=side) for one, side in zip(centres, sides, strict=False)),
+        tuple(one._replace(side=side) for one, side in zip(rests, sides[len(centres) :], strict=True)),
+    )
+
+
+def _dwell(course: Course, output: Output, begin: float, end: float) -> Dwell:
+    """The rest of the output between two joints of laws."""
+    span, joints = course.span, np.array(course.joints)
+    if span.full:
+        first = span.wrapped(begin)
+        begin, end = first, first + end - begin
+        joints = np.concatenate([joints + k * span.period for k in (-2, -1, 0, 1, 2)])
+    else:
+        begin, end = (span.low if begin == course.grid[0] else begin), (span.high if end == course.grid[-1] else end)
+        joints = np.concatenate([[span.low], joints, [span.high]])
+    near = _NEAR * span.width
+    before = _way(course, output, begin, joints[joints < begin - near].max(initial=-np.inf))
+    after = _way(course, output, end, joints[joints > end + near].min(initial=np.inf))
+    kinds = {(1, -1): "maximum", (1, 0): "maximum", (0, -1): "maximum", (-1, 1): "minimum", (-1, 0): "minimum"}
+    kind = "flat" if before == after else kinds.get((before, after), "minimum")
+    value = float(transfer_function(course, output, np.array([(begin + end) / 2]))[0])
+    return Dwell(begin, end, value, kind, "")
+
+
+def _way(course: Course, output: Output, edge: float, joint: float) -> int:
+    """In which direction the output moves beside a dwell, on the way to the next joint: 1, -1; 0 if there is none."""
+    if not np.isfinite(joint):
+        return 0
+    rates = transfer_function(course, output, np.asarray(edge + (joint - edge) * _ASIDE), 1)
+    return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
+
+
+def _sides(course: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
+    """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
+    sides = [""] * len(stops)
+    turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
+    kinds = {stops[k].kind for k in turning}
+    if len(kinds) < 2 or _goes_round(course, output):
+        return sides
+    outputs = [stops[k].output for k in turning]
+    high, low = max(outputs), min(outputs)
+    near = _EQUAL * (high - low)
+
+    def first(value: float) -> int:
+        return min((k for k in turning if abs(stops[k].output - value) <= near), key=lambda k: stops[k].drive)
+
+    top, bottom = first(high), first(low)
+    far = _distances(course, output, np.array([stops[top].drive, stops[bottom].drive]))
+    if far is None or abs(far[0] - far[1]) < _EQUAL * course.plan.lower.size:
+        top_is_outer = not output.turning
+    else:
+        top_is_outer = bool(far[0] > far[1])
+    sides[top], sides[bottom] = ("outer", "inner") if top_is_outer else ("inner", "outer")
+    return sides
+
+
+def _goes_round(course: Course, output: Output) -> bool:
+    return bool(course.span.full and output.turning and output_turns(course, output))
+
+
+def output_turns(course: Course, output: Output) -> int:
+    """How many full turns an angle makes while everything repeats."""
+    if not (course.span.full and output.turning):
+        return 0
+    track = output.track(course.at(np.array([course.grid[0], course.grid[0] + course.span.width]), 0))
+    return round(float(track[1] - track[0]) / (2 * pi))
+
+
+def drive_pivot(course: Course) -> complex | None:
+    """Where a turning drive has its axis in the frame; None for any other drive."""
+    lower = course.plan.lower
+    first, _ = lower.reference(0)
+    if first != lower.mechanism.frame or not course.turning_drive:
+        return None
+    e = lower.elements[lower.mechanism.drives[0].joint, first]
+    return complex(e.x, e.y)
+
+
+def _distances(course: Course, output: Output, drives: Reals) -> Reals | None:
+    """How far the point that drives the output lies from the pivot of the drive."""
+    pivot, place = drive_pivot(course), _driving_point(course, output)
+    if pivot is None or place is None:
+        return None
+    motion = course.at(drives, 0)
+    k = course.plan.lower.mechanism.chain.index(place[0])
+    point = motion.places[0, :, k] + motion.turns[:, k] * place[1]
+    return np.asarray(np.abs(point - pivot))
+
+
+def _driving_point(course: Course, output: Output) -> tuple[str, complex] | None:
+    """The one pin by which the rest of its group takes hold of the output link."""
+    plan = course.plan
+    for group in plan.decomposition.groups:
+        mine = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
+        if not mine:
+            continue
+        inner = [(n, m) for n, m in group.joints if not m.outer and mine[0] in m.links]
+        if len(inner) != 1 or inner[0][1].pair.name != "revolute":
+            return None
+        number = inner[0][0]
+        body = (*group.bodies[mine[0]], *group.carried[mine[0]])
+        link = next(link for link in plan.lower.mechanism.chain.joints[number].links if link in body)
+        e = plan.lower.elements[number, link]
+        return link, complex(e.x, e.y)
+    return None
+
+
+def change_points(course: Course) -> tuple[ChangePoint, ...]:
+    """Where the motion goes through a position in which two assembly modes of a group meet.
+
+    The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
+    near by, so the zero is that of a polynomial of degree 7 through eight poses around it; error some 1e-12. Those of
+    larger groups are the places where another curve meets the `circuit`. Where several groups have one at once, more
+    than two curves meet. Raises `LinkageError` if there are larger groups whose circuit cannot be followed.
+    """
+    larger = _of_larger_groups(course) if course.plan.larger else ()
+    return _meetings(course, [*larger, *dyad_change_points(course)])
+
+
+def _meetings(course: Course, found: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
+    """The same in order, with those marked that several groups have at the same place."""
+    near = _TOGETHER * (1 if course.turning_drive else course.plan.lower.size)
+
+    def gap(one: ChangePoint, other: ChangePoint) -> float:
+        way = abs(one.drive - other.drive)
+        return min(way, abs(course.span.period - way))
+
+    ordered = sorted(found)
+    return tuple(
+        one._replace(several=one.several or any(other is not one and gap(one, other) < near for other in ordered))
+        for one in ordered
+    )
+
+
+def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
+    """Those of dyads alone."""
+    found = []
+    roots = course.at(course.grid, 0).roots
+    for dyad in (dyad for dyad in course.plan.dyads if dyad.branching):
+        mine = roots[:, dyad.number]
+        for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
+            found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
+    if course.plan.released and found:  # one of the independent part may be none of the linkage
+        found = [point for point in found if not regular(course.at(np.array([point.drive]), 0), 0)]
+    return _meetings(course, found)
+
+
+def _of_larger_groups(course: Course) -> Iterator[ChangePoint]:
+    made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
+    for change in made.change_points:
+        groups = list(_singular(course, made, change.pose))
+        for turn in range(course.span.turns) if course.span.full else range(-1, 2) if course.turning_drive else (0,):
+            drive = float(change.drive % (2 * pi) + 2 * pi * turn if course.turning_drive else change.drive)
+            if course.span.low <= drive <= course.span.high or course.span.full:
+                here = course.at(np.array([drive]), 0)
+                away = [here.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
+                if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
+                    for group in groups:
+                        yield ChangePoint(course.span.wrapped(drive), group.links, group.form(), change.several)
+
+
+def _singular(course: Course, made: Circuit, pose: Poses) -> Iterator[Group]:
+    """The larger groups that can move there while everything before them stands."""
+    plan, bodies, size = course.plan, list(made.system.bodies), course.plan.lower.size
+    rows = [
+        (z.real / size, z.imag / size, angle[0])
+        for z, angle in ((pose.places[0, 0, pose._link(link)], pose.angle(link)) for link in bodies)
+    ]
+    _, matrix = made.system.linearised(np.array(rows).ravel())
+    _, values, vectors = np.linalg.svd(matrix)
+    lost = int((values[: matrix.shape[1] - 1] < _LOST * values[0]).sum())
+    ways = vectors[-1 - max(lost, 1) :].reshape(-1, len(bodies) + len(made.system.arms), 3)
+    placed: list[int] = []
+    known = 1  # the motion of the circuit itself
+    for number, group in enumerate(plan.decomposition.groups):
+        placed += [bodies.index(link) for link in group.links if link in bodies]
+        rank = int((np.linalg.svd(ways[:, placed].reshape(len(ways), -1))[1] > _THERE).sum()) if placed else 0
+        if rank > known and any(part.group == number for part in plan.larger):
+            yield group
+        known = max(known, rank)
+
+
+def _change_point(course: Course, dyad: Dyad, cell: Reals) -> ChangePoint:
+    span = course.span
+    step = _STEP * (1 if course.turning_drive else course.plan.lower.size)
+
+    def root(drives: Reals) -> Reals:
+        return course.at(drives, 0).roots[:, dyad.number]
+
+    at = float(bracketed(root, cell[:1], cell[1:])[0])
+    for _ in range(2):
+        room = step if span.full else min(step, (at - span.low) / 5, (span.high - at) / 5)
+        places = at + _AROUND * room
+        y = root(places)
+        polynomial = np.polynomial.Polynomial.fit(_AROUND, y, 7)
+        near = [z.real for z in polynomial.roots() if abs(z.imag) < 1e-6 and abs(z.real) < 1]
+        if not near:
+            break
+        at += room * float(min(near, key=abs))
+    group = course.plan.decomposition.groups[dyad.group]
+    return ChangePoint(span.wrapped(at), group.links, group.form())
+
+
+_SINGULAR = 1e-6  # of the largest singular value: poses at change points are known to some 1e-8 only
+
+
+def regular(motion: Motion, row: int) -> bool:
+    """Whether in a pose all conditions together, with the drives held, fix every link: then it is no change point."""
+    conditions = _Conditions(motion.linkage)
+    x = []
+    for link in conditions.bodies:
+        k = motion._link(link)
+        z = motion.places[0, row, k] / motion.linkage.size
+        x += [z.real, z.imag, float(np.angle(motion.turns[row, k]))]
+    pose = np.array(x)
+    matrix = np.vstack([conditions.linearised(pose)[1], conditions.drives(pose)])
+    values = np.linalg.svd(matrix, compute_uv=False)
+    return bool(values[matrix.shape[1] - 1] > _SINGULAR * values[0])

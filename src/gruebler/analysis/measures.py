@@ -1,0 +1,328 @@
+"""Everything that is measured on a linkage with one drive, found by root finding: docs/theory/events.md.
+
+`Measures` (fields are stable):
+
+- ``linkage, output`` (`Output`: name, link, joint, turning), ``branch`` (labels at ``start``), ``start`` (drive value);
+- ``span`` (`Span`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
+- ``ends``: the output at both ends of a range that is no full turn, else None;
+- ``dead_centres`` (tuple of `DeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
+- ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
+- ``inner, outer`` (`DeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
+  ``output_turns`` (turns of the output per period);
+- ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
+  output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
+  ``dwell_time``;
+- ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_notes`` say if some are not known);
+- ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
+- ``transmission`` (`Transmission`: extremes, smallest, largest, legs, good; None if undefined, then
+  ``transmission_note`` says why);
+- ``explain(lang)`` prose, ``to_json()`` plain data with angles in degrees.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import isfinite, pi
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from gruebler.analysis.drive_cycle import Course, Span, follow
+from gruebler.analysis.events import (
+    ChangePoint,
+    Crossing,
+    DeadCentre,
+    Dwell,
+    change_points,
+    crossings,
+    dyad_change_points,
+    natural,
+    output_turns,
+    stops,
+    transfer_function,
+)
+from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.transmission import NoTransmissionAngleError, Transmission, measure_transmission
+from gruebler.errors import LinkageError
+from gruebler.fourbar.extremes import StrokeTimes
+from gruebler.kinematics.root_finding import sampled
+from gruebler.linkages import Linkage
+from gruebler.notebook import Brief
+
+__all__ = ["Measures", "Transfer", "measures"]
+
+_UNIFORM = 1e-9  # by how much the velocity of a uniform transmission may vary
+_STILL = 1e-11  # of the natural size: an output, or its velocity, that varies by less does not move
+
+
+class Transfer(NamedTuple):
+    """What the transfer functions of order 0, 1 and 2 do over the range."""
+
+    still: bool
+    """Whether the output does not move at all."""
+    uniform: bool
+    """Whether psi' is constant: a linear transfer function."""
+    ratio: float | None
+    """The transmission ratio i = omega in by omega out, with its sign, if it is constant."""
+    largest: float
+    """The largest psi' in the grid and at its extremes; grows without bound towards a limit of the drive."""
+    smallest: float
+    """The smallest (most negative) psi'."""
+    zeros: tuple[Crossing, ...]
+    """Zeros of the output itself."""
+    velocity: tuple[Crossing, ...]
+    """Extremes of psi': zeros of psi''."""
+    acceleration: tuple[Crossing, ...]
+    """Extremes of psi'': zeros of psi'''."""
+
+
+@dataclass(frozen=True, repr=False)
+class Measures(Brief):
+    """The measures of a linkage on one branch; angles in radians, lengths in the linkage's unit."""
+
+    linkage: Linkage
+    output: Output
+    branch: tuple[str, ...]
+    start: float
+    turning_drive: bool
+    span: Span
+    ends: tuple[float, float] | None
+    dead_centres: tuple[DeadCentre, ...]
+    dwells: tuple[Dwell, ...]
+    """Where the output rests, behind a cam or a Geneva drive."""
+    output_turns: int
+    travel: float | None
+    change_points: tuple[ChangePoint, ...]
+    change_points_notes: dict[str, str]
+    """Why those of larger groups are not known, by language; empty if they are."""
+    transfer: Transfer
+    transmission: Transmission | None
+    transmission_notes: dict[str, str]
+    """Why there is no transmission angle, by language; empty if there is one."""
+    speed_rpm: float | None
+
+    @property
+    def transmission_note(self) -> str:
+        """Why there is no transmission angle, in English; empty if there is one."""
+        return self.transmission_notes["en"]
+
+    @property
+    def inner(self) -> DeadCentre | Dwell | None:
+        """The inner dead centre, or the dwell in its place."""
+        return self._extreme("inner")
+
+    @property
+    def outer(self) -> DeadCentre | Dwell | None:
+        """The outer dead centre, or the dwell in its place."""
+        return self._extreme("outer")
+
+    @property
+    def stops(self) -> tuple[DeadCentre | Dwell, ...]:
+        """Where the output stops: dead centres, then dwells."""
+        return (*self.dead_centres, *self.dwells)
+
+    def _extreme(self, side: str) -> DeadCentre | Dwell | None:
+        return next((stop for stop in self.stops if stop.side == side), None)
+
+    @property
+    def phi_forward(self) -> float | None:
+        """The drive angle from the inner to the next outer dead centre, in the positive sense, less dwells between."""
+        return self._way(self.inner, self.outer)
+
+    @property
+    def phi_back(self) -> float | None:
+        """The drive angle from the outer to the next inner dead centre, in the positive sense, less dwells between."""
+        return self._way(self.outer, self.inner)
+
+    def _way(self, start: DeadCentre | Dwell | None, end: DeadCentre | Dwell | None) -> float | None:
+        """How far the drive turns, while the output moves, from one stop to the next that is like the other.
+
+        Of several stops like the first before that one the last counts: the ways are those of a mirror image, too.
+        """
+        if start is None or end is None or not self.span.full:
+            return None
+        period, near = self.span.period, 1e-9 * (self.travel or 0.0)
+
+        def alike(one: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
+            return [stop for stop in self.stops if stop.kind == one.kind and abs(stop.output - one.output) <= near]
+
+        def ahead(drive: float, of: float) -> float:
+            return (drive - of) % period
+
+        leaves = [stop.end if isinstance(stop, Dwell) else stop.drive for stop in alike(start)]
+        first = start.end if isinstance(start, Dwell) else start.drive
+        arrives = first + min(
+            ahead(stop.begin if isinstance(stop, Dwell) else stop.drive, first) for stop in alike(end)
+        )
+        way = min(ahead(arrives, leave) for leave in leaves)
+        begins = arrives - way
+        return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < way)
+
+    @property
+    def dwell_share(self) -> float:
+        """The part of the period, or of the drive's range, in which the output rests; 0 without a dwell."""
+        whole = self.span.period if self.span.full else self.span.width
+        return sum(dwell.duration for dwell in self.dwells) / whole
+
+    @property
+    def dwell_time(self) -> float | None:
+        """How long the output rests in one period at the speed given, in seconds."""
+        if self.speed_rpm is None or not self.span.full:
+            return None
+        return self.dwell_share * self.span.turns * 60 / abs(self.speed_rpm)
+
+    @property
+    def phi_max(self) -> float | None:
+        """The larger of the two."""
+        return None if self.phi_forward is None or self.phi_back is None else max(self.phi_forward, self.phi_back)
+
+    @property
+    def phi_min(self) -> float | None:
+        """The smaller of the two."""
+        return None if self.phi_forward is None or self.phi_back is None else min(self.phi_forward, self.phi_back)
+
+    @property
+    def delta_phi(self) -> float | None:
+        """By how much the larger is more than half the period."""
+        return None if self.phi_max is None or self.phi_min is None else (self.phi_max - self.phi_min) / 2
+
+    @property
+    def time_ratio(self) -> float | None:
+        """The larger by the smaller: the ratio of times at constant speed."""
+        return None if self.phi_max is None or self.phi_min is None else self.phi_max / self.phi_min
+
+    @property
+    def times(self) -> StrokeTimes | None:
+        """How long both ways take at the speed given, in seconds; a negative speed turns the other way."""
+        if self.speed_rpm is None or self.phi_forward is None or self.phi_back is None:
+            return None
+        angles = (self.phi_forward, self.phi_back)
+        return StrokeTimes(
+            *(x / (2 * pi) * 60 / abs(self.speed_rpm) for x in angles[:: 1 if self.speed_rpm > 0 else -1])
+        )
+
+    def explain(self, lang: str = "en") -> str:
+        """The measures as lines of prose, in English (``en``) or German (``de``)."""
+        from gruebler.analysis.messages import explain
+
+        return "\n".join(explain(self, lang))
+
+    def to_json(self) -> dict[str, Any]:
+        """The measures as plain data; angles in degrees, times in seconds."""
+        from gruebler.analysis.messages import plain
+
+        return plain(self)
+
+
+def measures(
+    linkage: Linkage,
+    speed_rpm: float | None = None,
+    branch: str | Iterable[str] | None = None,
+    output: str | None = None,
+) -> Measures:
+    """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
+
+    Args:
+        linkage: a linkage whose drive fixes the motion.
+        speed_rpm: the drive's speed in turns a minute, for the times; not zero.
+        branch: as for `move`; without it that of the home position, else all ``+`` and 1. It is understood where the
+            motion is begun: `gruebler.analysis.drive_cycle.follow`.
+        output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
+
+    Cost: some 60 ms for a dyad, 0.2 s for a group of four links.
+
+    Raises `LinkageError` if there are more drives than one, it cannot be assembled, or a name or number is wrong.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> found = measures(FourBar(a=2, b=7, c=4.5, d=5.5).linkage(), speed_rpm=300)
+    >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
+    (1.357364, 0.115159, 1.205044)
+    """
+    looked_at = find_output(linkage, output)
+    speed = _speed(speed_rpm)
+    course = follow(linkage, branch)
+    if speed is not None and not course.turning_drive:
+        raise LinkageError("a speed in turns a minute is that of a turning drive; this linkage has a sliding one")
+    span = course.span
+    ends = None
+    if not span.full:
+        low, high = (course.end(looked_at.track, upper) for upper in (False, True))
+        ends = low, high
+    centres, rests = stops(course, looked_at)
+    turns = output_turns(course, looked_at)
+    try:
+        changes, unknown = change_points(course), {"en": "", "de": ""}
+    except LinkageError as why:
+        changes, unknown = dyad_change_points(course), {lang: why.said(lang) for lang in ("en", "de")}
+    try:
+        transmission, notes = measure_transmission(course, looked_at), {"en": "", "de": ""}
+    except NoTransmissionAngleError as why:
+        transmission, notes = None, {lang: why.said(lang) for lang in ("en", "de")}
+    return Measures(
+        linkage,
+        looked_at,
+        course.start.branch,
+        float(course.start.drives[0, 0]),
+        course.turning_drive,
+        span,
+        ends,
+        centres,
+        rests,
+        turns,
+        None
+        if turns
+        else _travel(course, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
+        changes,
+        unknown,
+        _transfer(course, looked_at),
+        transmission,
+        notes,
+        speed,
+    )
+
+
+def _speed(rpm: float | None) -> float | None:
+    if rpm is None:
+        return None
+    if isinstance(rpm, bool) or not isinstance(rpm, (int, float, np.number)) or not isfinite(rpm) or rpm == 0:
+        raise LinkageError(f"the speed is a number of turns a minute other than 0, not {rpm!r}")
+    return float(rpm)
+
+
+def _travel(course: Course, output: Output, values: list[float]) -> float:
+    """The difference of the largest and the smallest output among its stops and ends."""
+    if not values:  # it goes nowhere, or its motion has no end: what the grid shows
+        track = transfer_function(course, output, course.grid)
+        least = _STILL * (1.0 if output.turning else course.plan.lower.size)
+        return float(np.ptp(track)) if np.ptp(track) > least else 0.0
+    return max(values) - min(values)
+
+
+def _transfer(course: Course, output: Output) -> Transfer:
+    track = transfer_function(course, output, course.grid, 1)
+    still, uniform = _kind(course, output)
+    usual = float(np.median(track))
+    velocity = () if still or uniform else crossings(course, output, 2)
+    acceleration = () if still or uniform else crossings(course, output, 3)
+    values = [*track.tolist(), *(crossing.value for crossing in velocity)]
+    return Transfer(
+        still,
+        uniform,
+        1 / usual if uniform else None,
+        usual if uniform else max(values),
+        usual if uniform else min(values),
+        () if still else crossings(course, output, 0),
+        velocity,
+        acceleration,
+    )
+
+
+def _kind(course: Course, output: Output) -> tuple[bool, bool]:
+    """Whether the output never moves, and whether psi' is constant: on each piece on which the motion is analytic."""
+    parts = sampled(lambda drives: transfer_function(course, output, drives, 1)[None], course.samples(1))
+    usual = float(np.median(np.concatenate([part[0] for part in parts])))
+    scale = _STILL * natural(course, output)
+    still = all(float(np.quantile(np.abs(part[0]), 0.9)) <= scale for part in parts)
+    varies = max(float(np.quantile(np.abs(part[0] - usual), 0.9)) for part in parts)
+    return still, not still and varies <= _UNIFORM * abs(usual)

@@ -1,0 +1,156 @@
+"""Which links of a linkage turn fully, and what its links are called for the way they really move."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from math import pi
+from typing import NamedTuple
+
+from gruebler.errors import LinkageError
+from gruebler.kinematics.circuits import Circuit, Quantity, circuit
+from gruebler.linkages import Linkage
+from gruebler.linkages.wheels import round_joints
+from gruebler.mechanism.roles import Role
+
+__all__ = ["DriveRange", "Rotatability", "drive_range", "motion_roles", "rotatability"]
+
+_FREEDOMS = {
+    "revolute": ("turn",),
+    "prismatic": ("slide",),
+    "roll_slide": ("turn", "slide"),
+    "double_slide": ("slide", "across"),
+}
+"""What two links can do against each other in a joint."""
+
+_ROUND = 1e-9  # a relative angle whose range is 2 pi but for this turns fully
+
+
+class Rotatability(NamedTuple):
+    """How two neighbouring links move against each other over the whole circuit."""
+
+    joint: str
+    links: tuple[str, str]
+    freedom: str
+    """``turn`` or ``slide``; ``across`` for the second direction of a double slide."""
+    full: bool
+    """Whether they turn fully against each other; False for slides."""
+    turns: int
+    """Whole turns of the second link against the first over a closed circuit."""
+    lowest: float
+    """The smallest relative angle (of the x axes, second against first), or the smallest way."""
+    highest: float
+
+    @property
+    def range(self) -> float:
+        """How far they turn or slide against each other."""
+        return self.highest - self.lowest
+
+
+class DriveRange(NamedTuple):
+    """How far a drive can be moved from the position in which the circuit starts."""
+
+    full: bool
+    """Whether it turns fully and never has to turn back."""
+    lowest: float
+    highest: float
+
+
+def rotatability(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> tuple[Rotatability, ...]:
+    """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
+
+    They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
+    answer holds for one circuit: that of the branch, or of the linkage's home.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> for row in rotatability(FourBar(25, 70, 40, 70).linkage()):
+    ...     print(row.joint, row.full, round(row.range / pi * 180, 3))
+    R(frame-crank) True 360.0
+    R(crank-coupler) True 360.0
+    R(coupler-rocker) False 79.846
+    R(frame-rocker) False 79.846
+    """
+    made = _circuit(linkage, branch)
+    return tuple(_row(made, *which) for which in _pairs(made.linkage))
+
+
+def _circuit(linkage: Linkage | Circuit, branch: str | Iterable[str] | None) -> Circuit:
+    if not isinstance(linkage, Circuit):
+        return circuit(linkage, branch=branch)
+    if branch is not None:
+        raise LinkageError("a circuit has its branch already")
+    return linkage
+
+
+def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
+    """Joints, links and freedoms; wheels and circles that touch are no neighbours."""
+    mechanism = linkage.mechanism
+    wheels = round_joints(mechanism, linkage.elements)
+    for number, joint in enumerate(mechanism.chain.joints):
+        if number in wheels:
+            continue
+        for one, two in itertools.combinations(joint.links, 2):
+            for freedom in _FREEDOMS[joint.pair.name]:
+                yield number, (two, one) if two == mechanism.frame else (one, two), freedom
+
+
+@lru_cache(maxsize=32)
+def _row(made: Circuit, joint: int, links: tuple[str, str], freedom: str) -> Rotatability:
+    lowest, highest = made.range(_quantity(joint, links, freedom), 1.0 if freedom == "turn" else made.system.lower.size)
+    turns, full = 0, False
+    if freedom == "turn":
+        ends = made.angle(links[1])[[0, -1]] - made.angle(links[0])[[0, -1]]
+        turns = round(float(ends[1] - ends[0]) / (2 * pi)) if made.closed else 0
+        full = turns != 0 or highest - lowest >= 2 * pi - _ROUND
+    name = made.linkage.mechanism.chain.joint_names()[joint]
+    return Rotatability(name, links, freedom, full, turns, lowest, highest)
+
+
+def _quantity(joint: int, links: tuple[str, str], freedom: str) -> Quantity:
+    first, other = links
+    if freedom == "turn":
+        return lambda poses, order: poses.angle(other, order) - poses.angle(first, order)
+    return lambda poses, order: poses.slide(joint, order, across=freedom == "across")
+
+
+def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, Role]:
+    """The role of each link from its real motion; `gruebler.mechanism.roles` knows the structure only.
+
+    At the frame a link with a turning joint is a crank if it turns fully, else a rocker; one with a slide is a slider;
+    a link that is not joined to the frame is a coupler.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> [role.said("de") for role in motion_roles(FourBar(40, 25, 40, 60).linkage()).values()]
+    ['Gestell', 'Schwinge', 'Koppel', 'Schwinge']
+    """
+    made = _circuit(linkage, branch)
+    mechanism = made.linkage.mechanism
+    out = dict.fromkeys(mechanism.chain.links, Role.COUPLER)
+    out[mechanism.frame] = Role.FRAME
+    for number, links, freedom in _pairs(made.linkage):
+        kind = mechanism.chain.joints[number].pair.name
+        if mechanism.frame not in links or kind == "roll_slide":
+            continue
+        link = links[1]
+        if kind != "revolute":
+            out[link] = Role.SLIDER
+        elif out[link] is not Role.SLIDER:
+            out[link] = Role.CRANK if _row(made, number, links, freedom).full else Role.ROCKER
+    return out
+
+
+def drive_range(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> DriveRange:
+    """How far the drive can be moved, both ways, without passing a limit.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> drive_range(FourBar(25, 70, 40, 70).linkage()).full
+    True
+    """
+    made = _circuit(linkage, branch)
+    if not made.drive_limits:
+        low, high = sorted(made.drive[[0, -1]].tolist())
+        full = made.closed and round((high - low) / (2 * pi)) != 0
+        return DriveRange(full or high - low >= 2 * pi - _ROUND, low, high)
+    stretch = next(s for s in made.stretches if s.start <= made.start <= s.end)
+    return DriveRange(False, *sorted(stretch.drives))

@@ -1,0 +1,331 @@
+"""The transmission angle in the generalised sense, along a motion and at its extremes.
+
+After Alt: the angle between the absolute path of the point at which the last group drives its output, and the path of
+that point relative to what drives the group. Definitions and proofs: docs/theory/events.md.
+"""
+
+from __future__ import annotations
+
+from math import pi, radians
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.analysis.drive_cycle import Course
+from gruebler.analysis.outputs import Output, find_output
+from gruebler.assur import Group
+from gruebler.errors import LinkageError
+from gruebler.kinematics.motion import Complexes, Motion, Reals
+from gruebler.kinematics.plan import Plan
+from gruebler.kinematics.root_finding import zeros
+
+__all__ = [
+    "GOOD",
+    "Extreme",
+    "Leg",
+    "NoTransmissionAngleError",
+    "Transmission",
+    "deviation_angle",
+    "driving_legs",
+    "measure_transmission",
+    "transmission_angle",
+]
+
+GOOD = radians(40)
+"""The rule of thumb: the transmission angle should not fall below."""
+
+_SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
+_LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
+_CONSTANT = 1e-8  # radians: an angle that varies by less is constant; next to change points half the digits are lost
+
+
+class NoTransmissionAngleError(LinkageError):
+    """The output has no transmission angle; why, in English and German."""
+
+    def __init__(self, en: str, de: str) -> None:
+        super().__init__(f"there is no transmission angle: {en}", f"es gibt keinen Übertragungswinkel: {de}")
+
+
+Element = tuple[str, complex, complex]
+"""A joint on a link: the link, the point, the direction."""
+
+
+class Leg(NamedTuple):
+    """A link (or a body of several) that pushes another at one joint."""
+
+    links: tuple[str, ...]
+    outer: Element
+    inner: Element
+    form: str
+    """RR, RP, PR: the joint on the side of the drive, then that on the side of the output."""
+    pushed: str
+    """The link that it pushes."""
+    guide: tuple[str, Element] | None
+    """How the pushed link hangs on the frame, if by one joint: R or P, and the joint on the frame."""
+
+
+class Extreme(NamedTuple):
+    """The transmission angle somewhere."""
+
+    drive: float
+    mu: float
+    """At most pi/2."""
+    links: tuple[str, ...]
+    """The driving leg."""
+
+    @property
+    def deviation(self) -> float:
+        """The deviation angle alpha, pi/2 less the transmission angle."""
+        return pi / 2 - self.mu
+
+
+class Transmission(NamedTuple):
+    """The extremes of the transmission angle."""
+
+    extremes: tuple[Extreme, ...]
+    """All local extremes and the values at the ends of a range, leg by leg, in the order of the drive."""
+    smallest: Extreme
+    largest: Extreme
+    """The largest for the leg that has the smallest."""
+    legs: tuple[tuple[str, ...], ...]
+    """The driving legs; with several the smallest angle counts."""
+
+    @property
+    def good(self) -> bool:
+        """Whether it nowhere falls below 40 degrees."""
+        return self.smallest.mu >= GOOD
+
+
+def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
+    """The legs by which the group of the output is driven.
+
+    A leg is a body of the group with one outer and one inner joint. It drives if it hangs on a link that moves, or has
+    the drive in itself. The output's own body is a leg only if there is no other.
+
+    Raises `LinkageError` with a sentence that says why there is no transmission angle.
+    """
+    if plan.released:
+        raise NoTransmissionAngleError(
+            "the linkage is overconstrained, and how its joints share the force depends on how they yield",
+            "das Getriebe ist übergeschlossen, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
+            "Nachgiebigkeit ab",
+        )
+    group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
+    if group is None:
+        raise NoTransmissionAngleError(
+            f"{output.link!r} is moved by the drive itself", f"{output.link!r} wird vom Antrieb selbst bewegt"
+        )
+    driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
+    legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
+    others = {k: leg for k, leg in legs.items() if output.link not in _bodies(group)[k]}
+    chosen = others or legs
+    if not chosen:
+        names = ", ".join(group.links)
+        raise NoTransmissionAngleError(
+            f"no link with two joints drives the group {group.form()} {{{names}}}",
+            f"kein Glied mit zwei Gelenken treibt die Gruppe {group.form()} {{{names}}}",
+        )
+    if any(leg.form == "PP" for leg in chosen.values()):
+        links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")
+        raise NoTransmissionAngleError(
+            f"{links} slides at both ends and transmits a couple only",
+            f"{links} gleitet an beiden Enden und überträgt nur ein Moment",
+        )
+    return tuple(chosen.values())
+
+
+def _bodies(group: Group) -> list[tuple[str, ...]]:
+    return [(*own, *carried) for own, carried in zip(group.bodies, group.carried, strict=True)]
+
+
+def _is_driven(plan: Plan, group: Group, body: int) -> bool:
+    mechanism, links = plan.lower.mechanism, _bodies(group)[body]
+    if set(mechanism.drives[0].between) <= set(links):
+        return True
+    inside = {link for b in _bodies(group) for link in b}
+    for number, member in group.joints:
+        if member.outer and body in member.links:
+            holders = [link for link in mechanism.chain.joints[number].links if link not in inside]
+            return mechanism.frame not in holders
+    return False
+
+
+def _leg(plan: Plan, group: Group, body: int) -> Leg | None:
+    mine = [(n, m) for n, m in group.joints if body in m.links]
+    outer, inner = ([(n, m) for n, m in mine if m.outer == side] for side in (True, False))
+    if len(outer) != 1 or len(inner) != 1:
+        return None
+    if any(member.pair.name not in ("revolute", "prismatic") for _, member in mine):
+        return None  # a wheel or cam
+    links = _bodies(group)
+    other = next(k for k in inner[0][1].links if k != body)
+    form = "".join("R" if m.pair.name == "revolute" else "P" for _, m in (outer[0], inner[0]))
+    pushed = _element(plan, inner[0][0], links[other])[0]
+    return Leg(
+        group.bodies[body],
+        _element(plan, outer[0][0], links[body]),
+        _element(plan, inner[0][0], links[body]),
+        form,
+        pushed,
+        _guide(plan, group, other),
+    )
+
+
+def _guide(plan: Plan, group: Group, body: int) -> tuple[str, Element] | None:
+    frame = plan.lower.mechanism.frame
+    held = [(n, m) for n, m in group.joints if m.outer and body in m.links]
+    at_frame = [(n, m) for n, m in held if frame in plan.lower.mechanism.chain.joints[n].links]
+    if len(held) != 1 or len(at_frame) != 1:
+        return None
+    number, member = at_frame[0]
+    return ("R" if member.pair.name == "revolute" else "P"), _element(plan, number, (frame,))
+
+
+def _element(plan: Plan, joint: int, links: tuple[str, ...]) -> Element:
+    link = next(link for link in plan.lower.mechanism.chain.joints[joint].links if link in links)
+    e = plan.lower.elements[joint, link]
+    angle = getattr(e, "angle", 0.0)
+    return link, complex(e.x, e.y), complex(np.exp(1j * angle))
+
+
+class _Lines(NamedTuple):
+    """The force on the pushed link and the direction in which its point goes, with derivatives; complex, (rows,)."""
+
+    force: Complexes
+    force_rate: Complexes
+    way: Complexes
+    way_rate: Complexes
+
+
+def _lines(motion: Motion, leg: Leg) -> _Lines:
+    """Force and way of a leg; the motion is of order 2."""
+    outer, inner = _point(motion, leg.outer), _point(motion, leg.inner)
+    if leg.form == "RR":
+        (force, force_rate), point = (inner[0] - outer[0], inner[1] - outer[1]), inner
+    elif leg.form == "RP":
+        (force, force_rate), point = _normal(motion, leg.inner), outer
+    else:
+        (force, force_rate), point = _normal(motion, leg.outer), inner
+    if leg.guide is not None:
+        kind, place = leg.guide
+        if kind == "P":
+            way = np.full(len(motion), place[2])
+            return _Lines(force, force_rate, way, np.zeros_like(way))
+        return _Lines(force, force_rate, 1j * (point[0] - place[1]), 1j * point[1])
+    return _Lines(force, force_rate, *_velocity(motion, leg.pushed, point))
+
+
+def _point(motion: Motion, element: Element) -> tuple[Complexes, Complexes, Complexes]:
+    """Position, velocity and acceleration of a joint."""
+    k = motion.plan.lower.mechanism.chain.index(element[0])
+    arm, w = motion.turns[:, k] * element[1], motion.rates[0, :, k]
+    spin = 1j * motion.rates[1, :, k] - w**2
+    return motion.places[0, :, k] + arm, motion.places[1, :, k] + 1j * w * arm, motion.places[2, :, k] + spin * arm
+
+
+def _normal(motion: Motion, element: Element) -> tuple[Complexes, Complexes]:
+    k = motion.plan.lower.mechanism.chain.index(element[0])
+    normal = 1j * motion.turns[:, k] * element[2]
+    return normal, 1j * motion.rates[0, :, k] * normal
+
+
+def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Complexes]) -> tuple[Complexes, Complexes]:
+    """The velocity of the place of a link where a point is, with its rate; at rest the way it leaves."""
+    k = motion.plan.lower.mechanism.chain.index(link)
+    w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
+    origin, speed, change = (motion.places[m, :, k] for m in range(3))
+    way = speed + 1j * w * (point[0] - origin)
+    rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
+    fastest = np.maximum(
+        np.abs(motion.places[1]).max(axis=1), motion.plan.lower.size * np.abs(motion.rates[0]).max(axis=1)
+    )
+    rest = np.abs(way) < _SLOW * fastest
+    return np.where(rest, rate, way), np.where(rest, 0, rate)
+
+
+def _folded(lines: _Lines) -> Reals:
+    product = np.conj(lines.force) * lines.way
+    return np.asarray(np.arctan2(np.abs(product.real), np.abs(product.imag)))
+
+
+def transmission_angle(motion: Motion, output: str | None = None) -> Reals:
+    """The transmission angle mu in each pose, at most pi/2; with several driving legs the smallest; (rows,).
+
+    Raises `LinkageError` if the motion has no accelerations (``order=2``), or there is no transmission angle.
+
+    >>> from gruebler.kinematics import move
+    >>> from gruebler.fourbar import FourBar
+    >>> motion = move(FourBar(2, 5, 4, 5).linkage(), [0.0, pi], order=2)
+    >>> np.degrees(transmission_angle(motion)).round(4).tolist()
+    [36.8699, 78.463]
+    """
+    if motion.order < 2:
+        raise LinkageError("the transmission angle needs a motion with accelerations: move(..., order=2)")
+    legs = driving_legs(motion.plan, find_output(motion.linkage, output))
+    return np.asarray(np.min([_folded(_lines(motion, leg)) for leg in legs], axis=0))
+
+
+def deviation_angle(motion: Motion, output: str | None = None) -> Reals:
+    """The deviation angle alpha, pi/2 less the transmission angle; (rows,)."""
+    return pi / 2 - transmission_angle(motion, output)
+
+
+def measure_transmission(course: Course, output: Output) -> Transmission:
+    """The extremes of the transmission angle over the whole range of the drive.
+
+    They are zeros of three functions: of the turning of the force against the way, of their sine (mu = 90 degrees)
+    and of their cosine (mu = 0); and the ends of the range.
+
+    Raises `LinkageError` if there is no transmission angle, with the reason.
+    """
+    legs = driving_legs(course.plan, output)
+    found = []
+    for leg in legs:
+        places, ends = _stationary(course, leg)
+        values = _folded(_lines(course.at(places, 2), leg)) if len(places) else places
+        found += [
+            Extreme(course.span.wrapped(float(x)), float(mu), leg.links) for x, mu in zip(places, values, strict=True)
+        ]
+        found += [Extreme(x, mu, leg.links) for x, mu in ends]
+    smallest = min(found, key=lambda extreme: extreme.mu)
+    mine = [extreme for extreme in found if extreme.links == smallest.links]
+    largest = max(mine, key=lambda extreme: extreme.mu)
+    return Transmission(tuple(sorted(found)), smallest, largest, tuple(leg.links for leg in legs))
+
+
+def _stationary(course: Course, leg: Leg) -> tuple[Reals, list[tuple[float, float]]]:
+    """Where the folded angle has a local extreme, and its values at the ends of a range."""
+
+    def product(motion: Motion) -> Complexes:
+        lines = _lines(motion, leg)
+        out: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
+        return out
+
+    def turning(drives: Reals) -> Reals:
+        lines = _lines(course.at(drives, 2), leg)
+        return np.imag(lines.force_rate / lines.force - lines.way_rate / lines.way)[None]
+
+    def sine(drives: Reals) -> Reals:
+        return product(course.at(drives, 2)).imag[None]
+
+    def cosine(drives: Reals) -> Reals:
+        return product(course.at(drives, 2)).real[None]
+
+    slow = _LEAST / (1 if course.turning_drive else course.plan.lower.size)
+    angles = _folded(_lines(course.at(course.grid, 2), leg))
+    constant = not course.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
+    places = [
+        zero.at
+        for jet, floor in ((turning, slow), (sine, _LEAST), (cosine, _LEAST))
+        for zero in (() if constant else zeros(jet, course.samples(2), floor))
+    ]
+    if course.span.full:
+        return np.array(places or [course.span.low]), []
+    ends = []
+    for upper, at in ((False, course.span.low), (True, course.span.high)):
+        z = complex(
+            course.end(lambda motion: product(motion).real, upper),
+            course.end(lambda motion: product(motion).imag, upper),
+        )
+        ends.append((at, float(np.arctan2(abs(z.real), abs(z.imag)))))
+    return np.array(places), ends

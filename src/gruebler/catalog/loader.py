@@ -1,0 +1,156 @@
+"""The catalog that comes with the library: where it lies, what is in it, and how to find something."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+from gruebler.catalog.claims import Checked, check
+from gruebler.chain.pairs import PAIRS, Pair, pair
+from gruebler.errors import CatalogError
+from gruebler.formats.catalog_records import Entry, Exercise, Record, read_entry, read_exercise
+from gruebler.mobility import counted
+
+__all__ = [
+    "Query",
+    "catalog_folder",
+    "check_all",
+    "check_entry",
+    "check_exercise",
+    "entries",
+    "entry",
+    "exercises",
+    "search",
+]
+
+
+def catalog_folder() -> Path:
+    """The folder of the catalog: inside the installed package, or at the top of a source checkout."""
+    package = Path(__file__).resolve().parents[1]
+    for folder in (package / "catalogs", package.parents[1] / "catalogs"):
+        if folder.is_dir():
+            return folder
+    raise CatalogError(f"the catalog is missing: neither {package / 'catalogs'} nor a source checkout has it")
+
+
+@cache
+def entries() -> dict[str, Entry]:
+    """All machines by id, in alphabetical order.
+
+    >>> entries()["vcomp"].name.en
+    'Two-cylinder V-compressor'
+    """
+    return {
+        path.stem: _named(read_entry(path), path) for path in sorted((catalog_folder() / "machines").glob("*.toml"))
+    }
+
+
+@cache
+def exercises() -> dict[str, Exercise]:
+    """All exercises by id."""
+    paths = sorted((catalog_folder() / "exercises").glob("*.toml"))
+    found = {path.stem: _named(read_exercise(path), path) for path in paths}
+    for exercise in found.values():
+        for case in exercise.cases:
+            if case.machine not in entries():
+                raise CatalogError(f"{exercise.id}: {case.id}: there is no machine {case.machine!r} in the catalog")
+    return found
+
+
+def _named(record: Record, path: Path) -> Record:
+    if record.id != path.stem:
+        raise CatalogError(f"{path}: id: {record.id!r} should be the name of the file, {path.stem!r}")
+    return record
+
+
+def entry(id: str) -> Entry:
+    """The machine of this id; `CatalogError` with the nearest ids for any other word."""
+    try:
+        return entries()[id]
+    except KeyError:
+        if id in exercises():
+            machines = dict.fromkeys(case.machine for case in exercises()[id].cases)
+            raise CatalogError(f"{id!r} is an exercise; the machines in it are {', '.join(machines)}") from None
+        from difflib import get_close_matches
+
+        close = get_close_matches(id, entries(), n=3, cutoff=0.5)
+        hint = f"; did you mean {', '.join(close)}?" if close else "; `gruebler catalog list` shows them all"
+        raise CatalogError(f"the catalog has no entry {id!r}{hint}") from None
+
+
+def check_all() -> list[Checked]:
+    """Every claim of the catalog derived again: the machines, then the exercises' cases."""
+    machines = [check_entry(e) for e in entries().values()]
+    return machines + [one for exercise in exercises().values() for one in check_exercise(exercise)]
+
+
+def check_entry(record: Entry, origin: str | None = None) -> Checked:
+    """Every claim of a machine derived again; ``origin`` is its file, the catalog's own if left out."""
+    where = str(catalog_folder() / "machines" / f"{record.id}.toml") if origin is None else origin
+    return check(record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed())
+
+
+def check_exercise(record: Exercise, origin: str | None = None) -> list[Checked]:
+    """Every claim of an exercise's cases derived again."""
+    where = str(catalog_folder() / "exercises" / f"{record.id}.toml") if origin is None else origin
+    checked = []
+    for case in record.cases:
+        machine = entry(case.machine)
+        placed = None if case.claims.mobility is None else machine.placed()
+        checked.append(
+            check(machine.chain(), case.claims, id=case.id, frame=machine.frame, origin=where, linkage=placed)
+        )
+    return checked
+
+
+@dataclass(frozen=True, slots=True)
+class Query:
+    """What is looked for; None and empty mean: whatever."""
+
+    words: tuple[str, ...] = ()
+    """Each must occur in the id, a name, a remark, the source or a link's name, in either language."""
+    links: int | None = None
+    joints: int | None = None
+    mobility: int | None = None
+    """F by the count."""
+    pairs: tuple[str, ...] = ()
+    """Symbols or names of pairs that must occur."""
+    drive: str | None = None
+    """Symbol or name of the pair of a driven joint."""
+
+    def finds(self, candidate: Entry) -> bool:
+        """Whether the entry answers the query."""
+        chain = candidate.chain()
+        driven = {chain.joints[k].pair for drive in candidate.drives if (k := chain.find_joint(drive)) is not None}
+        present = {joint.pair for joint in chain.joints}
+        return (
+            (self.links is None or chain.n == self.links)
+            and (self.joints is None or chain.g == self.joints)
+            and (self.mobility is None or counted(chain) == self.mobility)
+            and all(_meanings(symbol) & present for symbol in self.pairs)
+            and (self.drive is None or bool(_meanings(self.drive) & driven))
+            and all(word.casefold() in _all_text(candidate) for word in self.words)
+        )
+
+
+def _meanings(symbol: str) -> set[Pair]:
+    """All pairs that a symbol means in some alphabet, or the one of this name; `PairError` for any other word."""
+    return {p for p in PAIRS if symbol in p.symbols.values()} or {pair(symbol)}
+
+
+def _all_text(candidate: Entry) -> str:
+    remark = candidate.remark
+    parts = [candidate.id, candidate.name.en, candidate.name.de, candidate.source]
+    parts += [*candidate.links, *candidate.links.values()]
+    parts += [remark.en, remark.de] if remark else []
+    return "\n".join(parts).casefold()
+
+
+def search(query: Query) -> list[Entry]:
+    """The machines that answer a query, by id.
+
+    >>> [e.id for e in search(Query(words=("Kompressor",), pairs=("P",)))]
+    ['compressor', 'vcomp']
+    """
+    return [e for e in entries().values() if query.finds(e)]

@@ -1,0 +1,84 @@
+"""A picture as a value: shapes in the order in which they are painted, whatever the file will be.
+
+Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; nothing else tells how it looks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from gruebler.drawing.canvas.shapes import Point, Shape, bounds, moved
+from gruebler.drawing.canvas.styles import STYLES
+from gruebler.drawing.canvas.svg import _plain, element, number, style_sheet
+from gruebler.notebook import Brief
+
+__all__ = [
+    "MARGIN",
+    "Figure",
+    "document",
+    "figure_of",
+    "svg",
+]
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Figure(Brief):
+    """Shapes within 0 <= x <= width, 0 <= y <= height, with a title and a description for those who cannot see."""
+
+    shapes: tuple[Shape, ...]
+    width: float
+    height: float
+    title: str
+    description: str
+    notes: tuple[str, ...] = ()
+    """What was asked for and could not be shown, in sentences."""
+
+    def svg(self, *, styled: bool = True) -> str:
+        """The picture as SVG; without its styles where the page around has them."""
+        return svg(self, styled=styled)
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+MARGIN = 16.0
+"""Pixels around pictures of linkages; half the width of a link with a slot is less."""
+
+
+def figure_of(
+    shapes: Iterable[Shape], title: str, description: str, margin: float = 10.0, notes: Iterable[str] = ()
+) -> Figure:
+    """The figure that just holds the shapes."""
+    all_shapes = tuple(shapes)
+    corner, size = bounds(all_shapes, margin)
+    placed = tuple(moved(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
+    return Figure(placed, size.x, size.y, title, description, tuple(notes))
+
+
+def svg(figure: Figure, *, styled: bool = True) -> str:
+    """The document; with ``styled`` it carries the rules of the styles it uses, and looks the same anywhere.
+
+    >>> from gruebler.drawing.canvas.shapes import Circle, Point
+    >>> svg(figure_of([Circle(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]
+    '<title>one &lt; two</title><desc>a circle</desc>'
+    """
+    used = [shape.style for shape in figure.shapes]
+    return document(figure, used if styled else None, map(element, figure.shapes))
+
+
+def document(page: Figure, used: Iterable[str] | None, lines: Iterable[str]) -> str:
+    """A page of the size of a figure, with its title and description, around elements that use these styles."""
+    width, height = number(page.width), number(page.height)
+    styles = None if used is None else sorted({"ground", *used}, key=list(STYLES).index)
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="gr" role="img" width="{width}" height="{height}" '
+            f'viewBox="0 0 {width} {height}">',
+            f"<title>{_plain(page.title)}</title><desc>{_plain(page.description)}</desc>",
+            *([] if styles is None else [f"<style>{style_sheet(styles)}</style>"]),
+            f'<rect class="gr-ground" width="{width}" height="{height}" rx="6"/>',
+            *lines,
+            "</svg>\n",
+        ]
+    )

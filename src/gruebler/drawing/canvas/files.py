@@ -1,0 +1,39 @@
+"""Pictures as bytes of a file, by the suffix of its name."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.errors import GrueblerError
+
+__all__ = ["SUFFIXES", "picture_bytes", "suffix_of"]
+
+SUFFIXES = ("svg", "png", "pdf")
+
+
+def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
+    """The kind of file that a name asks for; `GrueblerError` if it is none of those known."""
+    suffix = path.suffix.lower().removeprefix(".")
+    if suffix not in known:
+        endings = " or ".join(filter(None, (", ".join(f".{one}" for one in known[:-1]), f".{known[-1]}")))
+        raise GrueblerError(
+            f"{str(path)!r} does not say what kind of picture it is: end it with {endings}",
+            f"{str(path)!r} sagt nicht, was für ein Bild es ist: die Endung sei {endings.replace(' or ', ' oder ')}",
+        )
+    return suffix
+
+
+def picture_bytes(figure: Figure, suffix: str, *, dark: bool = False) -> bytes:
+    """The content of an ``svg``, ``png`` or ``pdf`` file; `GrueblerError` if matplotlib is needed and missing.
+
+    PNG and PDF are on light or dark ground; SVG is on that of the reader.
+    """
+    if suffix == "svg":
+        return figure.svg().encode("utf-8")
+    from gruebler.drawing.canvas.matplotlib_files import save
+
+    memory = io.BytesIO()
+    save(figure, memory, suffix, dark=dark)
+    return memory.getvalue()

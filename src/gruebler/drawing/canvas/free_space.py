@@ -1,0 +1,147 @@
+"""Where there is room in a picture: how far texts and lines would be from what is there, for many places at once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, text_width
+from gruebler.drawing.canvas.styles import STYLES
+
+__all__ = ["HALF", "Room", "apart", "complexes", "from_segment", "inside"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+Flags = NDArray[np.bool_]
+
+HALF = 7.0
+"""Half the height of a text."""
+_FILLED = ("body", "frame", "area", "block", "block-frame")
+_FAR = 1e5
+_FROM_ANCHOR = {"start": 0.5, "middle": 0.0, "end": -0.5}
+
+_Stroke = tuple[complex, complex, float]
+_Z = TypeVar("_Z", complex, Complexes)
+
+
+class Room:
+    """What is drawn: strokes with half their width, texts as level strokes, and filled polygons."""
+
+    def __init__(self, shapes: Sequence[Shape]) -> None:
+        self.filled = [
+            complexes(part)
+            for shape in shapes
+            if isinstance(shape, Lines) and shape.closed and shape.style in _FILLED
+            for part in shape.parts
+        ]
+        self.lines = _Strokes([stroke for shape in shapes for stroke in _strokes(shape)])
+        self.texts = _Strokes([_text(shape) for shape in shapes if isinstance(shape, Text)])
+
+    def take(self, at: Point, wide: float) -> None:
+        """A text stands there now."""
+        self.texts = self.texts.plus((*_core(complex(*at), wide), HALF))
+
+    def free(self, places: Complexes, wide: float) -> Reals:
+        """How many pixels are free around a text at each of some places; negative where it would touch something."""
+        first, last = _core(places, wide)
+        gap = np.minimum(self.lines.gap(first, last), self.texts.gap(first, last)) - HALF
+        covered = self.covered(first) | self.covered(last) | self.covered(places)
+        return np.where(covered, np.minimum(gap, -HALF), gap)
+
+    def covered(self, places: Complexes) -> Flags:
+        """Whether places lie on a filled polygon."""
+        found = np.zeros(len(places), bool)
+        for corners in self.filled:
+            found |= inside(places, corners)
+        return found
+
+    def open(self, places: Complexes, ways: Complexes) -> Flags:
+        """Whether nothing lies beyond places in some directions: whether they are at the rim of the picture."""
+        return self.lines.gap(places, places + _FAR * ways) > 0
+
+
+class _Strokes:
+    """Segments with half their width, as arrays."""
+
+    def __init__(self, strokes: Sequence[_Stroke]) -> None:
+        self.rows = list(strokes)
+        made = np.array(self.rows, np.complex128).reshape(-1, 3)
+        self.a, self.b, self.half = made[:, 0], made[:, 1], made[:, 2].real
+
+    def plus(self, stroke: _Stroke) -> _Strokes:
+        return _Strokes([*self.rows, stroke])
+
+    def gaps(self, first: Complexes, last: Complexes) -> Reals:
+        """Pixels between lines (rows) and all strokes (columns); negative where they overlap."""
+        return np.asarray(apart(first[:, None], last[:, None], self.a[None, :], self.b[None, :]) - self.half)
+
+    def gap(self, first: Complexes, last: Complexes) -> Reals:
+        """The least of them; infinite if there is nothing."""
+        return np.asarray(np.min(self.gaps(first, last), axis=1, initial=np.inf))
+
+
+def _strokes(shape: Shape) -> Iterator[_Stroke]:
+    match shape:
+        case Lines(parts, style, closed) if not style.startswith("halo"):
+            half = STYLES[style].width / 2
+            for part in parts:
+                ends = [*part, part[0]] if closed else list(part)
+                yield from ((complex(*a), complex(*b), half) for a, b in pairwise(ends))
+        case Circle(at, radius) | Arc(at, radius):
+            yield complex(*at), complex(*at), radius
+
+
+def _text(text: Text) -> _Stroke:
+    wide = text_width(text.words, STYLES[text.style].size)
+    return *_core(complex(text.at.x + _FROM_ANCHOR[text.anchor] * wide, text.at.y), wide), HALF
+
+
+def _core(at: _Z, wide: float) -> tuple[_Z, _Z]:
+    """The middle line of a text; all of the text is within half its height."""
+    half = max(0.0, wide / 2 - HALF)
+    return at - half, at + half
+
+
+def complexes(points: Sequence[Point]) -> Complexes:
+    """Points as x + iy."""
+    return np.array([complex(*p) for p in points], np.complex128)
+
+
+def from_segment(p: Complexes, a: Complexes, b: Complexes) -> Reals:
+    """The distance of points from segments; arrays of shapes that go together.
+
+    >>> from_segment(np.array([1j, 3 + 0j]), np.array([0j]), np.array([2 + 0j])).tolist()
+    [1.0, 1.0]
+    """
+    along = b - a
+    square = np.abs(along) ** 2
+    t = np.clip(((p - a) * along.conj()).real / np.where(square > 0, square, 1.0), 0.0, 1.0)
+    return np.asarray(np.abs(p - a - t * along))
+
+
+def apart(a: Complexes, b: Complexes, c: Complexes, d: Complexes) -> Reals:
+    """The distance of the segments a-b from the segments c-d; 0 where they cross."""
+
+    def side(p: Complexes, q: Complexes, r: Complexes) -> Reals:
+        return np.asarray(((q - p).conj() * (r - p)).imag)
+
+    crossing = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
+    ends = (from_segment(a, c, d), from_segment(b, c, d), from_segment(c, a, b), from_segment(d, a, b))
+    return np.where(crossing, 0.0, np.minimum.reduce(np.broadcast_arrays(*ends)))
+
+
+def inside(places: Complexes, corners: Complexes) -> Flags:
+    """Whether places lie inside a polygon.
+
+    >>> inside(np.array([1 + 1j, 3 + 1j]), np.array([0, 2, 2 + 2j, 2j])).tolist()
+    [True, False]
+    """
+    p, a, b = places[:, None], corners[None, :], np.roll(corners, -1)[None, :]
+    spans = (a.imag > p.imag) != (b.imag > p.imag)
+    rise = np.where(spans, b.imag - a.imag, 1.0)
+    cuts = spans & (p.real < a.real + (p.imag - a.imag) / rise * (b.real - a.real))
+    return np.asarray(cuts.sum(axis=1) % 2 == 1)

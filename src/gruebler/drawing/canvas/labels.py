@@ -1,0 +1,191 @@
+"""Names of links beside their bodies; where there is no room for them, numbers and a list below the picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.drawing.canvas.free_space import HALF, Room, complexes
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text, bounds, text_width
+from gruebler.drawing.canvas.styles import BAR, STYLES
+
+__all__ = ["labelled", "legend", "named", "noted", "short_names"]
+
+_ENOUGH = 7.0  # pixels around a text; more is no better
+_LEAST = 1.5
+_CLEAR = BAR / 2 + 4.0  # pixels from the middle of a link to where nothing of it is
+_BESIDE = 4.0  # pixels between a link and its name
+_OUTSIDE = 5.0  # pixels of free space that are given up for a place far from the middle
+_PARTS = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an edge
+_FARTHER = (12.0, 22.0, 34.0, 48.0, 64.0, 82.0, 102.0)  # pixels by which a number may stand off, at the end of a line
+_NEAR = 3  # so many of these are for long names too
+_WIDE = 30.0  # pixels: from longer names no line leads across others
+_COLUMN = 18.0  # from line to line of the list
+_SHORT = 3  # names of so many letters are taken as numbers
+
+
+def labelled(
+    outlines: Mapping[str, Sequence[Point]],
+    closed: Mapping[str, bool],
+    shapes: Sequence[Shape],
+    names: Mapping[str, str] | None = None,
+) -> list[Shape]:
+    """The shapes with a name beside the outline of every link; ``names`` may call links otherwise.
+
+    If a long name finds no room, long names become numbers and a list says what these mean.
+    """
+    texts, rows = named(outlines, closed, shapes, names)
+    points = [point for outline in outlines.values() for point in outline]
+    made = [*shapes, *texts]
+    return [*made, *(legend(rows, points, made) if rows else ())]
+
+
+def named(
+    outlines: Mapping[str, Sequence[Point]],
+    closed: Mapping[str, bool],
+    shapes: Sequence[Shape],
+    names: Mapping[str, str] | None = None,
+) -> tuple[list[Shape], dict[str, str]]:
+    """The names alone, and what is to be listed: names with their numbers."""
+    called = {link: (names or {}).get(link, link) for link in outlines}
+    found = _placed(outlines, closed, shapes, called)
+    if found is not None:
+        return found, {}
+    numbers = short_names(list(called.values()))
+    found = _placed(outlines, closed, shapes, {link: numbers[name] for link, name in called.items()})
+    assert found is not None  # numbers are short
+    return found, {name: number for name, number in numbers.items() if name != number}
+
+
+def noted(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Text:
+    """A text near a point, where the shapes leave most room for it; above and to the right if nothing is in the way."""
+    room, wide = Room(shapes), text_width(words, STYLES[style].size)
+    places = [
+        Point(at.x + (off + wide / 2) * math.cos(turn), at.y - (off + HALF) * math.sin(turn))
+        for off in (8.0, 14.0, 22.0, 32.0, 44.0, 58.0)
+        for turn in (math.pi * k / 8 for k in (2, 6, 14, 10, 0, 8, 4, 12, 1, 3, 5, 7, 9, 11, 13, 15))
+    ]
+    free = room.free(complexes(places), wide)
+    best = max(range(len(places)), key=lambda k: (min(float(free[k]), _LEAST), -k))
+    return Text(places[best], words, style)
+
+
+def short_names(links: Sequence[str]) -> dict[str, str]:
+    """Names of up to three letters as they are, numbers for others: their places from 1, if these are no names.
+
+    >>> short_names(["1", "2", "diagonal"]), short_names(["3", "long", "arm", "2"])
+    ({'1': '1', '2': '2', 'diagonal': '3'}, {'3': '3', 'long': '1', 'arm': 'arm', '2': '2'})
+    """
+    short = {link: link for link in links if len(link) <= _SHORT}
+    taken = set(short)
+    for place, link in enumerate(links, 1):
+        if link not in short:
+            short[link] = next(str(k) for k in (place, *_from_one(len(links))) if str(k) not in taken)
+            taken.add(short[link])
+    return {link: short[link] for link in links}
+
+
+def _from_one(most: int) -> range:
+    return range(1, 2 * most + 1)
+
+
+class _Place(NamedTuple):
+    """Where a name may stand: beside which point of an edge, in which direction, how far from the edge's middle."""
+
+    at: Point
+    beside: Point
+    normal: Point
+    away: float
+    farther: float
+
+
+def _placed(
+    outlines: Mapping[str, Sequence[Point]],
+    closed: Mapping[str, bool],
+    shapes: Sequence[Shape],
+    names: Mapping[str, str],
+) -> list[Shape] | None:
+    """A text for every link, the longest first; None if a long one would touch something."""
+    room = Room(shapes)
+    points = [point for outline in outlines.values() for point in outline]
+    texts: list[Shape] = []
+    for link in sorted(outlines, key=lambda link: -len(names[link])):
+        wide = text_width(names[link], STYLES["name"].size)
+        free, place = _best(room, points, outlines[link], closed[link], wide, (0.0,))
+        if free < _LEAST:
+            long = len(names[link]) > _SHORT
+            farther = _best(room, points, outlines[link], closed[link], wide, _FARTHER[: _NEAR if long else None])
+            if farther[0] < _LEAST and long:
+                return None
+            place = farther[1] if farther[0] >= _LEAST else place
+        room.take(place.at, wide)
+        texts += [*_leader(place, wide), Text(place.at, names[link], "name")]
+    return texts
+
+
+def _best(
+    room: Room, points: Sequence[Point], outline: Sequence[Point], closed: bool, wide: float, farther: Sequence[float]
+) -> tuple[float, _Place]:
+    """The place with room, at the rim if there is one, near the middle of an edge, and what is free there."""
+    places = list(_candidates(outline, closed, wide, farther))
+    at = complexes([place.at for place in places])
+    beside, ways = complexes([place.beside for place in places]), complexes([place.normal for place in places])
+    free, rim = room.free(at, wide), room.open(at, ways)
+    crossed = (room.lines.gaps(at, beside + _CLEAR * ways) < 0).sum(axis=1)
+    if wide > _WIDE:
+        free = np.where(crossed > 0, np.minimum(free, 0.0), free)
+    middle = Point(*(sum(axis) / len(points) for axis in zip(*points, strict=True)))
+    most = max(*(p.minus(middle).length for p in points), 1.0)
+
+    def worth(k: int) -> tuple[bool, int, float, bool, float]:
+        outside = _OUTSIDE * min(1.2, places[k].at.minus(middle).length / most)
+        fits = bool(free[k] >= _LEAST)
+        good = min(float(free[k]), _ENOUGH) + outside - 6 * places[k].away
+        return fits, -int(crossed[k]), -places[k].farther if fits else 0.0, bool(rim[k]), good
+
+    best = max(range(len(places)), key=worth)
+    return float(free[best]), places[best]
+
+
+def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Sequence[float]) -> Iterator[_Place]:
+    """Places beside the edges, outside of a polygon; the text is as far from its edge in every direction."""
+    corners = [*outline, outline[0]] if closed else list(outline)
+    area = sum(a.x * b.y - b.x * a.y for a, b in pairwise(corners))
+    for a, b in pairwise(corners):
+        along = b.minus(a)
+        normal = along.unit.across
+        for side in (-1 if area > 0 else 1,) if closed else (-1, 1):
+            n = Point(side * normal.x, side * normal.y)
+            off = BAR / 2 + _BESIDE + HALF + abs(n.x) * max(0.0, wide / 2 - HALF)
+            for more in farther:
+                for part in _PARTS:
+                    beside = a.plus(along, part)
+                    yield _Place(beside.plus(n, off + more), beside, n, abs(part - 0.5), more)
+
+
+def _leader(place: _Place, wide: float) -> Iterator[Shape]:
+    """A line from a link to its number, where this stands off."""
+    if place.farther:
+        end = place.at.plus(place.normal, -HALF - abs(place.normal.x) * max(0.0, wide / 2 - HALF))
+        yield Lines(((place.beside, end),), "measure")
+        yield Circle(place.beside, 2.0, "dot")
+
+
+def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[Shape] = ()) -> Iterator[Text]:
+    """Numbers and names in columns below points and shapes, about as wide as these."""
+    left, right = min(p.x for p in points), max(p.x for p in points)
+    top = max(p.y for p in points) + 44.0
+    if shapes:
+        corner, size = bounds(shapes, 0.0)
+        left, right = corner.x, max(right, corner.x + size.x)
+        top = max(top, corner.y + size.y + 14.0)
+    entries = [f"{number}  {link}" for link, number in names.items()]
+    widest = max(map(text_width, entries)) + 18.0
+    columns = max(1, int((right - left + 40.0) / widest))
+    rows = math.ceil(len(entries) / columns)
+    for k, entry in enumerate(entries):
+        yield Text(Point(left + widest * (k // rows), top + _COLUMN * (k % rows)), entry, "name", "start")

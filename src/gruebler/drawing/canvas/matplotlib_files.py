@@ -1,0 +1,191 @@
+"""Figures as PNG and PDF, painted by matplotlib; it comes with the extra ``[plot]`` and is loaded only here."""
+
+from __future__ import annotations
+
+import io
+import math
+from collections.abc import Iterable, Sequence
+from textwrap import wrap
+from typing import Any, BinaryIO
+
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.gallery import Item, Section
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Shape, Text, lowered
+from gruebler.drawing.canvas.styles import COLOURS, STYLES
+from gruebler.errors import GrueblerError
+
+__all__ = ["gallery_pdf", "paint_on", "painted", "save"]
+
+_POINTS = 72 / 96  # of print, to a pixel
+
+
+def save(figure: Figure, file: BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
+    """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``, on light or dark ground.
+
+    Raises `GrueblerError` if matplotlib is not installed.
+    """
+    canvas = painted(figure, dark=dark)
+    canvas.savefig(file, format=suffix, dpi=96 * zoom, metadata=_METADATA[suffix] | {"Title": figure.title})
+
+
+_METADATA: dict[str, dict[str, Any]] = {"png": {"Software": None}, "pdf": {"CreationDate": None, "Creator": None}}
+
+
+def painted(figure: Figure, *, dark: bool = False) -> Any:
+    """The figure as one of matplotlib's, without pyplot, 96 pixels to the inch."""
+    paper = COLOURS["paper"][dark]
+    canvas = _library().Figure(figsize=(figure.width / 96, figure.height / 96), facecolor=paper)
+    axes = canvas.add_axes((0, 0, 1, 1))
+    paint_on(axes, figure, dark=dark)
+    return canvas
+
+
+def _library() -> Any:
+    try:
+        from matplotlib import figure
+        from matplotlib.backends import backend_agg, backend_pdf  # noqa: F401
+    except ImportError:
+        raise GrueblerError(
+            "pictures of pixels and PDF need matplotlib, which is not installed: pip install 'gruebler[plot]', or "
+            "write an .svg or .html",
+            "Pixelbilder und PDF brauchen matplotlib, das nicht installiert ist: pip install 'gruebler[plot]', oder "
+            "schreibe ein .svg oder .html",
+        ) from None
+    return figure
+
+
+def paint_on(axes: Any, figure: Figure, *, scale: float = 1.0, dark: bool = False) -> None:
+    """Paint a figure on axes; ``scale`` is the size of a pixel there, at 96 to the inch."""
+    axes.set_xlim(0, figure.width)
+    axes.set_ylim(figure.height, 0)
+    axes.set_aspect("equal")
+    axes.axis("off")
+    for order, shape in enumerate(figure.shapes):
+        _paint(axes, shape, order, scale * _POINTS, dark)
+
+
+def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> None:
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path as Outline
+
+    style = STYLES[shape.style]
+    if isinstance(shape, Text):
+        pieces = lowered(shape.words)
+        axes.text(
+            *shape.at,
+            _as_math(pieces) if len(pieces) > 1 else shape.words,
+            fontsize=style.size * point,
+            color=COLOURS[style.fill][dark],
+            ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
+            va="center_baseline",
+            zorder=order,
+            parse_math=len(pieces) > 1,
+        )
+        return
+    match shape:
+        case Lines(parts, _, closed):
+            outline = (
+                Outline.make_compound_path(*(_line(part, closed) for part in parts)) if parts else Outline([(0, 0)])
+            )
+        case Circle(at, radius):
+            outline = Outline.circle(at, radius)
+        case Arc():
+            steps = max(2, math.ceil(abs(shape.extent) / 0.05))
+            outline = Outline([shape.place(k / steps) for k in range(steps + 1)])
+    axes.add_patch(
+        PathPatch(
+            outline,
+            facecolor=COLOURS[style.fill][dark] if style.fill else "none",
+            edgecolor=COLOURS[style.stroke][dark] if style.stroke else "none",
+            linewidth=style.width * point,
+            linestyle=(0, [length / style.width for length in style.dash]) if style.dash else "-",
+            capstyle="round",
+            joinstyle="round",
+            zorder=order,
+        )
+    )
+
+
+def _as_math(pieces: Sequence[tuple[str, bool]]) -> str:
+    """Words with what stands lower, in the notation of matplotlib, upright as all others."""
+    plain = [(piece.replace("$", r"\$"), low) for piece, low in pieces]
+    return "".join(rf"$_\mathregular{{{piece}}}$" if low else piece for piece, low in plain)
+
+
+def _line(part: Sequence[tuple[float, float]], closed: bool) -> Any:
+    from matplotlib.path import Path as Outline
+
+    return Outline([*part, part[0]], closed=True) if closed else Outline(part)
+
+
+_A4 = (210 / 25.4, 297 / 25.4)
+_LEFT, _TOP, _BOTTOM = 0.05, 0.95, 0.04
+_ROW, _HEADING, _TITLE = 0.15, 0.022, 0.012  # of the height of a page
+_COLUMNS = (5, 3, 2, 1)
+_LEGIBLE = 0.62  # of their size: pictures are not made smaller as long as fewer of them stand in a row
+_CODE = 5.0  # points
+
+
+def gallery_pdf(title: str, sections: Iterable[Section], *, note: str = "") -> bytes:
+    """The gallery on A4 pages, up to five pictures in a row, fewer where words in them would become illegible.
+
+    Raises `GrueblerError` if matplotlib is not installed.
+    """
+    library = _library()
+    from matplotlib.backends.backend_pdf import PdfPages
+
+    memory = io.BytesIO()
+    with PdfPages(memory, metadata=_METADATA["pdf"] | {"Title": title}) as pages:
+        page, top = library.Figure(figsize=_A4), _TOP - _TITLE
+        page.text(_LEFT, _TOP, f"{title}. {note}", fontsize=11, va="center", parse_math=False)
+        for section in sections:
+            columns = _columns(section)
+            high = _ROW * _COLUMNS[0] / columns if columns > 1 else _TALL
+            rows = [section.items[k : k + columns] for k in range(0, len(section.items), columns)]
+            for number, row in enumerate(rows):
+                headed = number == 0 and bool(section.heading)
+                if top - high - _HEADING * headed < _BOTTOM:
+                    pages.savefig(page)
+                    page, top = library.Figure(figsize=_A4), _TOP + _HEADING
+                if headed:
+                    page.text(_LEFT, top - _HEADING / 2, section.heading, fontsize=9, va="center", parse_math=False)
+                    top -= _HEADING
+                for k, item in enumerate(row):
+                    wide = (1 - 2 * _LEFT) / columns
+                    _paint_item(page, item, (_LEFT + k * wide, top), (wide, high))
+                top -= high
+        pages.savefig(page)
+    return memory.getvalue()
+
+
+_TALL = 0.42  # of the height of a page, for one picture in a row
+
+
+def _columns(section: Section) -> int:
+    """How many pictures stand in a row of a section."""
+    for columns in _COLUMNS:
+        wide, high = (1 - 2 * _LEFT) / columns, _ROW * _COLUMNS[0] / columns
+        if all(_scale(item.figure, wide, high) >= _LEGIBLE for item in section.items):
+            return columns
+    return _COLUMNS[-1]
+
+
+def _scale(figure: Figure, wide: float, high: float) -> float:
+    """The scale of a picture in a cell of a page."""
+    return min(1.0, 96 * min((wide - 0.016) * _A4[0] / figure.width, (high - 0.046) * _A4[1] / figure.height))
+
+
+def _paint_item(page: Any, item: Item, corner: tuple[float, float], size: tuple[float, float]) -> None:
+    """A picture in its cell, caption and code below it."""
+    (left, top), (column, row) = corner, size
+    box = (left + 0.008, top - row + 0.042, column - 0.016, row - 0.046)
+    scale = _scale(item.figure, column, row)
+    wide, high = scale * item.figure.width / 96 / _A4[0], scale * item.figure.height / 96 / _A4[1]
+    middle = left + column / 2
+    axes = page.add_axes((middle - wide / 2, box[1] + (box[3] - high) / 2, wide, high))
+    paint_on(axes, item.figure, scale=scale)
+    lines = wrap(item.caption, round(150 * column))
+    page.text(middle, box[1] - 0.003, "\n".join(lines), fontsize=7, ha="center", va="top", parse_math=False)
+    code = "\n".join(wrap(item.code, round(190 * column)))
+    below = box[1] - 0.005 - 0.0105 * len(lines)
+    page.text(middle, below, code, fontsize=_CODE, ha="center", va="top", parse_math=False)

@@ -1,0 +1,217 @@
+"""Pictures of bodies that shift and turn by keys evenly in time: one instant as shapes, all of them as SVG that moves.
+
+Lengths are pixels and y points down, as in every figure; angles are radians, counter-clockwise as they are seen.
+Between two keys everything goes on straight lines, so that even motions need two keys only and are exact.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.drawing.canvas.figure import Figure, document, figure_of
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, bounds, moved
+from gruebler.drawing.canvas.svg import element, number
+from gruebler.errors import GrueblerError
+
+__all__ = [
+    "Body",
+    "Clock",
+    "MovingPicture",
+    "Shift",
+    "Turn",
+    "at_time",
+    "even",
+    "figure_at",
+    "lasting",
+    "listed",
+    "moving",
+    "moving_svg",
+    "still",
+]
+
+_MARGIN = 16.0
+_LONGEST = 3600.0  # seconds
+_ROW, _SAMPLE = 20.0, 30.0  # of a list of lines
+_LOOKS = 32  # instants at which the size of a moving picture is measured
+
+
+class Shift(NamedTuple):
+    """A way, at keys; one key stands for all times."""
+
+    places: tuple[Point, ...]
+
+
+class Turn(NamedTuple):
+    """An angle about the body's own origin, at keys."""
+
+    angles: tuple[float, ...]
+
+
+class Body(NamedTuple):
+    """Shapes that move together; the step named first is the last to be applied, as in SVG."""
+
+    shapes: tuple[Shape, ...]
+    steps: tuple[Shift | Turn, ...] = ()
+
+
+class Clock(NamedTuple):
+    """How many seconds it takes until everything repeats, and what the drive does meanwhile, in the unit told."""
+
+    seconds: float
+    low: float
+    high: float
+    unit: str
+    round: bool = True
+    """Evenly from low to high; else to and fro, as low + (high - low) sin²."""
+
+
+class MovingPicture(NamedTuple):
+    """Bodies in the order in which they are painted."""
+
+    bodies: tuple[Body, ...]
+    clock: Clock
+    corner: Point
+    """The upper left corner of all that is ever seen."""
+    page: Figure
+    """Without shapes: size and words."""
+
+    def _repr_svg_(self) -> str:
+        return moving_svg(self)
+
+
+def moving(bodies: Iterable[Body], clock: Clock, title: str, description: str) -> MovingPicture:
+    """The moving picture that just holds its bodies at all times."""
+    parts = tuple(body for body in bodies if body.shapes)
+    restless = [body for body in parts if body.steps]
+    seen = [shape for k in range(_LOOKS if restless else 0) for shape in at_time(restless, k / _LOOKS)]
+    seen += [shape for body in parts if not body.steps for shape in body.shapes]
+    corner, size = bounds(seen, _MARGIN)
+    return MovingPicture(parts, clock, corner, Figure((), size.x, size.y, title, description))
+
+
+def lasting(seconds: float) -> float:
+    """The time, if it is a positive number of seconds up to an hour; else `gruebler.GrueblerError`."""
+    if not 0 < seconds <= _LONGEST:
+        raise GrueblerError(
+            f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}",
+            f"die Zeit ist eine Anzahl von Sekunden bis {_LONGEST:g}, nicht {seconds!r}",
+        )
+    return seconds
+
+
+def still(bodies: Iterable[Body], title: str, description: str) -> Figure:
+    """The figure of bodies at their first key."""
+    return figure_of(at_time(bodies, 0.0), title, description, margin=_MARGIN)
+
+
+def even(turns: float, start: float = 0.0) -> Turn:
+    """A motion by so many turns at an even speed."""
+    return Turn((start, start + math.tau * turns)) if turns else Turn((start,))
+
+
+def listed(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
+    """What lines mean: pairs of a style and words, one below the other, each beside a piece of its line."""
+    shapes: list[Shape] = []
+    for k, (style, words) in enumerate(rows):
+        left = at.plus(Point(0.0, _ROW * k))
+        shapes += [Lines(((left, left.plus(Point(_SAMPLE, 0.0))),), style)]
+        shapes += [Text(left.plus(Point(_SAMPLE + 8.0, 0.0)), words, "value", "start")]
+    return shapes
+
+
+# --- one instant -----------------------------------------------------------------------------------
+
+
+def at_time(bodies: Iterable[Body], time: float) -> list[Shape]:
+    """The shapes of all bodies when so great a part of the time (0 to 1) has passed.
+
+    >>> body = Body((Circle(Point(10, 0), 2, "joint"),), (Shift((Point(5, 5),)), even(1)))
+    >>> at = at_time([body], 0.25)[0].at  # a quarter turn upwards
+    >>> round(at.x, 9), round(at.y, 9)
+    (5.0, -5.0)
+    """
+    found: list[Shape] = []
+    for body in bodies:
+        turn, place = complex(1.0), Point(0.0, 0.0)
+        for step in reversed(body.steps):
+            if isinstance(step, Shift):
+                place = place.plus(_between(step.places, time))
+            else:
+                by = cmath.rect(1.0, float(np.interp(time, np.linspace(0, 1, len(step.angles)), step.angles)))
+                turn, place = turn * by, _turned(place, by)
+        found += [_put(shape, turn, place) for shape in body.shapes]
+    return found
+
+
+def _between(places: Sequence[Point], time: float) -> Point:
+    keys = np.linspace(0, 1, len(places))
+    return Point(*(float(np.interp(time, keys, axis)) for axis in zip(*places, strict=True)))
+
+
+def _turned(p: Point, turn: complex) -> Point:
+    return Point(turn.real * p.x + turn.imag * p.y, turn.real * p.y - turn.imag * p.x)
+
+
+def _put(shape: Shape, turn: complex, place: Point) -> Shape:
+    """The shape turned about the origin (e^(i angle)) and then shifted; words stay level."""
+
+    def to(p: Point) -> Point:
+        return place.plus(_turned(p, turn))
+
+    match shape:
+        case Lines(lines, style, closed):
+            return Lines(tuple(tuple(map(to, line)) for line in lines), style, closed)
+        case Circle(at, radius, style):
+            return Circle(to(at), radius, style)
+        case Arc(at, radius, begin, extent, style):
+            return Arc(to(at), radius, begin - cmath.phase(turn), extent, style)
+        case Text(at, words, style, anchor):
+            return Text(to(at), words, style, anchor)
+
+
+def figure_at(picture: MovingPicture, time: float) -> Figure:
+    """One instant of a moving picture, in its frame."""
+    by, page = Point(-picture.corner.x, -picture.corner.y), picture.page
+    shapes = tuple(moved(shape, by) for shape in at_time(picture.bodies, time))
+    return Figure(shapes, page.width, page.height, page.title, page.description)
+
+
+# --- SVG -------------------------------------------------------------------------------------------
+
+
+def moving_svg(picture: MovingPicture) -> str:
+    """The picture as SVG that moves by itself (SMIL), over and over, without script."""
+    used = [shape.style for body in picture.bodies for shape in body.shapes]
+    shift = f"{number(-picture.corner.x)} {number(-picture.corner.y)}"
+    groups = (_group(body, picture.clock.seconds) for body in picture.bodies)
+    return document(picture.page, used, [f'<g transform="translate({shift})">', *groups, "</g>"])
+
+
+def _group(body: Body, seconds: float) -> str:
+    shapes = "".join(map(element, body.shapes))
+    if not body.steps:
+        return shapes
+    written = [_keys(step) for step in body.steps]
+    first = " ".join(f"{kind}({values[0]})" for kind, values in written)
+    if all(len(set(values)) == 1 for _, values in written):
+        return f'<g transform="{first}">{shapes}</g>'
+    return f'<g transform="{first}">{"".join(_moves(written, seconds))}{shapes}</g>'
+
+
+def _moves(written: Sequence[tuple[str, list[str]]], seconds: float) -> Iterator[str]:
+    """One after another: the first replaces what stands in the group, the others follow it."""
+    for k, (kind, values) in enumerate(written):
+        shown = ";".join(values[:1] * 2 if len(set(values)) == 1 else values)
+        how = f'attributeName="transform" type="{kind}" additive="{"sum" if k else "replace"}"'
+        yield f'<animateTransform {how} dur="{seconds:g}s" repeatCount="indefinite" values="{shown}"/>'
+
+
+def _keys(step: Shift | Turn) -> tuple[str, list[str]]:
+    if isinstance(step, Shift):
+        return "translate", [f"{number(place.x)} {number(place.y)}" for place in step.places]
+    return "rotate", [f"{round(-math.degrees(angle), 2) + 0.0:.10g}" for angle in step.angles]

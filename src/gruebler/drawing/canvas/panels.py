@@ -1,0 +1,351 @@
+"""Plots of curves over axes: panels one below the other, a list of lines beside them; and the diagram of Q_G."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.canvas.axes import Axis, Scale, angles, decades, decimals
+from gruebler.drawing.canvas.figure import Figure, figure_of
+from gruebler.drawing.canvas.free_space import Room, complexes
+from gruebler.drawing.canvas.labels import noted
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text, moved, text_width
+from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.errors import GrueblerError
+from gruebler.text import in_language
+
+__all__ = ["Band", "Curve", "Mark", "Panel", "Rest", "Spot", "plotted", "ratio_diagram"]
+
+Reals = NDArray[np.float64]
+
+_SIZE = Point(520.0, 300.0)
+_TICK = 5.0
+_ABOVE = 17.0  # from a panel to what its axis measures, and once more where marks have words
+_MARGINS = (10.0, 24.0, 38.0, 52.0, 66.0)  # beside a panel, where no words of points are put
+_BETWEEN = 62.0  # pixels from panel to panel
+_BESIDE = 20.0  # from the panels to the list of lines
+_ROW, _SAMPLE = 22.0, 34.0  # of the list
+
+
+class Curve(NamedTuple):
+    """A line through points; NaN breaks it."""
+
+    x: Reals
+    y: Reals
+    name: str
+    """In the list of lines; no name, no row there."""
+    style: str
+    right: bool = False
+    """Whether it is read at the axis on the right."""
+
+
+class Spot(NamedTuple):
+    """A point that is named."""
+
+    x: float
+    y: float
+    words: str
+    right: bool = False
+
+
+class Band(NamedTuple):
+    """A range of heights that is shaded, with words in it."""
+
+    low: float
+    high: float
+    words: str
+
+
+class Mark(NamedTuple):
+    """A place on the axis below that is marked by a line upwards."""
+
+    x: float
+    words: str
+
+
+class Rest(NamedTuple):
+    """A range of the axis below that is shaded: a dwell, with words above it."""
+
+    low: float
+    high: float
+    words: str
+
+
+class Panel(NamedTuple):
+    """One pair of axes, or one with a second axis on the right, and what is in it."""
+
+    across: Axis
+    up: Axis
+    curves: tuple[Curve, ...]
+    right: Axis | None = None
+    bands: tuple[Band, ...] = ()
+    marks: tuple[Mark, ...] = ()
+    spots: tuple[Spot, ...] = ()
+    rests: tuple[Rest, ...] = ()
+    size: Point = _SIZE
+    marked: str = ""
+    """What the marks are, for the list of lines."""
+
+    def place(self, x: float, y: float, right: bool = False) -> Point:
+        """A pair of values in pixels; the lower left corner is the origin."""
+        axis = self.right if right and self.right is not None else self.up
+        return Point(self.size.x * self.across.scale.part(x), -self.size.y * axis.scale.part(y))
+
+
+def plotted(panels: Sequence[Panel], title: str, description: str, lang: str = "en") -> Figure:
+    """The figure of panels one below the other; all lines with a name are listed on the right.
+
+    >>> x = np.linspace(0, 360, 100)
+    >>> panel = Panel(Axis("x", angles(0, 360)), Axis("y", decimals(-1, 1)), (Curve(x, np.sin(x), "", "line-1"),))
+    >>> plotted([panel], "sine", "A wave.").title
+    'sine'
+    """
+    shapes: list[Shape] = []
+    top = 0.0
+    for panel in panels:
+        shapes += [moved(shape, Point(0.0, top + panel.size.y)) for shape in _painted(panel)]
+        top += panel.size.y + _BETWEEN
+    named = {curve.name: curve.style for panel in panels for curve in panel.curves if curve.name}
+    named |= {panel.marked: "dead" for panel in panels if panel.marks and panel.marked}
+    wide = max(panel.size.x + (_right_margin(panel.right) if panel.right else 0.0) for panel in panels)
+    shapes += _listed(named, wide + _BESIDE)
+    return figure_of([_localised(shape, lang) for shape in shapes], title, description, margin=14.0)
+
+
+def _localised(shape: Shape, lang: str) -> Shape:
+    """A shape whose numbers have the decimal sign of a language."""
+    if isinstance(shape, Text) and shape.style in ("tick", "value"):
+        return replace(shape, words=in_language(shape.words, lang))
+    return shape
+
+
+def _right_margin(axis: Axis) -> float:
+    return 2 * _TICK + max(map(text_width, axis.scale.names), default=0.0)
+
+
+def _painted(panel: Panel) -> list[Shape]:
+    """Everything in a panel; the words at its points keep clear of lines, not of the grid."""
+    drawn: list[Shape] = [Lines(lines, c.style) for c in panel.curves if (lines := tuple(_pieces(panel, c)))]
+    drawn += [*_frame(panel), *_marks(panel)]
+    sides = [x for off in _MARGINS for x in (-off, panel.size.x + off)]
+    margins = Lines(tuple((Point(x, 0.0), Point(x, -panel.size.y)) for x in sides), "grid")
+    for spot in panel.spots:
+        at = panel.place(spot.x, spot.y, spot.right)
+        drawn.append(Circle(at, 3.2, "dot"))
+        drawn += [noted(at, spot.words, "value", [*drawn, margins])] if spot.words else []
+    shaded = [shape for band in panel.bands for shape in _shaded(panel, band, drawn)]
+    rests = [_rest(panel, rest) for rest in panel.rests]
+    return [*rests, *shaded, *_grid(panel), *drawn]
+
+
+def _rest(panel: Panel, rest: Rest) -> Shape:
+    """A dwell, shaded from below to above."""
+    left, right = (panel.size.x * panel.across.scale.part(x) for x in (rest.low, rest.high))
+    high = panel.size.y
+    return Lines(((Point(left, 0.0), Point(right, 0.0), Point(right, -high), Point(left, -high)),), "rest", closed=True)
+
+
+# --- axes ------------------------------------------------------------------------------------------
+
+
+def _grid(panel: Panel) -> Iterator[Shape]:
+    wide, high = panel.size
+    across, up = panel.across.scale, panel.up.scale
+    columns = [Point(wide * across.part(x), 0.0) for x in across.ticks]
+    rows = [Point(0.0, -high * up.part(y)) for y in up.ticks]
+    lines = [(p, Point(p.x, -high)) for p in columns] + [(p, Point(wide, p.y)) for p in rows]
+    if lines:
+        yield Lines(tuple(lines), "grid")
+
+
+def _frame(panel: Panel) -> Iterator[Shape]:
+    """The axes with ticks, their numbers, and what they measure."""
+    wide, high = panel.size
+    corner = Point(0.0, 0.0)
+    ends = [Point(0.0, -high), corner, Point(wide, 0.0), *([Point(wide, -high)] if panel.right else [])]
+    strokes: list[tuple[Point, ...]] = [tuple(ends)]
+    texts: list[Text] = []
+    across = panel.across.scale
+    for x, name in zip(across.ticks, across.names, strict=True):
+        at = Point(wide * across.part(x), 0.0)
+        strokes.append((at, at.plus(Point(0, 1), _TICK if name else _TICK / 2)))
+        texts += [Text(at.plus(Point(0, 1), _TICK + 10.0), name, "tick")] if name else []
+    for axis, left, out in ((panel.up, 0.0, -1.0), *([(panel.right, wide, 1.0)] if panel.right else [])):
+        for y, name in zip(axis.scale.ticks, axis.scale.names, strict=True):
+            at = Point(left, -high * axis.scale.part(y))
+            strokes.append((at, at.plus(Point(out, 0.0), _TICK if name else _TICK / 2)))
+            beside = at.plus(Point(out, 0.0), _TICK + 4.0)
+            texts += [Text(beside, name, "tick", "end" if out < 0 else "start")] if name else []
+    yield Lines(tuple(strokes), "axis")
+    yield from texts
+    yield Text(Point(wide, _TICK + 27.0), panel.across.words, "value", "end")
+    above = -high - _ABOVE * (
+        2 if any([*(mark.words for mark in panel.marks), *(rest.words for rest in panel.rests)]) else 1
+    )
+    yield Text(Point(0.0, above), panel.up.words, "value", "start")
+    if panel.right:
+        yield Text(Point(wide, above), panel.right.words, "value", "end")
+
+
+def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]:
+    """A range of heights, with its words where most room is."""
+    low, high = (panel.place(panel.across.scale.low, y) for y in (band.low, band.high))
+    wide = Point(panel.size.x, 0.0)
+    yield Lines(((low, low.plus(wide), high.plus(wide), high),), "warning", closed=True)
+    half = text_width(band.words, 11.0) / 2
+    places = [Point(x, y) for y in (high.y + 11.0, low.y - 11.0) for x in (wide.x - half - 6.0, half + 6.0, wide.x / 2)]
+    free = Room(drawn).free(complexes(places), 2 * half)
+    yield Text(places[int(free.argmax())], band.words, "tick")
+
+
+def _marks(panel: Panel) -> Iterator[Shape]:
+    """Lines upwards; their words and those of dwells stand side by side above the panel, as long as there is room."""
+    last = -math.inf
+    rests = [Mark((rest.low + rest.high) / 2, rest.words) for rest in panel.rests]
+    for mark in sorted([*panel.marks, *rests]):
+        foot = panel.place(mark.x, panel.up.scale.low)
+        top = Point(foot.x, -panel.size.y)
+        if mark not in rests:
+            yield Lines(((foot, top),), "dead")
+        half = text_width(mark.words, 11.0) / 2
+        if mark.words and foot.x - half > last:
+            yield Text(top.plus(Point(0.0, -13.0)), mark.words, "tick")
+            last = foot.x + half + 4.0
+
+
+# --- lines -----------------------------------------------------------------------------------------
+
+
+def _pieces(panel: Panel, curve: Curve) -> list[tuple[Point, ...]]:
+    """The parts of a line within the panel, with fewer points."""
+    axis = panel.right if curve.right and panel.right is not None else panel.up
+    good = np.isfinite(curve.x) & np.isfinite(curve.y)
+    if axis.scale.logarithmic:
+        good &= curve.y > 0
+    parts: list[list[Point]] = []
+    for k in range(len(curve.x) - 1):
+        if not (good[k] and good[k + 1]):
+            continue
+        start, end = (panel.place(float(curve.x[m]), float(curve.y[m]), curve.right) for m in (k, k + 1))
+        inside = _clipped(start, end, panel.size)
+        if inside is None:
+            continue
+        if parts and parts[-1][-1] == inside[0]:
+            parts[-1].append(inside[1])
+        else:
+            parts.append(list(inside))
+    return [tuple(thinned(part, FINE)) for part in parts]
+
+
+def _clipped(a: Point, b: Point, size: Point) -> tuple[Point, Point] | None:
+    """The part of a segment within a panel (Liang and Barsky 1984); None if there is none."""
+    along = b.minus(a)
+    first, last = 0.0, 1.0
+    for step, low, high in ((along.x, -a.x, size.x - a.x), (along.y, -size.y - a.y, -a.y)):
+        if not step:
+            if low > 1e-9 or high < -1e-9:
+                return None
+            continue
+        enters, leaves = sorted((low / step, high / step))
+        first, last = max(first, enters), min(last, leaves)
+    if first > last:
+        return None
+    return a if first == 0.0 else a.plus(along, first), b if last == 1.0 else a.plus(along, last)
+
+
+def _listed(named: dict[str, str], left: float) -> Iterator[Shape]:
+    """The names of the lines, one below the other, each beside a piece of its line."""
+    for k, (name, style) in enumerate(named.items()):
+        at = Point(left, 8.0 + _ROW * k)
+        yield Lines(((at, at.plus(Point(_SAMPLE, 0.0))),), style)
+        yield Text(at.plus(Point(_SAMPLE + 8.0, 0.0)), name, "value", "start")
+
+
+# --- straight-line guidance ------------------------------------------------------------------------
+
+_WORDS = {
+    "en": {
+        "title": "Relative deviation of a straight-line guidance",
+        "about": "Relative deviation Q_G, logarithmic, and length L by crank length l₁ over the crank angle φ_G of the "
+        "guidance.",
+        "at": "At φ_G = {angle:.4g}°: Q_G = {ratio:.4g}, L/l₁ = {length:.4g}.",
+        "ratio": "Q_G",
+        "length": "L/l₁",
+        "angle": "φ_G in °",
+    },
+    "de": {
+        "title": "Bezogene Geradführungsabweichung",
+        "about": "Bezogene Geradführungsabweichung Q_G, logarithmisch, und Länge L bezogen auf die Kurbellänge l₁ über "
+        "dem Kurbelwinkel φ_G der Geradführung.",
+        "at": "Bei φ_G = {angle:.4g}°: Q_G = {ratio:.4g}, L/l₁ = {length:.4g}.",
+        "ratio": "Q_G",
+        "length": "L/l₁",
+        "angle": "φ_G in °",
+    },
+}
+
+
+def ratio_diagram(
+    angle: Iterable[float],
+    ratio: Iterable[float],
+    length: Iterable[float],
+    *,
+    at: tuple[float, float, float] | None = None,
+    lang: str = "en",
+    title: str = "",
+    size: tuple[float, float] = _SIZE,
+) -> Figure:
+    """The diagram of a straight-line guidance: Q_G and L/l₁ over the crank angle that it takes.
+
+    Args:
+        angle: the window phi_G of the crank, in radians, ascending.
+        ratio: Q_G, the deviation by the length; its scale, on the left, is logarithmic.
+        length: L/l₁, the length by that of the crank; its scale is on the right.
+        at: phi_G, Q_G and L/l₁ of an example, marked as P₁ and P₂.
+        lang: ``en`` or ``de``.
+        title: of the picture, if it is not to be told that it is such a diagram.
+        size: of the field between the axes, in pixels.
+
+    Raises `GrueblerError` for lists of different lengths, less than two values, or ratios that are not positive.
+
+    >>> figure = ratio_diagram([0.5, 1.6, 2.9], [1e-6, 1e-4, 5e-3], [0.8, 2.0, 3.9], at=(2.85, 0.005, 3.9))
+    >>> [shape.words for shape in figure.shapes if isinstance(shape, Text)][-4:]
+    ['P₁', 'P₂', 'Q_G', 'L/l₁']
+    """
+    phi, q, way = (np.array(list(values), np.float64) for values in (angle, ratio, length))
+    if not len(phi) == len(q) == len(way) >= 2:
+        raise GrueblerError(
+            f"expected three lists of the same length, but found {len(phi)}, {len(q)}, {len(way)} values"
+        )
+    if not (np.isfinite([phi, q, way]).all() and (q > 0).all()):
+        raise GrueblerError("expected finite values with ratios above 0")
+    words, degrees = _WORDS[lang], np.degrees(phi)
+    spots: tuple[Spot, ...] = ()
+    about = words["about"]
+    if at is not None:
+        x = math.degrees(at[0])
+        spots = Spot(x, at[1], "P₁"), Spot(x, at[2], "P₂", right=True)
+        about += " " + words["at"].format(angle=x, ratio=at[1], length=at[2])
+        about = in_language(about, lang)
+
+    def axis(key: str, scale: Scale) -> Axis:
+        return Axis(words[key], scale._replace(names=tuple(in_language(name, lang) for name in scale.names)))
+
+    panel = Panel(
+        axis("angle", angles(0.0, float(degrees.max()), tight=True)),
+        axis("ratio", decades(float(q.min()), float(q.max()))),
+        (
+            Curve(degrees, q, words["ratio"], "line-1"),
+            Curve(degrees, way, words["length"], "line-2", right=True),
+        ),
+        axis("length", decimals(0.0, float(way.max()))),
+        marks=(Mark(spots[0].x, ""),) if spots else (),
+        spots=spots,
+        size=Point(*size),
+    )
+    return plotted([panel], title or words["title"], about)

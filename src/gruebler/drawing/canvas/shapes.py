@@ -1,0 +1,153 @@
+"""The shapes of a picture.
+
+Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; nothing else tells how it looks.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from gruebler.drawing.canvas.styles import STYLES
+
+__all__ = ["Arc", "Circle", "Lines", "Point", "Shape", "Text", "bounds", "lowered", "moved", "text_width"]
+
+
+class Point(NamedTuple):
+    """A place or a vector."""
+
+    x: float
+    y: float
+
+    def plus(self, other: Point, factor: float = 1.0) -> Point:
+        """The place moved by a multiple of a vector."""
+        return Point(self.x + factor * other.x, self.y + factor * other.y)
+
+    def minus(self, other: Point) -> Point:
+        """The vector from the other place."""
+        return Point(self.x - other.x, self.y - other.y)
+
+    def dot(self, other: Point) -> float:
+        """The scalar product."""
+        return self.x * other.x + self.y * other.y
+
+    @property
+    def length(self) -> float:
+        """Of the vector."""
+        return math.hypot(self.x, self.y)
+
+    @property
+    def unit(self) -> Point:
+        """The vector of length 1 in the same direction; to the right for no vector at all."""
+        size = self.length
+        return Point(self.x / size, self.y / size) if size > 1e-9 else Point(1.0, 0.0)
+
+    @property
+    def across(self) -> Point:
+        """The vector turned by a right angle, as x is turned to y."""
+        return Point(-self.y, self.x)
+
+
+@dataclass(frozen=True, slots=True)
+class Lines:
+    """One or several lines through points, closed or open."""
+
+    parts: tuple[tuple[Point, ...], ...]
+    style: str
+    closed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Circle:
+    """A circle."""
+
+    at: Point
+    radius: float
+    style: str
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """A part of a circle, from an angle on by an extent of less than a full turn; positive from x to y."""
+
+    at: Point
+    radius: float
+    begin: float
+    extent: float
+    style: str
+
+    def place(self, part: float) -> Point:
+        """The point after this part of the extent."""
+        angle = self.begin + part * self.extent
+        return Point(self.at.x + self.radius * math.cos(angle), self.at.y + self.radius * math.sin(angle))
+
+
+@dataclass(frozen=True, slots=True)
+class Text:
+    """Words at a place, their middle at its height; the anchor is start, middle or end."""
+
+    at: Point
+    words: str
+    style: str
+    anchor: str = "middle"
+
+
+Shape = Lines | Circle | Arc | Text
+
+
+def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]:
+    """The upper left corner of shapes with a margin around them, and their width and height."""
+    corners = [corner for shape in shapes for corner in _corners(shape)]
+    left, top = (min(axis) - margin for axis in zip(*corners, strict=True))
+    right, bottom = (max(axis) + margin for axis in zip(*corners, strict=True))
+    return Point(left, top), Point(right - left, bottom - top)
+
+
+_LOWERED = re.compile(r"(?<!\w)([^\W\d_])_(\w{1,3})(?!\w)")
+
+
+def lowered(words: str) -> list[tuple[str, bool]]:
+    """A text in pieces, each with whether it stands lower: up to three signs after a letter and an underscore.
+
+    >>> lowered("μ_min = 3°, left_arm")
+    [('μ', False), ('min', True), (' = 3°, left_arm', False)]
+    """
+    pieces = _LOWERED.split(words)
+    in_order = [(pieces[0], False)]
+    for letter, low, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+        in_order[-1] = in_order[-1][0] + letter, False
+        in_order += [(low, True), (rest, False)]
+    return [piece for piece in in_order if piece[0]]
+
+
+def text_width(words: str, size: float = 13.0) -> float:
+    """About how wide a text is; widths differ from one font to another."""
+    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in words)
+
+
+def _corners(shape: Shape) -> Iterator[Point]:
+    match shape:
+        case Lines(parts):
+            yield from (point for part in parts for point in part)
+        case Circle(at, radius) | Arc(at, radius):
+            yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
+        case Text(at, words, style, anchor):
+            wide = text_width(words, STYLES[style].size)
+            left = at.x - wide * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
+            yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
+
+
+def moved(shape: Shape, by: Point) -> Shape:
+    """The shape somewhere else."""
+    match shape:
+        case Lines(parts, style, closed):
+            return Lines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
+        case Circle(at, radius, style):
+            return Circle(at.plus(by), radius, style)
+        case Arc(at, radius, begin, extent, style):
+            return Arc(at.plus(by), radius, begin, extent, style)
+        case Text(at, words, style, anchor):
+            return Text(at.plus(by), words, style, anchor)

@@ -1,0 +1,90 @@
+"""Figures as SVG: small, the same from run to run, with title and description, text as text."""
+
+from __future__ import annotations
+
+import math
+from xml.sax.saxutils import escape
+
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, lowered
+from gruebler.drawing.canvas.styles import COLOURS, STYLES, Style
+
+__all__ = [
+    "element",
+    "number",
+    "style_sheet",
+]
+
+_CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *range(55296, 57344)))
+
+
+def style_sheet(used: list[str] | None = None) -> str:
+    """The rules of these styles, or of all, on light and dark ground; every class begins with ``gr``."""
+    names = list(STYLES) if used is None else used
+    rules = [".gr{stroke-linecap:round;stroke-linejoin:round;font-family:sans-serif}"]
+    rules += [f".gr-{name}{{{_declarations(STYLES[name], 0)}}}" for name in names]
+    dark = "".join(f".gr-{name}{{{_declarations(STYLES[name], 1)}}}" for name in names)
+    return "".join(rules) + "@media(prefers-color-scheme:dark){" + dark + "}"
+
+
+def _declarations(style: Style, ground: int) -> str:
+    parts = [f"fill:{COLOURS[style.fill][ground] if style.fill else 'none'}"]
+    if style.stroke:
+        parts.append(f"stroke:{COLOURS[style.stroke][ground]}")
+    if ground == 0 and style.stroke:
+        parts.append(f"stroke-width:{style.width:g}")
+    if ground == 0 and style.dash:
+        parts.append(f"stroke-dasharray:{' '.join(f'{length:g}' for length in style.dash)}")
+    if ground == 0 and style.size:
+        parts.append(f"font-size:{style.size:g}px")
+    return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])
+
+
+def element(shape: Shape) -> str:
+    """A shape as an element of SVG."""
+    match shape:
+        case Lines(parts, style, closed):
+            return f'<path class="gr-{style}" d="{"".join(_line(part, closed) for part in parts)}"/>'
+        case Circle(at, radius, style):
+            return f'<circle class="gr-{style}" cx="{number(at.x)}" cy="{number(at.y)}" r="{number(radius)}"/>'
+        case Arc(_, radius, _, extent, style):
+            size = number(radius)
+            flags = f"{int(abs(extent) > math.pi)} {int(extent > 0)}"
+            ends = _pair(shape.place(0)), _pair(shape.place(1))
+            return f'<path class="gr-{style}" d="M{ends[0]}A{size} {size} 0 {flags} {ends[1]}"/>'
+        case Text(at, words, style, anchor):
+            where = f'x="{number(at.x)}" y="{number(at.y + 0.35 * STYLES[style].size)}"'
+            anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
+            return f'<text class="gr-{style}" {where}{anchored}>{_worded(words, STYLES[style].size)}</text>'
+
+
+def _line(points: tuple[Point, ...], closed: bool) -> str:
+    return "M" + "L".join(map(_pair, points)) + ("Z" if closed else "")
+
+
+def _pair(point: Point) -> str:
+    return f"{number(point.x)} {number(point.y)}"
+
+
+def number(value: float) -> str:
+    """Tenths of a pixel; no minus zero."""
+    return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
+
+
+def _worded(words: str, size: float) -> str:
+    """Words with what stands lower, and after it as high as before."""
+    pieces = lowered(words)
+    if len(pieces) == 1:
+        return _plain(words)
+    made, was_low = "", False
+    for piece, low in pieces:
+        shift = 0.25 * size * (low - was_low)
+        small = f' font-size="{number(0.75 * size)}"' if low else ""
+        moved = f'<tspan dy="{number(shift)}"{small}>{_plain(piece)}</tspan>'
+        made += moved if shift or small else _plain(piece)
+        was_low = low
+    return made
+
+
+def _plain(words: str) -> str:
+    """Text that XML can hold."""
+    return escape(words.translate(_CONTROLS))

@@ -1,0 +1,270 @@
+"""The signs of joints, links, frames and drives, at given places; structure and scale pictures share them.
+
+A joint is told where it is and where its links lie, and answers with the shapes below and above the links and with the
+point at which each link takes hold of it. Signs: docs/theory/drawing.md.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.styles import BAR
+
+__all__ = [
+    "JointSign",
+    "Member",
+    "arrow",
+    "arrow_head",
+    "bar",
+    "hatching",
+    "joint_sign",
+    "polygon",
+    "straight_drive",
+    "ticks",
+    "turning_drive",
+    "widest_gap",
+]
+
+RADIUS = 6.2
+"""Of a turning joint."""
+_RING = 3.6
+_BLOCK = Point(12.5, 7.0)
+_GUIDE = Point(20.0, 10.0)
+_DISC = 8.0
+_HATCH = 6.0
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A link at a joint: the direction in which it lies, and whether it is the frame."""
+
+    towards: Point
+    is_frame: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class JointSign:
+    """What a joint looks like."""
+
+    below: tuple[Shape, ...]
+    above: tuple[Shape, ...]
+    holds: tuple[Point, ...]
+    """Where each member takes hold."""
+    axis: Point
+    """The direction of sliding, or the common tangent; for turning joints without meaning."""
+    reach: float
+    """How far the sign goes from its middle."""
+
+
+def joint_sign(kind: str, at: Point, members: Sequence[Member], *, letter: str = "") -> JointSign:
+    """The sign of a pair by name; a letter is written where the pair has no sign of its own in the plane."""
+    if letter or kind not in _SIGNS:
+        return _lettered(at, members, letter)
+    return _SIGNS[kind](at, members)
+
+
+def _turning(at: Point, members: Sequence[Member]) -> JointSign:
+    """An open circle; one ring more for each link beyond two."""
+    rings = len(members) - 2
+    radius = RADIUS + _RING * rings
+    above = (Circle(at, radius, "joint"), *(Circle(at, RADIUS + _RING * k, "ring") for k in range(rings)))
+    return JointSign((), above, (at,) * len(members), Point(1, 0), radius)
+
+
+def _lettered(at: Point, members: Sequence[Member], letter: str) -> JointSign:
+    """A circle with the symbol of the pair, wide enough for it; one ring more for each link beyond two."""
+    inner = 5.0 + 3.6 * max(1, len(letter))
+    rings = range(len(members) - 2)
+    above = [Circle(at, inner + _RING * len(rings), "joint"), *(Circle(at, inner + _RING * k, "ring") for k in rings)]
+    return JointSign(
+        (), (*above, Text(at, letter, "letter")), (at,) * len(members), Point(1, 0), inner + _RING * len(rings)
+    )
+
+
+def _sliding(at: Point, members: Sequence[Member]) -> JointSign:
+    """A block in a guide; the guide belongs to the first member (the frame is put first), the block to the others."""
+    u = members[0].towards.unit
+    u = Point(-u.x, -u.y)
+    v = u.across
+    back = at.plus(u, -_GUIDE.x)
+    hold = back.plus(u, -BAR / 2)
+    corners = [back.plus(v, s * _GUIDE.y) for s in (-1, 1)]
+    ends = [corner.plus(u, 2 * _GUIDE.x) for corner in corners]
+    below: list[Shape] = [Lines(((ends[0], corners[0], corners[1], ends[1]),), "rail")]
+    if members[0].is_frame:
+        below += [ticks(corners[0], ends[0], Point(-v.x, -v.y)), ticks(corners[1], ends[1], v)]
+    style = "block-frame" if members[1].is_frame else "block"
+    block = tuple(at.plus(u, a * _BLOCK.x).plus(v, b * _BLOCK.y) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    above: list[Shape] = [Lines((block,), style, closed=True)]
+    for k in range(len(members) - 2):
+        part = 1 - (k + 1) / (len(members) - 1)
+        above.append(Lines((tuple(at.plus(p.minus(at), part) for p in block),), "ring", closed=True))
+    return JointSign(tuple(below), tuple(above), (hold,) + (at,) * (len(members) - 1), u, _GUIDE.x)
+
+
+def _double_slide(at: Point, members: Sequence[Member]) -> JointSign:
+    """A plate with a cross: it slides both ways."""
+    half = 10.0 + _RING * (len(members) - 2)
+    square = tuple(Point(at.x + a * half, at.y + b * half) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    h = 6.5
+    cross = ((Point(at.x - h, at.y), Point(at.x + h, at.y)), (Point(at.x, at.y - h), Point(at.x, at.y + h)))
+    above = (Lines((square,), "joint", closed=True), Lines(cross, "ring"))
+    return JointSign((), above, (at,) * len(members), Point(1, 0), half)
+
+
+def _normal(members: Sequence[Member]) -> Point:
+    """From the first member to the second: the common normal of a contact."""
+    return members[1].towards.unit.minus(members[0].towards.unit).unit
+
+
+def _rolling(at: Point, members: Sequence[Member]) -> JointSign:
+    """Two discs that touch."""
+    n = _normal(members)
+    middles = (at.plus(n, -_DISC), at.plus(n, _DISC))
+    above = tuple(
+        Circle(middle, _DISC - 0.5, "block-frame" if member.is_frame else "block")
+        for middle, member in zip(middles, members, strict=True)
+    )
+    return JointSign((), above, middles, n.across, 2 * _DISC)
+
+
+def _roll_slide(at: Point, members: Sequence[Member]) -> JointSign:
+    """A disc on a flat; the flat belongs to the first member."""
+    n = _normal(members)
+    t = n.across
+    flat = tuple(at.plus(t, a * 14.0).plus(n, b) for a, b in ((-1, -7.0), (1, -7.0), (1, -0.5), (-1, -0.5)))
+    middle = at.plus(n, _DISC)
+    styles = ["block-frame" if member.is_frame else "block" for member in members]
+    above = (Lines((flat,), styles[0], closed=True), Circle(middle, _DISC - 0.5, styles[1]))
+    return JointSign((), above, (at.plus(n, -5.0), middle), t, 2 * _DISC)
+
+
+_SIGNS = {
+    "revolute": _turning,
+    "prismatic": _sliding,
+    "double_slide": _double_slide,
+    "rolling": _rolling,
+    "roll_slide": _roll_slide,
+}
+
+
+def bar(points: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:
+    """A link of even width along points; a halo sets it off from what it crosses."""
+    line = (tuple(points),)
+    kind = "frame-bar" if is_frame else "body-bar"
+    shapes: list[Shape] = [Lines((_shortened(points),), "halo-bar")] if halo else []
+    shapes += [Lines(line, "outline-bar"), Lines(line, kind)]
+    return [*shapes, _bar_hatching(points)] if is_frame else shapes
+
+
+def _shortened(points: Sequence[Point]) -> tuple[Point, ...]:
+    """A line less so much at both ends that its halo does not reach into what meets there."""
+    first, last = points[1].minus(points[0]), points[-2].minus(points[-1])
+    ends = [
+        points[0].plus(first.unit, min(16.0, first.length / 3)),
+        points[-1].plus(last.unit, min(16.0, last.length / 3)),
+    ]
+    return (ends[0], *points[1:-1], ends[1])
+
+
+def polygon(corners: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:
+    """A link with three joints or more: a shaded polygon with rounded corners."""
+    line = (tuple(corners),)
+    shapes: list[Shape] = [Lines(line, "halo", closed=True)] if halo else []
+    shapes += [Lines(line, "outline", closed=True), Lines(line, "frame" if is_frame else "body", closed=True)]
+    return [*shapes, hatching(corners)] if is_frame else shapes
+
+
+def _bar_hatching(points: Sequence[Point]) -> Lines:
+    """Slanted strokes across a bar."""
+    strokes = []
+    half = BAR / 2
+    for a, b in pairwise(points):
+        along = b.minus(a)
+        u, v = along.unit, along.unit.across
+        number = max(1, int(along.length / _HATCH))
+        for k in range(number):
+            foot = a.plus(u, (k + 0.5) * along.length / number)
+            strokes.append((foot.plus(v, half).plus(u, -half / 2), foot.plus(v, -half).plus(u, half / 2)))
+    return Lines(tuple(strokes), "hatch")
+
+
+def hatching(corners: Sequence[Point]) -> Lines:
+    """Strokes at 45 degrees inside a polygon and its rim."""
+    spread = [p.x + p.y for p in corners]
+    first, last = math.ceil((min(spread) - BAR / 2) / 8.0), math.floor((max(spread) + BAR / 2) / 8.0)
+    strokes = []
+    for k in range(first, last + 1):
+        cuts = _cuts(corners, 8.0 * k)
+        strokes += [(_stretched(a, b), _stretched(b, a)) for a, b in zip(cuts[::2], cuts[1::2], strict=False)]
+    return Lines(tuple(strokes), "hatch")
+
+
+def _cuts(corners: Sequence[Point], level: float) -> list[Point]:
+    """Where the line x + y = level cuts the rim, from left to right."""
+    found = []
+    for a, b in zip(corners, [*corners[1:], corners[0]], strict=True):
+        da, db = a.x + a.y - level, b.x + b.y - level
+        if (da < 0) != (db < 0):
+            found.append(a.plus(b.minus(a), da / (da - db)))
+    return sorted(found)
+
+
+def _stretched(a: Point, b: Point) -> Point:
+    return a.plus(a.minus(b).unit, BAR / 2 - 1)
+
+
+def ticks(a: Point, b: Point, outward: Point) -> Lines:
+    """The strokes that stand on a line of the frame, on its outer side."""
+    along = b.minus(a)
+    number = max(2, round(along.length / _HATCH))
+    places = [a.plus(along, (k + 0.5) / number) for k in range(number)]
+    lean = outward.plus(along.unit, -0.7)
+    return Lines(tuple((p.plus(outward, 1.3), p.plus(lean, 6.0)) for p in places), "hatch")
+
+
+def widest_gap(angles: Sequence[float]) -> float:
+    """The middle of the widest gap between directions, as an angle in radians.
+
+    >>> widest_gap([0.0, 1.0]) - 1.0 == (2 * math.pi - 1.0) / 2
+    True
+    """
+    around = sorted(angles)
+    gaps = [(b - a, a) for a, b in pairwise([*around, around[0] + 2 * math.pi])]
+    width, begin = max(gaps)
+    return begin + width / 2
+
+
+def turning_drive(at: Point, radius: float, away: float) -> list[Shape]:
+    """A curved arrow around a joint, its middle in the direction given by an angle."""
+    extent = math.radians(-230)
+    arc = Arc(at, radius, away - extent / 2, extent, "drive")
+    return [arc, arrow_head(arc)]
+
+
+def arrow_head(arc: Arc) -> Lines:
+    """The head at the end of an arc."""
+    tip = arc.place(1.0)
+    forward = tip.minus(arc.at).unit.across
+    return _head(tip, forward if arc.extent > 0 else Point(-forward.x, -forward.y))
+
+
+def straight_drive(at: Point, axis: Point, side: Point) -> list[Shape]:
+    """A straight arrow along an axis, at one side of the joint."""
+    middle = at.plus(side.unit, 22.0)
+    return arrow(middle.plus(axis, -17.0), middle.plus(axis, 13.0))
+
+
+def arrow(tail: Point, tip: Point, line: str = "drive", head: str = "head") -> list[Shape]:
+    """A straight arrow; its head goes on for 7 pixels beyond the tip of the line."""
+    return [Lines(((tail, tip),), line), _head(tip, tip.minus(tail).unit, head)]
+
+
+def _head(at: Point, forward: Point, style: str = "head") -> Lines:
+    side = forward.across
+    back = at.plus(forward, -1.5)
+    return Lines(((at.plus(forward, 7.0), back.plus(side, 4.6), back.plus(side, -4.6)),), style, closed=True)

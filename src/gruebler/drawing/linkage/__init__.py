@@ -1,0 +1,1 @@
+"""Linkages to scale: pictures in any pose, animations, and plots of what they do."""

@@ -1,0 +1,175 @@
+"""A linkage that moves by itself: SVG with SMIL, no script. Viewers without animation show its first pose.
+
+Every link is a group that is shifted and turned on straight lines between poses: docs/theory/drawing.md has the error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from typing import NamedTuple, TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from gruebler.drawing.canvas.figure import MARGIN, Figure, document
+from gruebler.drawing.canvas.shapes import Point, Shape, bounds
+from gruebler.drawing.canvas.svg import element, number
+from gruebler.drawing.linkage.bodies import PINS, Part, at_pose, parts
+from gruebler.drawing.linkage.layers import coupler_curve, drive_parts
+from gruebler.drawing.linkage.posed_linkage import Stage, staged
+from gruebler.drawing.structure.messages import describe, title
+from gruebler.errors import LinkageError
+from gruebler.linkages import Linkage
+
+__all__ = ["Options", "Scene", "animated_svg", "scene", "svg_of"]
+
+_WORDS = {
+    "en": {True: "It moves through {turns} turn(s) of its drive.", False: "It moves to and fro through its range."},
+    "de": {
+        True: "Es bewegt sich über {turns} Umdrehung(en) seines Antriebs.",
+        False: "Es bewegt sich hin und her durch seinen Bereich.",
+    },
+}
+_LONGEST = 3600.0  # seconds
+
+
+class Options(TypedDict, total=False):
+    """Arguments of `scene` besides the linkage."""
+
+    branch: str | Iterable[str] | None
+    between: tuple[float, float] | None
+    drives: ArrayLike | None
+    curves: Sequence[str]
+    seconds: float
+    lang: str
+    name: str
+
+
+class Scene(NamedTuple):
+    """A linkage through a full turn of its drive, or to and fro, in pixels."""
+
+    stage: Stage
+    pieces: tuple[Part, ...]
+    still: tuple[Shape, ...]
+    """Curves."""
+    corner: Point
+    """The upper left corner of all that is ever seen."""
+    page: Figure
+    """Without shapes: size and words."""
+    seconds: float
+    """Until everything repeats."""
+
+    @property
+    def rows(self) -> list[int]:
+        """The poses in the order in which they come, evenly in time; the last is the first again."""
+        there = [*range(len(self.stage.path))]
+        return there if self.stage.goes_round else there + there[-2::-1]
+
+
+def scene(
+    linkage: Linkage,
+    *,
+    branch: str | Iterable[str] | None = None,
+    between: tuple[float, float] | None = None,
+    drives: ArrayLike | None = None,
+    curves: Sequence[str] = (),
+    seconds: float = 4.0,
+    lang: str = "en",
+    name: str = "",
+) -> Scene:
+    """What all kinds of animations show.
+
+    Args:
+        linkage: with one drive, or with several and a path of them.
+        branch: the assembly mode, as for `gruebler.kinematics.move`.
+        between: drive values between which it is to move, if not the whole range.
+        drives: (rows, drives) a straight path of the drives, from its first row to its last.
+        curves: points or joints whose paths are drawn.
+        seconds: for a turn, or for there and back.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+
+    Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
+    """
+    if not 0 < seconds <= _LONGEST:
+        raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
+    stage = staged(linkage, branch=branch, between=between, drives=drives)
+    turns = stage.driven().span.turns
+    pieces = (*parts(stage), *drive_parts(stage))
+    rows = range(0, len(stage.path), 2)
+    poses = [shape for row in rows for part in pieces for shape in at_pose(stage, part, stage.path, row)]
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
+    still = tuple(curve)
+    corner, size = bounds([*poses, *still], MARGIN)
+    words = _WORDS[lang][stage.goes_round].format(turns=turns)
+    described = f"{describe(linkage.mechanism, lang)} {words}"
+    page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
+    return Scene(stage, pieces, still, corner, page, seconds * (turns if stage.goes_round else 1))
+
+
+def animated_svg(linkage: Linkage, **options: Unpack[Options]) -> str:
+    """A linkage through a full turn of its drive, or to and fro where the drive has limits, over and over.
+
+    Options and errors are those of `scene`.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> text = animated_svg(FourBar(25, 70, 40, 70).linkage())
+    >>> text.count("<animateTransform"), "<script" in text
+    (10, False)
+    """
+    return svg_of(scene(linkage, **options))
+
+
+def svg_of(shown: Scene) -> str:
+    """The scene as SVG that moves by itself."""
+    motion = _Motion(shown)
+    lines = [
+        f'<g transform="translate({number(-shown.corner.x)} {number(-shown.corner.y)})">',
+        *motion.groups([part for part in shown.pieces if part.layer < PINS]),
+        *map(element, shown.still),
+        *motion.groups([part for part in shown.pieces if part.layer >= PINS]),
+        "</g>",
+    ]
+    used = [shape.style for shape in shown.still] + [shape.style for part in shown.pieces for shape in part.shapes]
+    return document(shown.page, used, lines)
+
+
+class _Motion:
+    """Writes parts as groups that move for ever."""
+
+    def __init__(self, shown: Scene) -> None:
+        self.stage = shown.stage
+        self.rows = shown.rows
+        self.timing = f'dur="{shown.seconds:g}s" repeatCount="indefinite"'
+
+    def groups(self, pieces: Sequence[Part]) -> Iterator[str]:
+        """A group for parts of the same link that follow each other; what belongs to the frame stands still."""
+        for link, mine in groupby(pieces, key=lambda part: part.link):
+            shapes = "".join(element(shape) for part in mine for shape in part.shapes)
+            if link == self.stage.lower.mechanism.frame:
+                yield shapes
+                continue
+            shifts, turns = self._shifts(link), self._turns(link)
+            yield (
+                f'<g transform="translate({shifts[0]}) rotate({turns[0]})">'
+                f"{self._animated('translate', shifts)}{self._animated('rotate', turns)}"
+                f"{shapes}</g>"
+            )
+
+    def _shifts(self, link: str) -> list[str]:
+        k = self.stage.lower.mechanism.chain.index(link)
+        places = [self.stage.local(complex(z)) for z in self.stage.path.places[0, :, k]]
+        return [f"{number(places[row].x)} {number(places[row].y)}" for row in self.rows]
+
+    def _turns(self, link: str) -> list[str]:
+        angles = np.degrees(self.stage.path.angle(link))
+        return [f"{round(-angles[row], 2) + 0.0:g}" for row in self.rows]
+
+    def _animated(self, kind: str, values: list[str]) -> str:
+        shown = ";".join(values[:1] * 2 if len(set(values)) == 1 else values)
+        how = f'attributeName="transform" type="{kind}" additive="{_ADDITIVE[kind]}"'
+        return f'<animateTransform {how} {self.timing} values="{shown}"/>'
+
+
+_ADDITIVE = {"translate": "replace", "rotate": "sum"}

@@ -1,0 +1,57 @@
+"""Animations as pictures one after another: GIF, WebP and APNG, painted by matplotlib and put together by pillow."""
+
+from __future__ import annotations
+
+from typing import Unpack
+
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.frames import check_kind, frames_of
+from gruebler.drawing.canvas.shapes import Point, moved
+from gruebler.drawing.linkage.animation import Options, Scene, scene
+from gruebler.drawing.linkage.bodies import PINS, at_pose
+from gruebler.linkages import Linkage
+
+__all__ = [
+    "animated_frames",
+]
+
+_MOST = 144  # pictures of a file
+
+
+def animated_frames(
+    linkage: Linkage, kind: str, *, dark: bool = False, zoom: float = 1.25, **options: Unpack[Options]
+) -> bytes:
+    """The content of a ``gif``, ``webp`` or ``png`` file that shows the linkage moving, over and over.
+
+    Args:
+        linkage: with one drive.
+        kind: of the file; a png is an APNG, which viewers that do not know it show as its first picture.
+        dark: whether on dark ground.
+        zoom: pixels of the file to a pixel of the picture.
+        options: those of `gruebler.drawing.linkage.animation.scene`.
+
+    Cost: some 40 ms a picture. Raises `GrueblerError` if matplotlib is not installed, `LinkageError` as `scene` does.
+    """
+    check_kind(kind)
+    shown = scene(linkage, **options)
+    rows = shown.rows[:-1]
+    rows = rows[:: -(-len(rows) // _MOST)]
+    made = {row: _figure(shown, row) for row in dict.fromkeys(rows)}
+    return frames_of([made[row] for row in rows], kind, shown.seconds, dark=dark, zoom=zoom)
+
+
+def _figure(shown: Scene, row: int) -> Figure:
+    """The scene in one pose."""
+    stage, by = shown.stage, Point(-shown.corner.x, -shown.corner.y)
+    below, above = (
+        [
+            shape
+            for part in shown.pieces
+            if (part.layer >= PINS) == pins
+            for shape in at_pose(stage, part, stage.path, row)
+        ]
+        for pins in (False, True)
+    )
+    page = shown.page
+    shapes = tuple(moved(shape, by) for shape in (*below, *shown.still, *above))
+    return Figure(shapes, page.width, page.height, page.title, page.description)

@@ -1,0 +1,52 @@
+"""One page that shows a linkage moving, with play, pause and a slider for the drive; nothing else is loaded.
+
+The picture is the SVG that moves by itself; the script stops it and sets its clock.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Unpack
+
+import numpy as np
+
+from gruebler.drawing.canvas.moving_page import Settings, page_of
+from gruebler.drawing.linkage.animation import Options, Scene, scene, svg_of
+from gruebler.linkages import Linkage
+
+__all__ = [
+    "animated_page",
+]
+
+
+def animated_page(linkage: Linkage, **options: Unpack[Options]) -> str:
+    """An HTML page with the moving linkage, a button and a slider; options and errors are those of `animated_svg`.
+
+    Where the reader wants little motion it stands still at first.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> page = animated_page(FourBar(25, 70, 40, 70).linkage(), lang="de")
+    >>> page.count("<svg"), page.count("<script"), "http" in page.replace("http://www.w3.org/2000/svg", "")
+    (1, 1, False)
+    """
+    shown = scene(linkage, **options)
+    return page_of(svg_of(shown), shown.page, _settings(shown), options.get("lang", "en"))
+
+
+def _settings(shown: Scene) -> Settings:
+    """Those of a linkage."""
+    stage = shown.stage
+    ends = stage.path.drives[[0, -1]]
+    rising = np.flatnonzero(ends[1] > ends[0])
+    if not len(rising):  # a path on which no drive grows: the part of it
+        return Settings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
+    turning = stage.linkage.mechanism.drives[rising[0]].direction.startswith("R")
+    low, high = (math.degrees(q) if turning else float(q) for q in ends[:, rising[0]])
+    return Settings(
+        low=round(low, 6),
+        high=round(high, 6),
+        seconds=shown.seconds,
+        round=stage.goes_round,
+        places=1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
+        unit="°" if turning else f" {stage.linkage.unit}",
+    )

@@ -1,0 +1,118 @@
+"""Velocities and accelerations as arrows, and bars that tell the scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from gruebler.drawing.canvas.axes import figures
+from gruebler.drawing.canvas.shapes import Lines, Point, Shape, Text, bounds
+from gruebler.drawing.canvas.symbols import arrow
+from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.linkages import Named
+
+__all__ = ["acceleration_arrows", "scale_bars", "velocity_arrows"]
+
+_LONGEST = 74.0  # pixels of the longest arrow
+_LEAST = 0.02  # of the longest: shorter ones are left out
+_REST = 1e-9  # sizes, for a drive of speed 1
+_LENGTH = 90.0  # pixels of a length to compare with, at most
+_BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
+_RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
+
+
+def velocity_arrows(sheet: Sheet) -> list[Shape]:
+    """Velocities of joints and named points for a drive of speed 1."""
+    return _arrows(sheet.stage, 1, "velocity")
+
+
+def acceleration_arrows(sheet: Sheet) -> list[Shape]:
+    """Accelerations of joints and named points for a drive of even speed 1."""
+    return _arrows(sheet.stage, 2, "acceleration")
+
+
+def _rates(stage: Stage, order: int) -> list[tuple[complex, complex]]:
+    """Places of joints and named points, each once, with their velocities or accelerations."""
+    stage.driven()
+    pairs = {}
+    for place in _moving_points(stage):
+        at, rate = (complex(stage.pose.complex_point(place, k)[0]) for k in (0, order))
+        pairs[round(at.real, 9), round(at.imag, 9)] = at, rate
+    return list(pairs.values())
+
+
+def _longest(stage: Stage, rates: Sequence[tuple[complex, complex]]) -> float:
+    """The length of the longest one; 0 if nothing moves, or infinitely fast."""
+    longest = max((abs(rate) for _, rate in rates), default=0.0)
+    return longest if _REST * stage.lower.size < longest < math.inf else 0.0
+
+
+def _arrows(stage: Stage, order: int, style: str) -> list[Shape]:
+    rates = _rates(stage, order)
+    longest = _longest(stage, rates)
+    shapes: list[Shape] = []
+    for at, rate in rates if longest else ():
+        if abs(rate) > _LEAST * longest:
+            way = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
+            tip = stage.local(at).plus(way.unit, max(way.length - 7.0, 1.0))
+            shapes += arrow(stage.local(at), tip, style, f"{style}-head")
+    return shapes
+
+
+def _moving_points(stage: Stage) -> list[Named]:
+    """Named points, and turning joints away from the frame."""
+    lower, mechanism = stage.lower, stage.lower.mechanism
+    places = list(lower.points.values())
+    for number, joint in enumerate(mechanism.chain.joints):
+        if joint.pair.name == "revolute" and mechanism.frame not in joint.links:
+            e = lower.elements[number, joint.links[0]]
+            places.append(Named(joint.links[0], e.x, e.y))
+    return places
+
+
+class _Bar(NamedTuple):
+    """At most so many pixels that stand for so many units."""
+
+    pixels: float
+    most: float
+    unit: str
+    style: str
+
+
+def scale_bars(sheet: Sheet, layers: Sequence[str]) -> list[Shape]:
+    """Bars of round numbers of units for arrows and lengths, one below the other, below all that is drawn."""
+    corner, size = bounds(sheet.drawn, 0.0)
+    shapes: list[Shape] = []
+    bars = [bar for key in layers if (bar := _bar(sheet.stage, key)) is not None]
+    for k, bar in enumerate(bars):
+        number = _round(bar.most)
+        left = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
+        right = left.plus(_RIGHT, number * bar.pixels / bar.most)
+        ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (left, right)]
+        words = figures(number, bar.unit, sheet.lang)
+        shapes += [Lines(((left, right), *ends), bar.style), Text(right.plus(_RIGHT, 9.0), words, "value", "start")]
+    return shapes
+
+
+def _bar(stage: Stage, key: str) -> _Bar | None:
+    unit = stage.linkage.unit
+    if key == "scale":
+        return _Bar(_LENGTH, _LENGTH / stage.scale, unit, "measure")
+    order = {"velocities": 1, "accelerations": 2}.get(key, 0)
+    longest = _longest(stage, _rates(stage, order)) if order else 0.0
+    if not longest:
+        return None
+    by = f"{'rad' if stage.driven().turning_drive else unit}{'²' if order == 2 else ''}"
+    return _Bar(_LONGEST, longest, f"{unit}/{by}", ("velocity", "acceleration")[order - 1])
+
+
+def _round(most: float) -> float:
+    """The largest number of 1, 2, 5 times a power of ten that is not larger.
+
+    >>> _round(0.3), _round(7.0)
+    (0.2, 5.0)
+    """
+    power = math.floor(math.log10(most))
+    return float(f"{max(k for k in (1, 2, 5) if k * 10.0**power <= most * (1 + 1e-9))}e{power}")

@@ -1,0 +1,410 @@
+"""What the links of a linkage look like, each in its own coordinates: bodies through their pins, blocks, guides, slots.
+
+A picture puts them where the links lie; an animation moves them as they are.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.symbols import Member, joint_sign, ticks
+from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.drawing.linkage.wheels import round_parts
+from gruebler.kinematics import Motion
+from gruebler.linkages import Line, Linkage, Named, Pin
+
+__all__ = [
+    "Part",
+    "Slide",
+    "at_pose",
+    "barrel",
+    "corners_of",
+    "hull",
+    "in_link",
+    "layered",
+    "parts",
+    "pins_of",
+    "slides",
+]
+
+FRAME, BODIES, BLOCKS, PINS = range(4)
+"""Layers, from below."""
+
+_BLOCK = (14.0, 8.5)  # half sides of a block
+_BARREL = 9.0  # half the width of a cylinder
+_BEYOND = 5.0  # pixels by which a guide goes on beyond the block
+_SLOT_END = 9.0  # pixels by which a slot goes on beyond the pin
+_FOOT = Point(13.0, 21.0)  # of a pedestal
+_FLAT = 1e-6  # sizes: points nearer to a line lie on it
+_CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
+_LONGEST = 1.8  # times its shortest length: as far as a cylinder reaches
+
+
+class Part(NamedTuple):
+    """Shapes of a link, in pixels and coordinates of the link."""
+
+    layer: int
+    link: str
+    shapes: tuple[Shape, ...]
+
+
+class Slide(NamedTuple):
+    """What a sliding joint looks like."""
+
+    joint: int
+    guide: str
+    block: str
+    sign: str
+    """``block``, ``slot`` (a pin in a slot) or ``cylinder``."""
+    middle: complex
+    """Of the block, in its own coordinates."""
+    along: complex
+    """The direction of the guide, in its coordinates."""
+    low: complex
+    """The ends of the way of the middle, in the guide's coordinates."""
+    high: complex
+
+
+# --- sliding joints ------------------------------------------------------------------------------
+
+
+def slides(stage: Stage) -> tuple[Slide, ...]:
+    """The sliding joints, with how far their blocks go on the path of the stage."""
+    chain = stage.lower.mechanism.chain
+    return tuple(_slide(stage, k) for k, joint in enumerate(chain.joints) if joint.pair.name == "prismatic")
+
+
+def _slide(stage: Stage, number: int) -> Slide:
+    lower = stage.lower
+    guide, block = _guide_and_block(stage, number)
+    line, own = lower.elements[number, guide], lower.elements[number, block]
+    assert isinstance(line, Line)
+    assert isinstance(own, Line)
+    middle = _foot(lower, block, own)
+    start, along = complex(line.x, line.y), cmath.rect(1, line.angle)
+    places = np.concatenate([_seen(motion, guide, block, middle) for motion in (stage.path, stage.pose)])
+    ways = ((places - start) * along.conjugate()).real
+    low, high = float(ways.min()), float(ways.max())
+    sign = "block"
+    if block not in stage.linkage.mechanism.chain.links and pins_of(lower, block):
+        sign = "slot"
+    elif _is_cylinder(lower, number, guide, start, along, low, high):
+        sign = "cylinder"
+    return Slide(number, guide, block, sign, middle, along, start + low * along, start + high * along)
+
+
+def _guide_and_block(stage: Stage, number: int) -> tuple[str, str]:
+    """The frame is the guide, a link that stands for a pin in a slot the block; else the one with fewer joints is.
+
+    Of two links alike the one that is called so is the block, else the one named second.
+    """
+    mechanism, given = stage.lower.mechanism, stage.linkage.mechanism.chain.links
+    chain = mechanism.chain
+
+    def rank(link: str) -> tuple[bool, bool, int, bool]:
+        joints = sum(link in joint.links for joint in chain.joints)
+        points = sum(point.link == link for point in stage.lower.points.values())
+        return (
+            link not in given,
+            link != mechanism.frame,
+            -joints - points,
+            any(word in link.lower() for word in _CALLED_BLOCKS),
+        )
+
+    first, second = sorted(chain.joints[number].links, key=rank)
+    return first, second
+
+
+def pins_of(lower: Linkage, link: str) -> list[complex]:
+    """The pins of a link, in its coordinates."""
+    elements = [e for (_, own), e in lower.elements.items() if own == link and isinstance(e, Pin)]
+    return [complex(*e) for e in elements]
+
+
+def _foot(lower: Linkage, link: str, line: Line) -> complex:
+    """The middle of a block: where its one pin stands on its line, else the point from which ways are counted."""
+    start, pins = complex(line.x, line.y), pins_of(lower, link)
+    if len(pins) != 1:
+        return start
+    along = cmath.rect(1, line.angle)
+    return start + ((pins[0] - start) * along.conjugate()).real * along
+
+
+def _seen(path: Motion, link: str, other: str, point: complex) -> np.ndarray:
+    """A point of another link in coordinates of a link, along a path."""
+    k, m = (path.plan.lower.mechanism.chain.index(name) for name in (link, other))
+    place = path.places[0, :, m] + path.turns[:, m] * point
+    out: np.ndarray = (place - path.places[0, :, k]) * path.turns[:, k].conj()
+    return out
+
+
+def _is_cylinder(
+    lower: Linkage, number: int, guide: str, start: complex, along: complex, low: float, high: float
+) -> bool:
+    """Whether a driven slide between two moving links can be drawn as a cylinder with its rod."""
+    mechanism = lower.mechanism
+    if all(drive.joint != number for drive in mechanism.drives) or guide == mechanism.frame:
+        return False
+    pins = [(pin - start) * along.conjugate() for pin in pins_of(lower, guide)]
+    if len(pins) != 1 or abs(pins[0].imag) > _FLAT * lower.size:
+        return False
+    ways = sorted(abs(way - pins[0].real) for way in (low, high))
+    return (low - pins[0].real) * (high - pins[0].real) > 0 and ways[1] <= _LONGEST * ways[0]
+
+
+# --- bodies --------------------------------------------------------------------------------------
+
+
+def parts(stage: Stage) -> tuple[Part, ...]:
+    """All parts of the linkage, from below."""
+    found = slides(stage)
+    frame = stage.lower.mechanism.frame
+    links = [link for link in stage.lower.mechanism.chain.links if link != frame]
+    bodies = {link: _body(stage, link, found) for link in links}
+    made = [Part(FRAME, *part) for part in round_parts(stage)]
+    made += [Part(FRAME, frame, tuple(_ground(stage, found)))]
+    made += [Part(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))]
+    made += [Part(BODIES, frame, tuple(_pedestal(stage, pin))) for pin in _covered(stage, found)]
+    made += [_block(stage, slide) for slide in found if slide.sign != "slot"]
+    made += _pin_parts(stage)
+    return tuple(part for part in made if part.shapes)
+
+
+def corners_of(stage: Stage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
+    """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
+    lower = stage.lower
+    nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
+    nodes += [slide.middle for slide in found if slide.block == link and slide.sign != "cylinder"]
+    for slide in found:
+        if slide.guide == link and slide.sign != "cylinder":
+            middle = sum(nodes) / len(nodes) if nodes else slide.low
+            way = ((middle - slide.low) * slide.along.conjugate()).real
+            more = _reach(slide) / stage.scale
+            nodes.append(slide.low + slide.along * min(max(way, -more), abs(slide.high - slide.low) + more))
+    return hull([stage.local(z) for z in nodes], _FLAT * lower.size * stage.scale)
+
+
+def hull(points: Sequence[Point], flat: float) -> tuple[Point, ...]:
+    """The convex hull; of points on a line its two ends."""
+    left = sorted({Point(round(p.x, 6), round(p.y, 6)) for p in points})
+    if len(left) < 3:
+        return tuple(left)
+    chains: list[list[Point]] = []
+    for run in (left, left[::-1]):
+        chain: list[Point] = []
+        for p in run:
+            while len(chain) > 1 and _height(chain[-2], chain[-1], p) <= max(flat, 1e-3):
+                chain.pop()
+            chain.append(p)
+        chains.append(chain[:-1])
+    return tuple(chains[0] + chains[1])
+
+
+def _height(a: Point, b: Point, c: Point) -> float:
+    """How far c lies beside the line from a to b, positive on the side of x turned to y."""
+    return b.minus(a).unit.across.dot(c.minus(a))
+
+
+def _body(stage: Stage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
+    """A bar or polygon through the joints, and bars for its guides; outlines first, so that they grow together."""
+    corners = corners_of(stage, link, found)
+    outlines: list[Shape] = []
+    fills: list[Shape] = []
+    slots: list[Shape] = []
+    if len(corners) > 1:
+        suffix = "-bar" if len(corners) == 2 else ""
+        outlines.append(Lines((corners,), "outline" + suffix, closed=len(corners) > 2))
+        fills.append(Lines((corners,), "body" + suffix, closed=len(corners) > 2))
+    for slide in found:
+        if slide.sign == "cylinder":
+            if link in (slide.guide, slide.block):
+                line, wide = _cylinder(stage, slide, link)
+                outlines.append(Lines(line, f"outline-{wide}"))
+                fills.append(Lines(line, f"body-{wide}"))
+        elif slide.guide == link:
+            line = (_guide_line(stage, slide, _reach(slide)),)
+            wide = "wide" if slide.sign == "slot" else "bar"
+            outlines.append(Lines(line, f"outline-{wide}"))
+            fills.append(Lines(line, f"body-{wide}"))
+            if slide.sign == "slot":
+                slots += [Lines(line, "slot-rim"), Lines(line, "slot")]
+    return [*outlines, *fills, *slots]
+
+
+def _reach(slide: Slide) -> float:
+    """Pixels by which the bar of a guide goes on beyond the way of the block's middle."""
+    return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
+
+
+def _guide_line(stage: Stage, slide: Slide, beyond: float) -> tuple[Point, Point]:
+    more = max(beyond, 1.0) / stage.scale * slide.along
+    return stage.local(slide.low - more), stage.local(slide.high + more)
+
+
+def barrel(stage: Stage, slide: Slide) -> tuple[Point, Point]:
+    """The middle line of a barrel: from near its pin as far as the shortest length allows."""
+    pin = stage.local(pins_of(stage.lower, slide.guide)[0])
+    ends = sorted((stage.local(slide.low), stage.local(slide.high)), key=lambda end: end.minus(pin).length)
+    along = ends[0].minus(pin)
+    return pin.plus(along.unit, 11.0), pin.plus(along, 0.93)
+
+
+def _cylinder(stage: Stage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
+    """What carries the barrel, or the rod from its pin into the barrel, also where the cylinder is longest."""
+    lower = stage.lower
+    pin = pins_of(lower, slide.guide)[0]
+    if link == slide.guide:
+        return ((stage.local(pin), barrel(stage, slide)[0]),), "bar"
+    line = lower.elements[slide.joint, link]
+    assert isinstance(line, Line)
+    forward = ((slide.low - pin) * slide.along.conjugate()).real > 0
+    length = 0.9 * min(abs(slide.low - pin), abs(slide.high - pin)) * (-1 if forward else 1)
+    return ((stage.local(slide.middle), stage.local(slide.middle + cmath.rect(length, line.angle))),), "rod"
+
+
+def _extent(shapes: list[Shape]) -> float:
+    points = [p for shape in shapes if isinstance(shape, Lines) for part in shape.parts for p in part]
+    return max((math.dist(a, b) for a in points for b in points), default=0.0)
+
+
+def _block(stage: Stage, slide: Slide) -> Part:
+    """A rectangle: a block along its guide, or the barrel of a cylinder."""
+    if slide.sign == "cylinder":
+        a, b = barrel(stage, slide)
+        return Part(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
+    line = stage.lower.elements[slide.joint, slide.block]
+    assert isinstance(line, Line)
+    u = Point(math.cos(line.angle), -math.sin(line.angle))
+    at = stage.local(slide.middle)
+    return Part(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
+
+
+def _box(a: Point, b: Point, half: float) -> Lines:
+    side = b.minus(a).unit.across
+    corners = a.plus(side, -half), b.plus(side, -half), b.plus(side, half), a.plus(side, half)
+    return Lines((corners,), "block", closed=True)
+
+
+# --- the frame and the pins ----------------------------------------------------------------------
+
+
+def _ground(stage: Stage, found: tuple[Slide, ...]) -> list[Shape]:
+    """Rails with hatching along the guides of the frame, a pedestal below each of its pins."""
+    lower, frame = stage.lower, stage.lower.mechanism.frame
+    shapes: list[Shape] = []
+    for slide in found:
+        if slide.guide == frame:
+            a, b = _guide_line(stage, slide, _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND)
+            half = 8.5 if slide.sign == "slot" else _BLOCK[1] + 2.5
+            for side in (b.minus(a).unit.across, a.minus(b).unit.across):
+                rail = a.plus(side, half), b.plus(side, half)
+                shapes += [Lines((rail,), "rail"), ticks(*rail, side)]
+    covered = set(_covered(stage, found))
+    for pin in dict.fromkeys(pins_of(lower, frame)):
+        if pin not in covered:
+            shapes += _pedestal(stage, pin)
+    return shapes
+
+
+def _pedestal(stage: Stage, pin: complex) -> list[Shape]:
+    at = stage.local(pin)
+    left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
+    base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
+    return [
+        Lines(((at, right, left),), "block-frame", closed=True),
+        Lines((base,), "rail"),
+        ticks(*base, Point(0.0, 1.0)),
+    ]
+
+
+def _covered(stage: Stage, found: tuple[Slide, ...]) -> list[complex]:
+    """The pins of the frame whose pedestals the body of another link would cover in the pose: they stand before it."""
+    lower, frame = stage.lower, stage.lower.mechanism.frame
+    joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
+    out = []
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        element = lower.elements.get((number, frame))
+        if not isinstance(element, Pin):
+            continue
+        foot = Point(*stage.place(Named(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
+        for link in lower.mechanism.chain.links:
+            if link == frame or joint in joints[link]:
+                continue
+            corners = [
+                stage.place(Named(link, p.x / stage.scale, -p.y / stage.scale)) for p in corners_of(stage, link, found)
+            ]
+            if len(corners) > 2 and _inside(foot, corners):
+                out.append(complex(element.x, element.y))
+                break
+    return out
+
+
+def _inside(point: Point, corners: Sequence[Point]) -> bool:
+    """Whether a point lies in a convex polygon."""
+    sides = [_height(a, b, point) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    return min(sides) > 0 or max(sides) < 0
+
+
+def _pin_parts(stage: Stage) -> list[Part]:
+    """Turning joints, and dots for named points that lie at none."""
+    lower = stage.lower
+    made, taken = [], set()
+    for number, joint in enumerate(lower.mechanism.chain.joints):
+        if joint.pair.name != "revolute":
+            continue
+        link = min(joint.links, key=lambda one: one != lower.mechanism.frame)
+        taken |= {(one, *lower.elements[number, one][:2]) for one in joint.links}
+        e = lower.elements[number, link]
+        members = [Member(Point(1.0, 0.0))] * len(joint.links)
+        made.append(Part(PINS, link, joint_sign("revolute", stage.local(complex(e.x, e.y)), members).above))
+    for point in dict.fromkeys(lower.points.values()):
+        if tuple(point) not in taken:
+            made.append(Part(PINS, point.link, (Circle(stage.local(complex(point.x, point.y)), 3.2, "dot"),)))
+    return made
+
+
+# --- putting them where they lie -----------------------------------------------------------------
+
+
+def at_pose(stage: Stage, part: Part, motion: Motion | None = None, row: int = 0) -> list[Shape]:
+    """The shapes of a part in the pose of the stage, or in a row of another motion."""
+    poses = stage.pose if motion is None else motion
+    k = stage.lower.mechanism.chain.index(part.link)
+    turn, place = complex(poses.turns[row, k]), stage.local(complex(poses.places[0, row, k]))
+    return [_put(shape, turn, place) for shape in part.shapes]
+
+
+def layered(stage: Stage, pieces: Sequence[Part], lowest: int, highest: int) -> list[Shape]:
+    """The shapes of some layers in the pose of the stage."""
+    return [shape for part in pieces if lowest <= part.layer <= highest for shape in at_pose(stage, part)]
+
+
+def in_link(stage: Stage, link: str, shapes: Sequence[Shape]) -> Part:
+    """Shapes that lie somewhere in the pose of the stage, as a part that goes with a link above all others."""
+    k = stage.lower.mechanism.chain.index(link)
+    back = complex(stage.pose.turns[0, k]).conjugate()
+    origin = _put(Circle(stage.local(complex(stage.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
+    assert isinstance(origin, Circle)
+    place = Point(-origin.at.x, -origin.at.y)
+    return Part(PINS + 1, link, tuple(_put(shape, back, place) for shape in shapes))
+
+
+def _put(shape: Shape, turn: complex, place: Point) -> Shape:
+    def put(p: Point) -> Point:
+        return Point(place.x + turn.real * p.x + turn.imag * p.y, place.y - turn.imag * p.x + turn.real * p.y)
+
+    match shape:
+        case Lines(lines, style, closed):
+            return Lines(tuple(tuple(map(put, line)) for line in lines), style, closed)
+        case Circle(at, radius, style):
+            return Circle(put(at), radius, style)
+        case Arc(at, radius, begin, extent, style):
+            return Arc(put(at), radius, begin - cmath.phase(turn), extent, style)
+        case Text(at, words, style, anchor):
+            return Text(put(at), words, style, anchor)

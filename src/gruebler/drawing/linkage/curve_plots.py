@@ -1,0 +1,262 @@
+"""Plots in the plane: hodographs, coupler curves, those of a family of points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.canvas.axes import Axis, Scale, decimals
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.panels import Curve, Panel, Spot, plotted
+from gruebler.drawing.canvas.shapes import Point
+from gruebler.drawing.canvas.styles import LINES
+from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
+from gruebler.drawing.linkage.posed_linkage import floating, nodes
+from gruebler.errors import LinkageError
+from gruebler.kinematics import Motion
+from gruebler.linkages import Linkage, Named
+from gruebler.text import in_language
+
+__all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
+
+Complexes = NDArray[np.complex128]
+
+_SQUARE = 460.0  # pixels of the longer side
+_NEAR = 0.03  # of the field: drive values nearer to each other are left out
+_AROUND = 0.04  # of the field
+_MOST = len(LINES)
+_WORDS = {
+    "en": {
+        "hodograph": "{name}: hodograph of {output}",
+        "hodograph_about": "Tips of the velocity vectors of {output} put at one origin, {range}, with a speed of "
+        "{speed}.",
+        "curves": "{name}: coupler curves",
+        "curves_about": "Paths of {output}, {range}; dots and thin lines show the pose at {at}.",
+    },
+    "de": {
+        "hodograph": "{name}: Hodograph von {output}",
+        "hodograph_about": "Spitzen der Geschwindigkeitsvektoren von {output}, an einem Punkt angetragen, {range}, mit "
+        "einer Geschwindigkeit von {speed}.",
+        "curves": "{name}: Koppelkurven",
+        "curves_about": "Bahnen von {output}, {range}; Punkte und dünne Linien zeigen die Stellung bei {at}.",
+    },
+}
+
+
+def hodograph(
+    linkage: Linkage,
+    points: Sequence[str],
+    *,
+    speed: float | None = None,
+    branch: Branch = None,
+    between: Between = None,
+    lang: str = "en",
+    name: str = "",
+) -> Figure:
+    """The curves that the tips of velocity vectors draw, with drive values beside the first.
+
+    Args:
+        linkage: with one drive.
+        points: named points or joints.
+        speed: of the drive, in radians or lengths a second; without it velocities are by drive: lengths per radian.
+        branch: as for `gruebler.kinematics.move`.
+        between: drive values between which it is plotted, if not the whole range.
+        lang: ``en`` or ``de``.
+        name: of the linkage, if it is not to be found out.
+
+    Raises `LinkageError` for several drives, unknown points, none or more than eight.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> hodograph(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), ["K"]).title
+    'four-bar linkage: hodograph of K'
+    """
+    chosen, words = _few(points), _WORDS[lang]
+    if speed is not None and not (math.isfinite(speed) and speed):
+        raise LinkageError(
+            f"a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}",
+            f"ein Hodograph braucht einen Antrieb, der sich bewegt: erwartet wird ein Wert ungleich 0, nicht {speed}",
+        )
+    run = plot_run(linkage, 1, branch, between, lang, name)
+    places = [linkage.named(point)[-1] for point in chosen]
+    factor = 1.0 if speed is None else speed
+    paths = [factor * run.motion.complex_point(place, 1) for place in places]
+    per = run.drive_unit if speed is None else "s"
+    rate = "1" if speed is None else in_language(f"{speed:.6g} {run.drive_unit}/s", lang)
+    names = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
+    axes = [f"{one} in {run.unit}/{per}" for one in names]
+    ranges = [
+        _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
+    ]
+    tips = factor * run.course.at(run.round_drives, 1).complex_point(places[0], 1)
+    spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
+    panel = _square(paths, chosen if len(chosen) > 1 else [""], axes, [*spots, Spot(0.0, 0.0, "")], ranges=ranges)
+    about = words["hodograph_about"].format(range=run.range, output=", ".join(chosen), speed=rate)
+    return plotted([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about, lang)
+
+
+def _tips(run: PlotRun, path: Complexes, near: float) -> list[Spot]:
+    """Points at round drive values; of those near to each other the first is named."""
+    spots: list[Spot] = []
+    for drive, z in zip(run.round_drives, path, strict=True):
+        if np.isfinite(z):
+            named = [spot for spot in spots if spot.words]
+            apart = all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in named)
+            spots.append(Spot(z.real, z.imag, run.value(drive) if apart else ""))
+    return spots
+
+
+def _joined(ranges: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """The range that holds them all, and 0."""
+    return min(0.0, *(low for low, _ in ranges)), max(0.0, *(high for _, high in ranges))
+
+
+def coupler_plot(
+    linkage: Linkage,
+    points: Sequence[str],
+    *,
+    branch: Branch = None,
+    between: Between = None,
+    lang: str = "en",
+    name: str = "",
+) -> Figure:
+    """The paths of named points or joints over axes with the linkage's unit, and the links in one pose thinly.
+
+    Arguments and errors as for `hodograph`.
+    """
+    places = {point: linkage.named(point)[-1] for point in _few(points)}
+    return _paths(linkage, places, branch, between, lang, name)
+
+
+def family_plot(
+    linkage: Linkage,
+    link: str | None = None,
+    *,
+    start: complex | None = None,
+    end: complex | None = None,
+    count: int = 5,
+    branch: Branch = None,
+    between: Between = None,
+    lang: str = "en",
+    name: str = "",
+) -> Figure:
+    """The coupler curves of a family of points: evenly spaced on a line of one link.
+
+    Args:
+        linkage: with one drive.
+        link: that carries the points; without it the first that is no neighbour of the frame.
+        start: one end of the line, as x + iy in coordinates of the link; without it, or the other, the line goes
+            through the first two joints or points of the link, longer by half their distance on both sides.
+        end: the other end.
+        count: of points, 2 to 8.
+        branch: as for `gruebler.kinematics.move`.
+        between: drive values between which it is plotted, if not the whole range.
+        lang: ``en`` or ``de``.
+        name: of the linkage, if it is not to be found out.
+
+    Raises `LinkageError` for several drives, an unknown link, or one without two joints where a line is needed.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> family_plot(FourBar(25, 70, 40, 70).linkage(), count=3).description[:35]
+    'Paths of −35, 0; 35, 0; 105, 0, dri'
+    """
+    return _paths(linkage, family_of(linkage, link, start, end, count), branch, between, lang, name)
+
+
+def family_of(
+    linkage: Linkage, link: str | None, start: complex | None, end: complex | None, count: int
+) -> dict[str, Named]:
+    """The points of a family, named by their coordinates in the link."""
+    if not 2 <= count <= _MOST:
+        raise LinkageError(
+            f"a family has 2 to {_MOST} points, not {count!r}", f"eine Schar hat 2 bis {_MOST} Punkte, nicht {count!r}"
+        )
+    chosen = floating(linkage) if link is None else link
+    if chosen not in linkage.mechanism.chain.links:
+        raise LinkageError(f"there is no link {chosen!r}; the links are {', '.join(linkage.mechanism.chain.links)}")
+    if chosen == linkage.mechanism.frame:
+        raise LinkageError(
+            f"{chosen!r} is the frame: its points do not move", f"{chosen!r} ist das Gestell: seine Punkte ruhen"
+        )
+    places = nodes(linkage, chosen)
+    if start is None or end is None:
+        if len(places) < 2:
+            raise LinkageError(f"{chosen!r} has one joint and no point: say between which points the family lies")
+        first, second = places[:2]
+        start, end = (first - (second - first) / 2, second + (second - first) / 2)
+    if not np.isfinite([start, end]).all() or start == end:
+        raise LinkageError(f"expected two different finite points, but found {start} and {end}")
+    points = [start + k / (count - 1) * (end - start) for k in range(count)]
+    return {f"{p.real:.4g}, {p.imag + 0.0:.4g}".replace("-", "−"): Named(chosen, p.real, p.imag) for p in points}
+
+
+def _paths(
+    linkage: Linkage,
+    places: dict[str, Named],
+    branch: Branch,
+    between: Between,
+    lang: str,
+    name: str,
+) -> Figure:
+    run = plot_run(linkage, 0, branch, between, lang, name)
+    words = _WORDS[lang]
+    paths = [run.motion.complex_point(place) for place in places.values()]
+    row = len(run.drives) // 6
+    skeleton = _skeleton(run.motion, row, places.values())
+    spots = [Spot(path[row].real, path[row].imag, "") for path in paths]
+    panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
+    about = words["curves_about"].format(range=run.range, output="; ".join(places), at=run.value(run.drives[row]))
+    return plotted([panel], words["curves"].format(name=run.name), about, lang)
+
+
+def _skeleton(motion: Motion, row: int, places: Iterable[Named]) -> list[Complexes]:
+    """The lines between the joints of every moving link in a pose, and from one of them to each point of the link."""
+    lower = motion.plan.lower
+    lines = []
+    for k, link in enumerate(lower.mechanism.chain.links):
+        pins = list(dict.fromkeys(complex(e.x, e.y) for (_, own), e in lower.elements.items() if own == link))
+        points = [complex(place.x, place.y) for place in places if place.link == link]
+        if link != lower.mechanism.frame:
+            pairs = [*combinations(pins, 2), *((pins[0], point) for point in points)]
+            lines += [motion.places[0, row, k] + motion.turns[row, k] * np.array(pair) for pair in pairs]
+    return lines
+
+
+def _square(
+    paths: Sequence[Complexes],
+    names: Sequence[str],
+    axes: Sequence[str],
+    spots: Sequence[Spot],
+    thin: Sequence[Complexes] = (),
+    ranges: Sequence[tuple[float, float]] = (),
+) -> Panel:
+    """A panel with the same scale on both axes; without ranges it holds everything."""
+    if not ranges:
+        everything = np.concatenate([*paths, *thin])
+        ranges = [(float(np.nanmin(v)), float(np.nanmax(v))) for v in (everything.real, everything.imag)]
+    longest = max(high - low for low, high in ranges) or 1.0
+    wide = [(low - _AROUND * longest, high + _AROUND * longest) for low, high in ranges]
+    longest *= 1 + 2 * _AROUND
+    x, y = (_even(low, high, longest) for low, high in wide)
+    curves = [Curve(line.real, line.imag, "", "ghost") for line in thin]
+    curves += [Curve(z.real, z.imag, one, style) for z, one, style in zip(paths, names, LINES, strict=False)]
+    size = Point(*(_SQUARE / longest * (scale.high - scale.low) for scale in (x, y)))
+    seen = tuple(spot for spot in spots if x.low <= spot.x <= x.high and y.low <= spot.y <= y.high)
+    return Panel(Axis(axes[0], x), Axis(axes[1], y), tuple(curves), spots=seen, size=size)
+
+
+def _even(low: float, high: float, longest: float) -> Scale:
+    """A tight scale whose step is that of the longer one."""
+    few = max(1, round(8 * (high - low) / longest))
+    made = decimals(low, high, few=few, tight=True)
+    return made if len(made.ticks) > 1 else decimals(low, high, few=2, tight=True)
+
+
+def _few(points: Sequence[str]) -> list[str]:
+    chosen = list(dict.fromkeys(points))
+    if not 1 <= len(chosen) <= _MOST:
+        raise LinkageError(f"expected 1 to {_MOST} points or joints, but found {len(chosen)}")
+    return chosen

@@ -1,0 +1,187 @@
+"""The instant centres of a linkage in a pose: permanent ones at its joints, the others with their polar rays.
+
+Three links have their three instant centres on one line (theorem of three poles). So a pole lies on the line of the two
+that its links have with a third; where both are permanent, that line is a polar ray, and it is drawn.
+"""
+
+from __future__ import annotations
+
+import cmath
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
+from typing import NamedTuple
+
+from gruebler.drawing.canvas.axes import figures
+from gruebler.drawing.canvas.labels import noted, short_names
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape
+from gruebler.drawing.canvas.symbols import arrow
+from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.poles import cross
+from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.linkages import Line, Named
+
+__all__ = ["Pole", "instant_centres", "pole_marks", "pole_numbers"]
+
+_AWAY = 1.0  # of the longer side of what the linkage reaches: a pole farther outside is shown by its rays only
+_RAY = 64.0  # pixels of a ray that leads out of the picture
+_ALL = 4  # links: of so many all poles are shown, of more the permanent ones and those against the frame
+_SAME = 1e-6  # sizes: poles closer than that are one, as at a joint of several links
+_TRANSLATING = 1e-6  # a pole farther away than a million sizes is at infinity: the picture cannot tell
+_RESTING = 1e-9  # of the swiftest velocity: slower links are at rest against each other
+_SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+class Pole(NamedTuple):
+    """The instant centre of two links in a pose."""
+
+    links: tuple[str, str]
+    at: complex
+    """Where it is; where it is at infinity a point from which it is seen in its direction."""
+    direction: complex = 0.0
+    """The unit direction of a pole at infinity, else 0; its sign has no meaning."""
+    permanent: bool = False
+    """Whether it stays with the joint of the two links."""
+
+
+def instant_centres(stage: Stage) -> list[Pole]:
+    """The poles of a pose by pairs of links, permanent ones first; none for links at rest against each other.
+
+    All pairs of up to four links; of more the permanent poles and those against the frame.
+    """
+    stage.driven()
+    links, frame = stage.linkage.mechanism.chain.links, stage.linkage.mechanism.frame
+    found = {frozenset(pole.links): pole for pole in _permanent(stage)}
+    for one, other in itertools.combinations(links, 2):
+        if frozenset((one, other)) in found or (len(links) > _ALL and frame not in (one, other)):
+            continue
+        if (pole := _moving_pole(stage, one, other)) is not None:
+            found[frozenset((one, other))] = pole
+    return list(found.values())
+
+
+def _permanent(stage: Stage) -> Iterator[Pole]:
+    """At turning joints the pin; of slides the point at infinity across the guide."""
+    links = stage.linkage.mechanism.chain.links
+    for number, joint in enumerate(stage.lower.mechanism.chain.joints):
+        for one, other in itertools.combinations([link for link in joint.links if link in links], 2):
+            element = stage.lower.elements[number, one]
+            at = complex(stage.pose.complex_point(Named(one, element.x, element.y))[0])
+            if joint.pair.name == "revolute":
+                yield Pole((one, other), at, permanent=True)
+            elif joint.pair.name == "prismatic" and isinstance(element, Line):
+                across = cmath.rect(1.0, float(stage.pose.angle(one)[0]) + element.angle) * 1j
+                pins = [
+                    complex(stage.pose.complex_point(Named(link, e.x, e.y))[0])
+                    for link in (other, one)
+                    for (k, own), e in stage.lower.elements.items()
+                    if own == link and k != number and stage.lower.mechanism.chain.joints[k].pair.name == "revolute"
+                ]
+                yield Pole((one, other), pins[0] if pins else at, across, permanent=True)
+
+
+def _moving_pole(stage: Stage, one: str, other: str) -> Pole | None:
+    """The pole of two links by their velocities; None if they are at rest against each other."""
+    pose, chain, size = stage.pose, stage.lower.mechanism.chain, stage.lower.size
+    i, j = chain.index(one), chain.index(other)
+    middle = complex(pose.places[0, 0].mean())
+    there = pose.places[1, 0] + 1j * pose.rates[0, 0] * (middle - pose.places[0, 0])
+    apart, turning = complex(there[i] - there[j]), float(pose.rates[0, 0, i] - pose.rates[0, 0, j])
+    swiftest = max(float(abs(there).max()), float(abs(pose.rates[0, 0]).max()) * size)
+    if max(abs(apart), abs(turning) * size) <= _RESTING * swiftest:
+        return None
+    if abs(turning) * size <= _TRANSLATING * abs(apart):
+        return Pole((one, other), _joint_of(stage, one, middle), 1j * apart / abs(apart))
+    return Pole((one, other), middle + 1j * apart / turning)
+
+
+def _joint_of(stage: Stage, link: str, near: complex) -> complex:
+    """The joint of a link that is nearest to a place."""
+    own = [Named(link, e.x, e.y) for (_, holder), e in stage.lower.elements.items() if holder == link]
+    places = [complex(stage.pose.complex_point(place)[0]) for place in own]
+    return min(places, key=lambda z: abs(z - near))
+
+
+def pole_numbers(links: Sequence[str]) -> dict[str, str]:
+    """What links are called in the names of poles: short names as they are, others by number.
+
+    >>> pole_numbers(["frame", "crank", "coupler"])
+    {'frame': '1', 'crank': '2', 'coupler': '3'}
+    """
+    return short_names(list(links))
+
+
+def _name(pole: Pole, numbers: Mapping[str, str]) -> str:
+    one, other = sorted((numbers[link] for link in pole.links), key=lambda word: (len(word), word))
+    if len(one) == len(other) == 1 and (one + other).isdigit():
+        return "P" + (one + other).translate(_SUBSCRIPTS)
+    return f"P({one}, {other})"
+
+
+def pole_marks(sheet: Sheet) -> list[Shape]:
+    """Crosses and names of the poles, with polar rays; poles far away by arrows on their rays, with the distance."""
+    stage = sheet.stage
+    found = instant_centres(stage)
+    numbers = pole_numbers(stage.linkage.mechanism.chain.links)
+    shapes: list[Shape] = []
+    groups: list[tuple[complex, list[Pole]]] = []
+    for pole in found:
+        if not pole.direction and _near(stage, pole.at):
+            mine = next((group for z, group in groups if abs(z - pole.at) < _SAME * stage.lower.size), None)
+            if mine is None:
+                groups.append((pole.at, [pole]))
+            else:
+                mine.append(pole)
+        if not pole.permanent and not pole.direction and _near(stage, pole.at):
+            rays = (ends[-1] for ends in _rays(stage, pole, found))
+            shapes += [Lines(((stage.local(start), stage.local(pole.at)),), "dead") for start in rays]
+    for z, group in groups:
+        at = stage.local(z)
+        shapes.append(Circle(at, 3.0, "dot") if any(pole.permanent for pole in group) else cross(at))
+    words: list[tuple[Point, str]] = [
+        (stage.local(z), ", ".join(_name(pole, numbers) for pole in group)) for z, group in groups
+    ]
+    for pole in found:
+        if pole.direction or not _near(stage, pole.at):
+            for start, text in _far(sheet, pole, found, _name(pole, numbers)):
+                tip = _tip(stage, pole, start)
+                shapes += arrow(stage.local(start), tip, "dead", "dot")
+                words.append((tip, text))
+    for at, text in words:
+        shapes.append(noted(at, text, "value", [*sheet.drawn, *shapes]))
+    return shapes
+
+
+def _near(stage: Stage, z: complex) -> bool:
+    upper, lower = stage.reach
+    at, away = stage.local(z), _AWAY * max(lower.x - upper.x, lower.y - upper.y)
+    return max(upper.x - at.x, at.x - lower.x, upper.y - at.y, at.y - lower.y) <= away
+
+
+def _rays(stage: Stage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
+    """The permanent poles on each polar ray of a pole that are no points at infinity, the nearest to it first."""
+    permanent = {frozenset(one.links): one for one in found if one.permanent}
+
+    def away(z: complex) -> float:
+        return -(z * pole.direction.conjugate()).real if pole.direction else abs(z - pole.at)
+
+    for third in stage.linkage.mechanism.chain.links:
+        pair = [permanent.get(frozenset((link, third))) for link in pole.links]
+        ends = [end.at for end in pair if end is not None and not end.direction]
+        if third not in pole.links and None not in pair and ends:
+            yield tuple(sorted(ends, key=away))
+
+
+def _far(sheet: Sheet, pole: Pole, found: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
+    """Where arrows to a pole outside begin, and what stands at them: its name, and how far it is from there."""
+    stage = sheet.stage
+    nearest = [ends[0] for ends in _rays(stage, pole, found)] if not pole.permanent else []
+    if pole.direction:
+        yield from ((start, f"{name} ∞") for start in nearest or [pole.at])
+        return
+    for start in nearest or [_joint_of(stage, pole.links[1], pole.at)]:
+        yield start, f"{name} {figures(abs(pole.at - start), stage.linkage.unit, sheet.lang)}"
+
+
+def _tip(stage: Stage, pole: Pole, start: complex) -> Point:
+    way = stage.local(pole.direction or pole.at - start).unit
+    return stage.local(start).plus(way, _RAY)

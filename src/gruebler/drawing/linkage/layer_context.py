@@ -1,0 +1,25 @@
+"""What the layers of a linkage picture are drawn on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+from gruebler.drawing.canvas.shapes import Shape
+from gruebler.drawing.linkage.posed_linkage import Stage
+
+__all__ = ["Layer", "Sheet"]
+
+
+class Sheet(NamedTuple):
+    """What a layer is drawn on."""
+
+    stage: Stage
+    output: str | None
+    """The link or joint that is looked at; None for the linkage's own."""
+    drawn: Sequence[Shape]
+    """What is there already; texts keep clear of it."""
+    lang: str = "en"
+
+
+Layer = Callable[[Sheet], list[Shape]]

@@ -1,0 +1,258 @@
+"""What a linkage picture may show beside the bodies: curves, other positions, and layers that are asked for by name.
+
+Each layer is a function of a sheet; `LAYERS` names them.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.analysis.drive_cycle import PathCourse
+from gruebler.analysis.events import stops
+from gruebler.analysis.outputs import find_output
+from gruebler.analysis.transmission import Leg, driving_legs
+from gruebler.drawing.canvas.labels import noted
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.canvas.symbols import RADIUS, straight_drive, turning_drive, widest_gap
+from gruebler.drawing.linkage.arrows import acceleration_arrows, velocity_arrows
+from gruebler.drawing.linkage.bodies import Part, at_pose, corners_of, in_link, slides
+from gruebler.drawing.linkage.dimensions import dimension_lines
+from gruebler.drawing.linkage.instant_centres import pole_marks
+from gruebler.drawing.linkage.layer_context import Layer, Sheet
+from gruebler.drawing.linkage.poles import centrode_lines, inflection_lines
+from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.errors import LinkageError, nearest
+from gruebler.kinematics import Motion, circuit
+from gruebler.linkages import Line, Named
+from gruebler.text import in_language
+
+__all__ = [
+    "BELOW",
+    "LAYERS",
+    "coupler_curve",
+    "curve_of",
+    "drive_arrows",
+    "drive_parts",
+    "ghost",
+    "ghosts",
+    "layer",
+    "point_names",
+]
+
+Complexes = NDArray[np.complex128]
+
+_SAMPLES = 720  # poses of a curve
+_STEP = 0.03  # between samples of a circuit, in sizes
+_RAY = 46.0  # pixels of the legs of an angle
+_ARC = 34.0
+_AT_REST = 1e-7  # sizes for a drive of speed 1: below, a point leaves in the direction of its acceleration
+
+
+# --- curves --------------------------------------------------------------------------------------
+
+
+def coupler_curve(stage: Stage, name: str) -> list[Shape]:
+    """The path of a point through the range of the drive; where that is limited, the rest of its circuit thinly.
+
+    Raises `LinkageError` for a name that is no point or joint, and with several drives.
+    """
+    point = stage.linkage.named(name)[-1]
+    course = stage.driven()
+    if stage.goes_round:
+        drives = np.linspace(course.span.low, course.span.high, _SAMPLES * course.span.turns + 1)
+        return [curve_of(stage, course.at(drives, 0).complex_point(point), "curve")]
+    if isinstance(course, PathCourse):
+        return [curve_of(stage, course.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
+    rest = circuit(stage.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]), step=_STEP)
+    return [
+        curve_of(stage, rest.samples.complex_point(point), "curve-rest"),
+        curve_of(stage, stage.path.complex_point(point), "curve"),
+    ]
+
+
+def curve_of(stage: Stage, z: Complexes, style: str) -> Lines:
+    """A line through places, with as few points as will do."""
+    points = [stage.local(complex(one)) for one in z]
+    closed = points[0].minus(points[-1]).length < 1e-3
+    line = thinned(points, FINE)
+    return Lines((tuple(line[:-1] if closed and len(line) > 2 else line),), style, closed)
+
+
+# --- drives --------------------------------------------------------------------------------------
+
+
+def drive_arrows(stage: Stage) -> list[Shape]:
+    """A curved arrow at every turning drive, a straight one beside every sliding one, in their positive sense."""
+    return [shape for part in drive_parts(stage) for shape in at_pose(stage, part)]
+
+
+def drive_parts(stage: Stage) -> list[Part]:
+    """The arrows of the drives, each going with a link of its joint."""
+    lower = stage.lower
+    made: list[Part] = []
+    for number, drive in enumerate(lower.mechanism.drives if stage.linkage.mechanism.drives else ()):
+        first, other = lower.reference(number)
+        e, f = lower.elements[drive.joint, first], lower.elements[drive.joint, other]
+        at = stage.place(Named(other, f.x, f.y))
+        if isinstance(e, Line):
+            angle = e.angle + float(stage.pose.angle(first)[0])
+            axis = Point(math.cos(angle), -math.sin(angle))
+            cylinder = [s for s in slides(stage) if s.joint == drive.joint and s.sign == "cylinder"]
+            if cylinder:
+                at = at.plus(stage.place(Named(first, e.x, e.y)).minus(at), 0.5)
+            arrow = straight_drive(at, axis, axis.across if axis.x < 0 else Point(0, 0).minus(axis.across))
+            made.append(in_link(stage, cylinder[0].guide if cylinder else other, arrow))
+        else:
+            arrow = turning_drive(at, RADIUS + 10.0, _free_direction(stage, drive.joint, at))
+            made.append(in_link(stage, first, arrow))
+    return made
+
+
+def _free_direction(stage: Stage, joint: int, at: Point) -> float:
+    """The middle of the widest gap between the bodies at a joint, the pedestal of the frame among them."""
+    lower = stage.lower
+    angles = []
+    for link in lower.mechanism.chain.joints[joint].links:
+        if link == lower.mechanism.frame:
+            angles.append(math.pi / 2)
+            continue
+        pins = [(n, e) for (n, own), e in lower.elements.items() if own == link and n != joint]
+        angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := stage.place(Named(link, e.x, e.y)))]
+    return widest_gap(angles or [math.pi / 2])
+
+
+# --- layers by name ------------------------------------------------------------------------------
+
+
+def _dead_centres(sheet: Sheet) -> list[Shape]:
+    """The links as thin lines where the output stops or rests."""
+    stage = sheet.stage
+    course = stage.driven()
+    centres, dwells = stops(course, find_output(stage.linkage, sheet.output))
+    found = [centre.drive for centre in centres] + [drive for dwell in dwells for drive in (dwell.begin, dwell.end)]
+    if not stage.goes_round:
+        low, high = stage.path.drives[0, 0], stage.path.drives[-1, 0]
+        found = [drive for drive in found if low <= drive <= high]
+    if not found:
+        return []
+    motion = course.at(np.array(found), 0)
+    return [shape for row in range(len(found)) for shape in ghost(stage, motion, row)]
+
+
+def ghosts(stage: Stage, count: int) -> list[Shape]:
+    """So many positions, evenly through the turns of the drive; in a range from one end to the other."""
+    drives = stage.path.drives[:, 0]
+    places = (
+        np.linspace(drives[0], drives[-1], count + 1)[:-1]
+        if stage.goes_round
+        else np.linspace(drives[0], drives[-1], count)
+    )
+    motion = stage.driven().at(places, 0)
+    return [shape for row in range(count) for shape in ghost(stage, motion, row)]
+
+
+def ghost(stage: Stage, motion: Motion, row: int) -> list[Shape]:
+    """The outlines of all moving links, their guides and their joints."""
+    lower, found = stage.lower, slides(stage)
+    lines: list[tuple[Point, ...]] = []
+    joints: dict[tuple[float, float], Point] = {}
+    for link in lower.mechanism.chain.links:
+        if link == lower.mechanism.frame:
+            continue
+
+        def moved(points: Iterable[Point], link: str = link) -> tuple[Point, ...]:
+            shape = at_pose(stage, Part(0, link, (Lines((tuple(points),), "ghost"),)), motion, row)[0]
+            assert isinstance(shape, Lines)
+            return shape.parts[0]
+
+        corners = moved(corners_of(stage, link, found))
+        if len(corners) > 1:
+            lines.append((*corners, corners[0]) if len(corners) > 2 else corners)
+        guides = [slide for slide in found if slide.guide == link and slide.sign != "cylinder"]
+        lines += [moved(map(stage.local, (slide.low, slide.high))) for slide in guides]
+        own = [stage.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
+        joints |= {(round(p.x, 1), round(p.y, 1)): p for p in moved(own)}
+    return [Lines(tuple(lines), "ghost"), *(Circle(at, 4.0, "ghost-pin") for at in joints.values())]
+
+
+def _transmission(sheet: Sheet) -> list[Shape]:
+    """The angle between the force on the output and the normal of its way, with its value."""
+    stage = sheet.stage
+    stage.driven()
+    pushed = [_push(stage, leg) for leg in driving_legs(stage.pose.plan, find_output(stage.linkage, sheet.output))]
+    at, force, normal = min(pushed, key=lambda one: abs(cmath.phase(one[2] / one[1])))
+    apex = stage.local(at)
+    begin, extent = -cmath.phase(force), -cmath.phase(normal / force)
+    rays = [(apex, Arc(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
+    arc = Arc(apex, _ARC, begin, extent, "measure")
+    shapes: list[Shape] = [Lines(tuple(rays), "measure"), arc]
+    value = in_language(f"μ = {math.degrees(abs(extent)):.1f}°", sheet.lang)
+    return [*shapes, noted(arc.place(0.5), value, "value", [*sheet.drawn, *shapes])]
+
+
+def _push(stage: Stage, leg: Leg) -> tuple[complex, complex, complex]:
+    """Where a leg pushes, in which direction (from there back to the leg), and the nearer normal of the way there."""
+    pose, chain = stage.pose, stage.lower.mechanism.chain
+
+    def point(element: tuple[str, complex, complex]) -> complex:
+        return complex(pose.complex_point(Named(element[0], element[1].real, element[1].imag))[0])
+
+    def across(element: tuple[str, complex, complex]) -> complex:
+        return 1j * complex(pose.turns[0, chain.index(element[0])]) * element[2]
+
+    outer, inner = point(leg.outer), point(leg.inner)
+    at = outer if leg.form == "RP" else inner
+    force = outer - inner if leg.form == "RR" else across(leg.inner if leg.form == "RP" else leg.outer)
+    if leg.guide is not None:
+        kind, place = leg.guide
+        way = place[2] if kind == "P" else 1j * (at - place[1])
+    else:
+        k = chain.index(leg.pushed)
+        arm, w = at - pose.places[0, 0, k], float(pose.rates[0, 0, k])
+        way = complex(pose.places[1, 0, k] + 1j * w * arm)
+        if abs(way) < _AT_REST * stage.lower.size:
+            way = complex(pose.places[2, 0, k] + (1j * pose.rates[1, 0, k] - w**2) * arm)
+    normal = 1j * way
+    return at, force, normal if (force.conjugate() * normal).real >= 0 else -normal
+
+
+def point_names(stage: Stage, shapes: Sequence[Shape]) -> Iterable[Text]:
+    """The names of points, beside them."""
+    drawn = list(shapes)
+    for name, point in stage.lower.points.items():
+        text = noted(stage.place(point), name, "name", drawn)
+        drawn.append(text)
+        yield text
+
+
+def _later(_: Sheet) -> list[Shape]:
+    """Bars are put below everything else, when all of it is there."""
+    return []
+
+
+LAYERS: Mapping[str, Layer] = {
+    "dead-centres": _dead_centres,
+    "centrodes": centrode_lines,
+    "inflection": inflection_lines,
+    "transmission": _transmission,
+    "velocities": velocity_arrows,
+    "accelerations": acceleration_arrows,
+    "poles": pole_marks,
+    "dimensions": dimension_lines,
+    "scale": _later,
+}
+BELOW = ("dead-centres", "centrodes", "inflection")
+"""Layers that lie under the bodies, but for their marks and words."""
+
+
+def layer(name: str) -> Layer:
+    """A layer by name; `LinkageError` names those there are."""
+    if name not in LAYERS:
+        raise LinkageError(f"there is no {name!r} to be shown{nearest(name, LAYERS)}; there are {', '.join(LAYERS)}")
+    return LAYERS[name]

@@ -1,0 +1,60 @@
+"""The picture of a motion: its first pose, some of the others thinly, and the paths of named points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import chain
+
+import numpy as np
+
+from gruebler.drawing.canvas.figure import MARGIN, Figure, figure_of
+from gruebler.drawing.linkage.bodies import FRAME, PINS, layered, parts
+from gruebler.drawing.linkage.layers import curve_of, drive_arrows, ghost, point_names
+from gruebler.drawing.linkage.posed_linkage import stage_of
+from gruebler.drawing.structure.messages import describe, title
+from gruebler.drawing.structure.picture import draw
+from gruebler.kinematics import Motion
+
+__all__ = ["draw_motion"]
+
+_GHOSTS = 5
+_WORDS = {
+    "en": "A motion of {rows} poses; {ghosts} of them thinly.",
+    "de": "Eine Bewegung aus {rows} Stellungen; {ghosts} davon dünn.",
+}
+
+
+def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
+    """A motion as it was solved; of one without any pose the structure of its mechanism, with the reason.
+
+    Args:
+        motion: of one or several drives.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+
+    >>> from gruebler.kinematics import degrees, move
+    >>> from gruebler.fourbar import FourBar
+    >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), degrees(0, 90, 5))
+    >>> draw_motion(motion).description[-39:]
+    'A motion of 19 poses; 5 of them thinly.'
+    """
+    mechanism = motion.linkage.mechanism
+    about = describe(mechanism, lang)
+    if not len(motion):
+        return replace(
+            draw(mechanism, labels=True, lang=lang, name=name), description=f"{about} {motion.message(lang)}"
+        )
+    stage = stage_of(motion)
+    rows = sorted({round(row) for row in np.linspace(0, len(motion) - 1, _GHOSTS + 1)[1:]} - {0})
+    pieces = parts(stage)
+    below, above = layered(stage, pieces, FRAME, PINS - 1), layered(stage, pieces, PINS, PINS)
+    shapes = [
+        *chain.from_iterable(ghost(stage, motion, row) for row in rows),
+        *below,
+        *(curve_of(stage, motion.complex_point(point), "curve") for point in stage.lower.points if len(motion) > 1),
+        *above,
+        *drive_arrows(stage),
+    ]
+    shapes += point_names(stage, shapes)
+    told = _WORDS[lang].format(rows=len(motion), ghosts=len(rows))
+    return figure_of(shapes, title(mechanism, lang, name), f"{about} {told} {motion.message(lang)}".rstrip(), MARGIN)

@@ -1,0 +1,223 @@
+"""Plots over the drive: transfer functions of order 0, 1, 2, and the transmission angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.analysis import transmission_angle
+from gruebler.analysis.events import natural, stops
+from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.transmission import measure_transmission
+from gruebler.drawing.canvas.axes import Axis, angles, decimals
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.panels import Band, Curve, Mark, Panel, Rest, Spot, plotted
+from gruebler.drawing.canvas.shapes import Point
+from gruebler.drawing.canvas.styles import LINES
+from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
+from gruebler.errors import LinkageError
+from gruebler.linkages import Linkage
+from gruebler.text import in_language
+
+__all__ = ["transfer_plot", "transmission_plot"]
+
+Reals = NDArray[np.float64]
+
+_GOOD = 40.0  # degrees: the least transmission angle that is usual
+_LOW = Point(520.0, 190.0)  # panels of which there are three
+_NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values are none
+_WORDS = {
+    "en": {
+        "transfer": "{name}: transfer functions of {output}",
+        "transfer_about": "Output {output} and its first and second derivative over the drive, {range}.",
+        "transmission": "{name}: transmission angle of {output}",
+        "transmission_about": "Transmission angle over the drive, {range}. Smallest {mu}° at {at}; shaded below 40°.",
+        "dead": "Dead centres at {values}.",
+        "mark": "dead centre",
+        "rests": "Dwells, shaded: {values}.",
+        "rest": "dwell",
+    },
+    "de": {
+        "transfer": "{name}: Übertragungsfunktionen von {output}",
+        "transfer_about": "Abtrieb {output} und seine erste und zweite Ableitung über dem Antrieb, {range}.",
+        "transmission": "{name}: Übertragungswinkel von {output}",
+        "transmission_about": "Übertragungswinkel über dem Antrieb, {range}. Kleinster {mu}° bei {at}; unter 40° "
+        "getönt.",
+        "dead": "Totlagen bei {values}.",
+        "mark": "Totlage",
+        "rests": "Rasten, getönt: {values}.",
+        "rest": "Rast",
+    },
+}
+
+
+def transfer_plot(
+    linkage: Linkage,
+    output: str | None = None,
+    *,
+    branch: Branch = None,
+    between: Between = None,
+    lang: str = "en",
+    name: str = "",
+    names: Mapping[str, str] | None = None,
+) -> Figure:
+    """The transfer functions of order 0, 1 and 2 over the drive, one below the other, with dead centres and dwells.
+
+    Args:
+        linkage: with one drive.
+        output: a link or sliding joint; the linkage's own output without it.
+        branch: the assembly mode, as for `gruebler.kinematics.move`.
+        between: drive values between which it is plotted (radians, or a way), if not the whole range.
+        lang: ``en`` or ``de``.
+        name: of the linkage, if it is not to be found out.
+        names: what to call links, where that is not their own name.
+
+    Raises `LinkageError` for several drives, an unknown output, the frame, and if the linkage's own output moves
+    without turning.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> transfer_plot(FourBar(25, 70, 40, 70).linkage()).title
+    'four-bar linkage: transfer functions of rocker'
+    """
+    run = plot_run(linkage, 2, branch, between, lang, name)
+    found, words = find_output(linkage, output), _WORDS[lang]
+    _check(run, found, output)
+    called = (names or {}).get(found.name, found.name)
+    marks, rests = _stops(run, found, words["rest"])
+    panels = []
+    for order in range(3):
+        values = found.track(run.motion, order)
+        if order == 0 and np.ptp(values) < _least(run, found, 1):
+            values = np.full_like(values, values.mean())
+        if found.turning and order == 0:
+            values = np.degrees(values)
+        values = np.where(np.abs(values) < _least(run, found, max(order, 1)), 0.0, values)
+        scale = angles if found.turning and order == 0 else decimals
+        axis = Axis(_order_words(run, found, order), scale(*run.bulk(values), few=6))
+        shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
+        curves = (Curve(run.x, values, "", LINES[0]),)
+        named = rests if order == 0 else tuple(rest._replace(words="") for rest in rests)
+        panels.append(Panel(run.across, axis, curves, marks=shown, rests=named, size=_LOW, marked=words["mark"]))
+    about = words["transfer_about"].format(range=run.range, output=called) + _described(run, marks, rests, words)
+    return plotted(panels, words["transfer"].format(name=run.name, output=called), about, lang)
+
+
+def _check(run: PlotRun, output: Output, asked: str | None) -> None:
+    """`LinkageError` for an output that cannot have a transfer function: the frame, or a link that does not turn."""
+    linkage = run.course.linkage
+    frame = linkage.mechanism.frame
+    moving = [link for link in linkage.mechanism.chain.links if link != frame]
+    seen = {link: find_output(linkage, link) for link in moving}
+    sizes = {link: 1.0 if seen[link].turning else run.course.plan.lower.size for link in moving}
+    still = {link: np.ptp(seen[link].track(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
+    others = ", ".join(link for link in moving if not still[link])
+    if output.link == frame:
+        raise LinkageError(
+            f"the frame does not move: name another output, such as {others}",
+            f"das Gestell bewegt sich nicht: nenne einen anderen Abtrieb, etwa {others}",
+        )
+    if asked is None and output.turning and still[output.link]:
+        raise LinkageError(
+            f"the output {output.name} moves without turning, so it has no transfer function of an angle; name "
+            f"another output: {others}",
+            f"der Abtrieb {output.name} bewegt sich, ohne sich zu drehen, und hat keine Übertragungsfunktion eines "
+            f"Winkels; nenne einen anderen Abtrieb: {others}",
+        )
+
+
+def _described(run: PlotRun, marks: tuple[Mark, ...], rests: tuple[Rest, ...], words: dict[str, str]) -> str:
+    """The dead centres and dwells in words."""
+    values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
+    out = " " + words["dead"].format(values=values) if values else ""
+    to = math.radians if run.course.turning_drive else float
+    ranges = ", ".join(f"{run.value(to(rest.low))} – {run.value(to(rest.high))}" for rest in rests)
+    return out + (" " + words["rests"].format(values=ranges) if ranges else "")
+
+
+def _order_words(run: PlotRun, output: Output, order: int) -> str:
+    """What a transfer function is called, with its unit."""
+    letter, over = "ψ" if output.turning else "s", "φ" if run.course.turning_drive else "s₁"
+    if order == 0:
+        return f"{letter} in {'°' if output.turning else run.unit}"
+    mark = ("", "", "²")[order]
+    units = {
+        (True, True): "",
+        (True, False): f"rad/{run.unit}{mark}",
+        (False, True): f"{run.unit}/rad{mark}",
+        (False, False): "" if order == 1 else f"1/{run.unit}",
+    }
+    unit = units[output.turning, run.course.turning_drive]
+    words = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
+    return f"{words} in {unit}" if unit else words
+
+
+def _least(run: PlotRun, output: Output, order: int) -> float:
+    """The size of a derivative that is rounding only."""
+    by = 1.0 if run.course.turning_drive else run.course.plan.lower.size ** (order - 1)
+    return _NOISE * natural(run.course, output) / by
+
+
+def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[Mark, ...], tuple[Rest, ...]]:
+    """The dead centres and the dwells within what is plotted."""
+    centres, dwells = stops(run.course, output)
+    drives = [run.within(centre.drive) for centre in centres]
+    shown = sorted(drive for drive in drives if drive is not None)
+    low, high, period = float(run.drives[0]), float(run.drives[-1]), run.course.span.period
+    again = [drive + period for drive in shown if drive + period <= high + 1e-9 * period]
+    marks = [Mark(run.shown(drive), run.value(drive)) for drive in shown]
+    marks += [Mark(run.shown(drive), "") for drive in again]
+    rests = []
+    for dwell in dwells:
+        laps = range(math.floor((low - dwell.end) / period), math.ceil((high - dwell.begin) / period) + 1)
+        for lap in laps if period < math.inf else (0,):
+            shift = lap * period if lap else 0.0
+            begin, end = max(low, dwell.begin + shift), min(high, dwell.end + shift)
+            if end - begin > 1e-9 * (high - low):
+                rests.append(Rest(run.shown(begin), run.shown(end), word))
+    return tuple(marks), tuple(sorted(rests))
+
+
+def transmission_plot(
+    linkage: Linkage,
+    output: str | None = None,
+    *,
+    branch: Branch = None,
+    between: Between = None,
+    lang: str = "en",
+    name: str = "",
+    names: Mapping[str, str] | None = None,
+) -> Figure:
+    """The transmission angle over the drive, with the band below 40 degrees, its smallest value and the dead centres.
+
+    Arguments and errors as for `transfer_plot`; `LinkageError` also where there is no transmission angle.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> transmission_plot(FourBar(2, 5, 4, 5).linkage()).description[-72:]
+    'Smallest 36.87° at 0°; shaded below 40°. Dead centres at 34.05°, 233.1°.'
+    """
+    run = plot_run(linkage, 2, branch, between, lang, name)
+    found, words = find_output(linkage, output), _WORDS[lang]
+    called = (names or {}).get(found.name, found.name)
+    values = np.degrees(transmission_angle(run.motion, found.name))
+    smallest = measure_transmission(run.course, found).smallest
+    least, at = math.degrees(smallest.mu), run.within(smallest.drive)
+    if at is None:
+        row = int(values.argmin())
+        least, at = float(values[row]), float(run.drives[row])
+    marks, rests = _stops(run, found, words["rest"])
+    panel = Panel(
+        run.across,
+        Axis("μ in °", decimals(0.0, 90.0, few=9)),
+        (Curve(run.x, values, "", LINES[0]),),
+        bands=(Band(0.0, _GOOD, "μ < 40°"),),
+        marks=marks,
+        rests=rests,
+        spots=(Spot(run.shown(at), least, f"μ_min = {least:.1f}°"),),
+        marked=words["mark"],
+    )
+    about = words["transmission_about"].format(range=run.range, mu=in_language(f"{least:.2f}", lang), at=run.value(at))
+    about += _described(run, marks, rests, words)
+    return plotted([panel], words["transmission"].format(name=run.name, output=called), about, lang)

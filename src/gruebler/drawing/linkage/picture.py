@@ -1,0 +1,264 @@
+"""Pictures of linkages to scale, in any pose that their drives can reach: docs/theory/drawing.md."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import pairwise
+from math import cos, degrees, pi, sin
+
+from gruebler.drawing.canvas.axes import figures
+from gruebler.drawing.canvas.figure import MARGIN, Figure, figure_of
+from gruebler.drawing.canvas.labels import legend, named
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text
+from gruebler.drawing.linkage.arrows import scale_bars
+from gruebler.drawing.linkage.bodies import (
+    BLOCKS,
+    BODIES,
+    FRAME,
+    PINS,
+    Part,
+    Slide,
+    at_pose,
+    barrel,
+    corners_of,
+    layered,
+    parts,
+    slides,
+)
+from gruebler.drawing.linkage.dimensions import dimension_lines
+from gruebler.drawing.linkage.instant_centres import pole_numbers
+from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.layers import BELOW, coupler_curve, drive_arrows, ghosts, layer, point_names
+from gruebler.drawing.linkage.posed_linkage import Stage, staged
+from gruebler.drawing.structure.messages import describe, title
+from gruebler.drawing.structure.picture import draw
+from gruebler.errors import GrueblerError, LinkageError
+from gruebler.linkages import Linkage
+from gruebler.text import in_language
+
+__all__ = ["draw_linkage", "shown_linkage"]
+
+_MOST_GHOSTS = 60
+_AROUND = 17.0  # pixels from the middle of a block to its name
+_SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+_WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
+_PLAIN = 95.0  # pixels: what is less around is a block between rails, with its name outside of these
+_WORDS = {
+    "en": {
+        "pose": "To scale. Drive at {values}.",
+        "home": "To scale, at home; nothing is driven.",
+        "curve": "Curve of {names}.",
+        "ghosts": "{count} positions thinly.",
+        "shown": "Shown: {names}.",
+        "none": "Not there, or outside the picture: {names}.",
+    },
+    "de": {
+        "pose": "Maßstäblich. Antrieb bei {values}.",
+        "home": "Maßstäblich, in der Ausgangslage; nichts ist angetrieben.",
+        "curve": "Bahnkurve von {names}.",
+        "ghosts": "{count} Stellungen dünn.",
+        "shown": "Eingezeichnet: {names}.",
+        "none": "Nicht vorhanden oder außerhalb des Bildes: {names}.",
+    },
+}
+_LAYER_NAMES = {
+    "dead-centres": ("dead centres", "Totlagen"),
+    "centrodes": ("fixed centrode p, moving centrode q", "Rastpolbahn p, Gangpolbahn q"),
+    "inflection": ("inflection circle", "Wendekreis"),
+    "transmission": ("transmission angle", "Übertragungswinkel"),
+    "velocities": ("velocities", "Geschwindigkeiten"),
+    "accelerations": ("accelerations", "Beschleunigungen"),
+    "poles": ("instant centres", "Momentanpole"),
+    "dimensions": ("dimensions", "Maße"),
+    "scale": ("scale", "Maßstab"),
+}
+_MARKS = ("edge", "dot", "value")  # crosses, points and words of layers below
+_POLES = {"P": ("pole P", "Pol P"), "W": ("inflection pole W", "Wendepol W")}
+
+
+def draw_linkage(
+    linkage: Linkage,
+    drive: float | Sequence[float] | None = None,
+    *,
+    branch: str | Iterable[str] | None = None,
+    between: tuple[float, float] | None = None,
+    curves: Sequence[str] = (),
+    show: Sequence[str] = (),
+    output: str | None = None,
+    ghost: int | None = None,
+    labels: bool = False,
+    lang: str = "en",
+    name: str = "",
+    names: Mapping[str, str] | None = None,
+) -> Figure:
+    """The picture of a linkage in one pose.
+
+    Args:
+        linkage: what to draw.
+        drive: the drive's value (radians, or a way), one for each drive; a good one without it.
+        branch: the assembly mode, as for `gruebler.kinematics.move`.
+        between: drive values between which it is used, if not the whole range: for curves and the size of the picture.
+        curves: points or joints whose paths are drawn.
+        show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
+            ``inflection``, ``dimensions``, ``scale``.
+        output: the link that dead centres and transmission angle are those of, the linkage's own without it; also
+            that of centrodes and inflection circle, without it a link that is no neighbour of the frame.
+        ghost: so many positions are drawn thinly, evenly through the range of the drive; at most 60.
+        labels: whether to name the links.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+        names: what to call links in the picture, where that is not their own name.
+
+    Raises `gruebler.LinkageError` for poses out of reach, unknown names, and what several drives have not.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> figure = draw_linkage(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), 1.0, curves=["K"])
+    >>> len(figure.svg()) < 8000
+    True
+    """
+    stage = staged(linkage, drive, branch=branch, between=between)
+    layers = {key: layer(key) for key in dict.fromkeys(show)}
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
+    pieces = parts(stage)
+    frame = layered(stage, pieces, FRAME, FRAME)
+    pins = layered(stage, pieces, PINS, PINS)
+    bodies = layered(stage, pieces, BODIES, PINS - 1)
+    sheet = Sheet(stage, output, [*frame, *bodies, *pins], lang)
+    made = {key: layers[key](sheet) for key in layers if key in BELOW}
+    below = [shape for shapes in made.values() for shape in shapes]
+    shapes = [
+        *frame,
+        *(ghosts(stage, _count(ghost)) if ghost is not None else []),
+        *(shape for shape in below if shape.style not in _MARKS),
+        *bodies,
+        *curve,
+        *pins,
+        *drive_arrows(stage),
+        *(shape for shape in below if shape.style in _MARKS),
+    ]
+    for key in (key for key in layers if key not in BELOW and key != "dimensions"):
+        made[key] = layers[key](sheet._replace(drawn=shapes))
+        shapes += made[key]
+    shapes += point_names(stage, shapes)
+    texts, rows = _named(stage, pieces, shapes, names) if labels else ([], {})
+    shapes += texts
+    if "dimensions" in layers:
+        made["dimensions"] = dimension_lines(sheet._replace(drawn=shapes))
+        shapes += made["dimensions"]
+    shapes += scale_bars(sheet._replace(drawn=shapes), tuple(layers))
+    if "poles" in layers:
+        numbers = pole_numbers(linkage.mechanism.chain.links)
+        rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
+    if rows:
+        shapes += legend(rows, [Point(0.0, 0.0)], shapes)
+    said, missing = told(stage, curves, {key: made[key] for key in layers}, lang, ghost or 0)
+    described = f"{describe(linkage.mechanism, lang)} {' '.join([*said, *missing])}"
+    return figure_of(shapes, title(linkage.mechanism, lang, name), described, MARGIN, missing)
+
+
+def shown_linkage(linkage: Linkage) -> Figure:
+    """A linkage as notebooks show it: in a pose; where it has none the structure of its mechanism, with the reason."""
+    try:
+        return draw_linkage(linkage, labels=True)
+    except GrueblerError as reason:
+        figure = draw(linkage.mechanism, labels=True)
+        return replace(figure, description=f"{figure.description} {reason}", notes=(str(reason),))
+
+
+def _named(
+    stage: Stage, pieces: Sequence[Part], shapes: Sequence[Shape], names: Mapping[str, str] | None
+) -> tuple[list[Shape], dict[str, str]]:
+    """Names beside the bodies, and what is to be listed."""
+    found = slides(stage)
+    outlines = {link: _outline(stage, link, pieces, found) for link in stage.linkage.mechanism.chain.links}
+    return named(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
+
+
+def _outline(stage: Stage, link: str, pieces: Sequence[Part], found: tuple[Slide, ...]) -> tuple[Point, ...]:
+    """Corners beside which the name of a link is put: those of its body, barrel, rod or block; for the frame a base."""
+    mine = [part for part in pieces if part.link == link]
+    lines = [(part.layer, shape) for part in mine for shape in part.shapes if isinstance(shape, Lines)]
+    corners = corners_of(stage, link, found)
+    rod = next((slide for slide in found if slide.block == link and slide.sign == "cylinder"), None)
+    rims = [rim for part in mine for shape in part.shapes if (rim := _rim(shape))]
+    if link == stage.lower.mechanism.frame:
+        corners = next((shape for _, shape in lines if shape.style == "block-frame"), lines[0][1]).parts[0][-2:]
+    elif rims and (len(corners) < 2 or max(map(_perimeter, rims)) > _perimeter(corners)):
+        corners = max(rims, key=_perimeter)
+    elif len(corners) < 2 and rod is not None:
+        return _seen_of_rod(stage, rod)
+    elif len(corners) < 2:
+        long = [shape.parts[0] for layer, shape in lines if layer == BLOCKS]
+        middle = corners[0] if corners else Point(0.0, 0.0)
+        corners = max(long, key=_perimeter, default=(middle,))
+        if _perimeter(corners) < _PLAIN:
+            corners = tuple(middle.plus(Point(a * _AROUND, b * _AROUND)) for a, b in _SQUARE)
+    return _placed(stage, link, corners)
+
+
+def _rim(shape: Shape) -> tuple[Point, ...]:
+    """Some points around a wheel, a cam or another contour; none of what is no such body."""
+    if isinstance(shape, Circle) and shape.radius > _WHEEL and shape.style != "dead":
+        turns = [2 * pi * k / _ROUND for k in range(_ROUND)]
+        return tuple(shape.at.plus(Point(cos(turn), sin(turn)), shape.radius) for turn in turns)
+    if isinstance(shape, Lines) and shape.style == "area" and shape.closed:
+        contour = shape.parts[0]
+        return contour[:: -(-len(contour) // _ROUND)]
+    return ()
+
+
+def _seen_of_rod(stage: Stage, rod: Slide) -> tuple[Point, ...]:
+    """What of a rod is outside of its barrel: from there to its pin."""
+    return *_placed(stage, rod.guide, barrel(stage, rod)[1:]), *_placed(stage, rod.block, [stage.local(rod.middle)])
+
+
+def _placed(stage: Stage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
+    """Points of a link where they lie in the pose."""
+    (line,) = at_pose(stage, Part(BODIES, link, (Lines((tuple(corners),), "edge"),)))
+    assert isinstance(line, Lines)
+    return line.parts[0]
+
+
+def _perimeter(corners: Sequence[Point]) -> float:
+    return sum(b.minus(a).length for a, b in pairwise([*corners, corners[0]]))
+
+
+def _count(number: int) -> int:
+    if not 0 < number <= _MOST_GHOSTS:
+        raise LinkageError(
+            f"expected 1 to {_MOST_GHOSTS} thin positions, but found {number!r}",
+            f"erwartet werden 1 bis {_MOST_GHOSTS} dünne Stellungen, nicht {number!r}",
+        )
+    return number
+
+
+def told(
+    stage: Stage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
+) -> tuple[list[str], list[str]]:
+    """The pose and what is shown, in sentences; and what was asked for but is not there."""
+    words, drives = _WORDS[lang], stage.linkage.mechanism.drives
+    values = [
+        in_language(f"{round(degrees(value), 2) + 0.0:g}°", lang)
+        if drive.direction.startswith("R")
+        else figures(float(value), stage.linkage.unit, lang)
+        for value, drive in zip(stage.pose.drives[0], drives, strict=bool(drives))
+    ]
+    said = [words["pose" if drives else "home"].format(values=", ".join(values))]
+    if curves:
+        said.append(words["curve"].format(names=", ".join(dict.fromkeys(curves))))
+    if count:
+        said.append(words["ghosts"].format(count=count))
+    shown = [_layer_name(key, shapes, lang) for key, shapes in made.items() if shapes or key == "scale"]
+    empty = [_layer_name(key, (), lang) for key, shapes in made.items() if not shapes and key != "scale"]
+    missing = [words["none"].format(names=", ".join(empty))] if empty else []
+    said += [words["shown"].format(names=", ".join(shown))] if shown else []
+    return said, missing
+
+
+def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
+    """What a layer is called; of an inflection circle with the poles that lie in the picture."""
+    name = _LAYER_NAMES[key][lang == "de"]
+    words = {shape.words for shape in shapes if isinstance(shape, Text)}
+    found = [called[lang == "de"] for letter, called in _POLES.items() if key == "inflection" and letter in words]
+    return f"{name} ({', '.join(found)})" if found else name

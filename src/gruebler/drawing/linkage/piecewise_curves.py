@@ -1,0 +1,131 @@
+"""A linkage through the range of its drive, as plots show it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.analysis.drive_cycle import Course, follow
+from gruebler.drawing.canvas.axes import Axis, angles, decimals, figures
+from gruebler.drawing.linkage.posed_linkage import drive_rows
+from gruebler.drawing.structure.messages import title
+from gruebler.errors import LinkageError
+from gruebler.kinematics import Motion
+from gruebler.linkages import Linkage
+from gruebler.text import in_language
+
+__all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
+
+Reals = NDArray[np.float64]
+Between = tuple[float, float] | None
+Branch = str | Iterable[str] | None
+
+ROWS = 720
+"""Poses of a turn, or of the range."""
+_DOZEN = 12
+_TINY = 1e-9  # of a period or range
+_BULK = 0.9  # the middle part of all values
+_STEEP = {False: 1.5, True: 20.0}  # what lies farther from it than so many times its width is cut off; True: full turns
+_RANGE = {"en": "drive from {low} to {high}", "de": "Antrieb von {low} bis {high}"}
+
+
+@dataclass(frozen=True)
+class PlotRun:
+    """Poses of a linkage with one drive, and how the drive is told."""
+
+    course: Course
+    drives: Reals
+    motion: Motion
+    lang: str
+    name: str
+    """What the linkage is called."""
+
+    @property
+    def unit(self) -> str:
+        """Of lengths."""
+        return self.course.linkage.unit
+
+    @property
+    def drive_unit(self) -> str:
+        """Of the drive, as rates are told by it."""
+        return "rad" if self.course.turning_drive else self.unit
+
+    @cached_property
+    def x(self) -> Reals:
+        """The drive in degrees, or in the unit."""
+        return np.degrees(self.drives) if self.course.turning_drive else self.drives
+
+    @property
+    def across(self) -> Axis:
+        """The axis of the drive."""
+        scale = angles if self.course.turning_drive else decimals
+        words = "φ in °" if self.course.turning_drive else f"s₁ in {self.unit}"
+        return Axis(words, scale(float(self.x.min()), float(self.x.max()), tight=True))
+
+    def within(self, drive: float) -> float | None:
+        """The first value in what is plotted that means the same position; None if there is none."""
+        low, high = float(self.drives[0]), float(self.drives[-1])
+        period = self.course.span.period
+        value = drive + period * math.ceil((low - drive) / period - _TINY) if period < math.inf else drive
+        slack = _TINY * (high - low)
+        return min(max(value, low), high) if low - slack <= value <= high + slack else None
+
+    def shown(self, drive: float) -> float:
+        """A drive value as it stands at the axis."""
+        return math.degrees(drive) if self.course.turning_drive else drive
+
+    def value(self, drive: float) -> str:
+        """A drive value in words."""
+        if not self.course.turning_drive:
+            return figures(drive, self.unit, self.lang)
+        return in_language(f"{round(self.shown(drive), 6) + 0.0:.4g}°", self.lang)
+
+    @cached_property
+    def round_drives(self) -> Reals:
+        """Round drive values, a dozen or so; of full turns without the last, which is the first."""
+        scale = angles if self.course.turning_drive else decimals
+        ticks = scale(float(self.x.min()), float(self.x.max()), few=_DOZEN, tight=True).ticks
+        inner = [tick for tick in ticks if not self.course.span.full or tick < self.x.max() - 1e-9]
+        return np.radians(inner) if self.course.turning_drive else np.array(inner)
+
+    def bulk(self, values: Reals) -> tuple[float, float]:
+        """The range of values; where some are far beyond the bulk of them, as near limits, not so far."""
+        good = np.isfinite(values)
+        if not good.any():
+            return 0.0, 1.0
+        even = np.interp(np.linspace(self.drives[0], self.drives[-1], ROWS), self.drives[good], values[good])
+        low, high = float(values[good].min()), float(values[good].max())
+        first, last = (float(np.quantile(even, q)) for q in ((1 - _BULK) / 2, (1 + _BULK) / 2))
+        most, noise = _STEEP[self.course.span.full] * (last - first), _TINY * max(abs(low), abs(high))
+        if most > noise:
+            low, high = max(low, first - most), min(high, last + most)
+        return (low, high) if high - low > noise else ((low + high) / 2 - 0.5, (low + high) / 2 + 0.5)
+
+    @property
+    def range(self) -> str:
+        """From where to where, in words."""
+        return _RANGE[self.lang].format(low=self.value(self.drives[0]), high=self.value(self.drives[-1]))
+
+
+def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
+    """Full turns from 0 on, else the range, or the part of it between two values; rates for a drive of speed 1.
+
+    Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
+    """
+    if not isinstance(linkage, Linkage):
+        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    if not linkage.mechanism.drives:
+        raise LinkageError(
+            "no joint is driven, so there is nothing to be plotted; name a drive",
+            "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
+        )
+    course = follow(linkage, branch)
+    drives = drive_rows(course, between, ROWS)
+    if between is None and course.span.full:
+        drives = drives - drives[0]
+    return PlotRun(course, drives, course.at(drives, order), lang, title(linkage.mechanism, lang, name))

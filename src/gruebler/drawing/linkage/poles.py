@@ -1,0 +1,131 @@
+"""Centrodes and the inflection circle of a link against the frame."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.canvas.labels import noted
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape
+from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.posed_linkage import Stage, drive_rows, floating
+from gruebler.errors import LinkageError, nearest
+from gruebler.kinematics import Motion
+
+__all__ = ["centrode_lines", "cross", "inflection_lines"]
+
+Complexes = NDArray[np.complex128]
+
+_WIDE = 0.3  # of the figure's longer side: how far around it centrodes and inflection circles are seen
+_SAMPLES = 1440  # points of a centrode or circle
+_TURNING = 1e-6  # for a drive of speed 1: a link that turns more slowly has its pole far away
+_POINT = 1e-6  # sizes: a smaller inflection circle is a point
+
+
+def cross(at: Point) -> Lines:
+    """A small cross."""
+    return Lines(
+        tuple((at.plus(d, -5.0), at.plus(d, 5.0)) for d in (Point(1.0, 1.0).unit, Point(1.0, -1.0).unit)), "edge"
+    )
+
+
+class _Box(NamedTuple):
+    """What the linkage reaches, with something around it."""
+
+    upper: Point
+    lower: Point
+
+    @classmethod
+    def around(cls, stage: Stage, factor: float) -> _Box:
+        upper, lower = stage.reach
+        more = factor * max(lower.x - upper.x, lower.y - upper.y)
+        return cls(upper.plus(Point(-more, -more)), lower.plus(Point(more, more)))
+
+    def holds(self, at: Point) -> bool:
+        return self.upper.x <= at.x <= self.lower.x and self.upper.y <= at.y <= self.lower.y
+
+
+def _number(sheet: Sheet) -> int:
+    """The link that is looked at: the one asked for, else a link that is no neighbour of the frame."""
+    links, output = sheet.stage.lower.mechanism.chain.links, sheet.output
+    if output is not None and output not in links:
+        known = sheet.stage.linkage.mechanism.chain.links
+        there = ", ".join(known)
+        raise LinkageError(
+            f"centrodes and inflection circles are those of a link{nearest(output, known)}; {output!r} is none of "
+            f"{there}",
+            f"Polbahnen und Wendekreis gehören zu einem Glied; {output!r} ist keines von {there}",
+        )
+    return links.index(floating(sheet.stage.linkage) if output is None else output)
+
+
+def inflection_lines(sheet: Sheet) -> list[Shape]:
+    """The inflection circle as far as it is near, with the pole P and the inflection pole W opposite to it.
+
+    Pole and circle: docs/theory/geometry.md.
+    """
+    stage = sheet.stage
+    stage.driven()
+    pose, k = stage.pose, _number(sheet)
+    w, change = (float(pose.rates[order, 0, k]) for order in (0, 1))
+    if abs(w) < _TURNING:
+        return []
+    at, velocity, acceleration = (complex(z) for z in pose.places[:3, 0, k])
+    pole = at + 1j * velocity / w
+    shift = velocity / w + 1j * (acceleration - velocity * change / w) / w**2
+    if abs(shift) < _POINT * stage.lower.size:
+        return []
+    box = _Box.around(stage, _WIDE)
+    circle = pole - 0.5j * shift * (1 - np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1)))
+    lines = _within(stage, circle, box)
+    shapes: list[Shape] = [Lines(tuple(lines), "inflection")] if lines else []
+    for z, name in ((pole, "P"), (pole - 1j * shift, "W")):
+        point = stage.local(z)
+        if lines and box.holds(point):
+            shapes.append(cross(point) if name == "P" else Circle(point, 3.2, "dot"))
+            shapes.append(noted(point, name, "value", [*sheet.drawn, *shapes]))
+    return shapes
+
+
+def centrode_lines(sheet: Sheet) -> list[Shape]:
+    """The fixed centrode p and the moving one q, which roll on each other, as far as they are near; q in this pose."""
+    stage, k = sheet.stage, _number(sheet)
+    course = stage.driven()
+    drives = stage.path.drives[:, 0]
+    between = None if stage.goes_round else (float(drives[0]), float(drives[-1]))
+    motion = course.at(drive_rows(course, between, _SAMPLES), 1)
+    fixed = _poles_of(motion, k)
+    own = (fixed - motion.places[0, :, k]) * motion.turns[:, k].conj()
+    moving = stage.pose.places[0, 0, k] + stage.pose.turns[0, k] * own
+    box = _Box.around(stage, _WIDE)
+    shapes: list[Shape] = []
+    for z, style, name in ((fixed, "centrode-fixed", "p"), (moving, "centrode-moving", "q")):
+        lines = _within(stage, z, box)
+        if max((b.minus(line[0]).length for line in lines for b in line), default=0.0) < 1.0:
+            return []
+        shapes.append(Lines(tuple(lines), style))
+        longest = max(lines, key=len)
+        shapes.append(noted(longest[len(longest) // 3], name, "value", [*sheet.drawn, *shapes]))
+    return shapes
+
+
+def _poles_of(motion: Motion, k: int) -> Complexes:
+    """The poles of a link at all rows; NaN where it does not turn."""
+    rate = np.where(np.abs(motion.rates[0, :, k]) < _TURNING, np.nan, motion.rates[0, :, k])
+    with np.errstate(invalid="ignore"):
+        return np.asarray(motion.places[0, :, k] + 1j * motion.places[1, :, k] / rate)
+
+
+def _within(stage: Stage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
+    """The parts of a line that lie in a box."""
+    parts: list[list[Point]] = [[]]
+    for one in z:
+        at = stage.local(complex(one))
+        if np.isfinite(one) and box.holds(at):
+            parts[-1].append(at)
+        elif parts[-1]:
+            parts.append([])
+    return [tuple(thinned(part, FINE)) for part in parts if len(part) > 1]

@@ -1,0 +1,296 @@
+"""A linkage on the stage: one pose, the way of its drive through all others, and the scale that shows them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gruebler.analysis.drive_cycle import Course, follow, follow_path_of
+from gruebler.drawing.canvas.shapes import Point
+from gruebler.errors import GrueblerError, LinkageError
+from gruebler.kinematics import Motion, move
+from gruebler.kinematics.reference_pose import at_home
+from gruebler.kinematics.solve import planned
+from gruebler.linkages import Linkage, Named, Pin
+from gruebler.mechanism import Mechanism
+from gruebler.text import in_language
+
+__all__ = ["Stage", "drive_rows", "floating", "nodes", "stage_of", "staged"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_PIXELS = 380.0  # for the longer side of all that the pins reach
+_SHORTEST = 34.0  # pixels between two pins of one link, as long as the picture does not become huge
+_LARGEST = 2.2  # times the usual size
+_ROWS = 72  # poses of a turn, or of a range
+_INSIDE = 1e-6  # of the range: how far from a limit the last pose lies
+_ENDLESS = 1.5  # sizes on both sides of the start of a slide without limits
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What pictures and animations of a linkage need to know of its motion."""
+
+    lower: Linkage
+    """The linkage with turning and sliding joints only; links that it had before keep their names."""
+    course: Course | None
+    """The whole motion; None with several drives or none, and where there is one position only."""
+    pose: Motion
+    """One row, with rates for a drive of speed 1 where there is one drive."""
+    path: Motion
+    """Rows through the range of the drive, evenly in time; without a course the pose alone."""
+    scale: float
+    """Pixels to a unit of length."""
+
+    @property
+    def linkage(self) -> Linkage:
+        """As it was given."""
+        return self.pose.linkage
+
+    @property
+    def goes_round(self) -> bool:
+        """Whether the path is a closed one: after its last row comes its first."""
+        drives = self.path.drives[:, 0]
+        return self.course is not None and _is_whole(self.course, drives)
+
+    def local(self, z: complex) -> Point:
+        """A point of a link in pixels, in coordinates of the link."""
+        return Point(self.scale * z.real, -self.scale * z.imag)
+
+    def place(self, point: Named) -> Point:
+        """Where a point lies in the pose, in pixels."""
+        return self.local(complex(self.pose.complex_point(point)[0]))
+
+    @property
+    def reach(self) -> tuple[Point, Point]:
+        """The upper left and the lower right corner of what joints and named points reach on the path, in pixels."""
+        z = self.scale * _reached(self.lower, self.path)
+        low, high = z.real.min() + 1j * z.imag.min(), z.real.max() + 1j * z.imag.max()
+        return Point(float(low.real), -float(high.imag)), Point(float(high.real), -float(low.imag))
+
+    def driven(self) -> Course:
+        """The course; `LinkageError` with several drives."""
+        if self.course is None:
+            count = len(self.linkage.mechanism.drives)
+            if count == 1:
+                raise LinkageError(
+                    "all that can be assembled is one position, so there is no motion to be drawn",
+                    "zusammenbauen lässt sich nur eine Lage, eine Bewegung ist nicht zu zeichnen",
+                )
+            raise LinkageError(
+                f"this is drawn for linkages with one drive only; this one has {count}: leave one of them driven, or "
+                "draw a path of all drives with draw_motion(move(linkage, path))",
+                f"das wird nur für Getriebe mit einem Antrieb gezeichnet, dieses hat {count}: nur einen davon "
+                "antreiben oder einen Weg aller Antriebe mit draw_motion(move(linkage, path)) zeichnen",
+            )
+        return self.course
+
+
+def stage_of(motion: Motion) -> Stage:
+    """A motion of one row or more as it was solved, its first row as the pose; without the rest of its course."""
+    first = replace(
+        motion,
+        drives=motion.drives[:1],
+        places=motion.places[:, :1],
+        turns=motion.turns[:1],
+        rates=motion.rates[:, :1],
+        whole=motion.whole[:1],
+        roots=motion.roots[:1],
+        unknowns=motion.unknowns[:1],
+        unbounded=(),
+    )
+    return Stage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
+
+
+def _is_whole(course: Course, drives: Reals) -> bool:
+    """Whether drive values go through all turns after which everything repeats."""
+    return bool(drives[-1] - drives[0] > course.span.period * (1 - 1e-9))
+
+
+def staged(
+    linkage: Linkage,
+    drive: float | Sequence[float] | None = None,
+    *,
+    branch: str | Iterable[str] | None = None,
+    between: tuple[float, float] | None = None,
+    drives: ArrayLike | None = None,
+) -> Stage:
+    """Follow a linkage through its range, between two drive values, or along a path of its drives; stop it in a pose.
+
+    Without a drive value the pose is the home; else a third of the way to a half turn; else a quarter of the range,
+    since its middle and ends are often singular. A linkage that has one position only is shown in it, one without a
+    drive at home.
+
+    Raises `LinkageError` for a pose that it cannot reach, and without a drive if there is no home.
+    """
+    if not isinstance(linkage, Linkage):
+        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    try:
+        given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
+    except (TypeError, ValueError):
+        raise LinkageError(
+            f"drive values are numbers, but found {drive!r}", f"Antriebswerte sind Zahlen, nicht {drive!r}"
+        ) from None
+    if not linkage.mechanism.drives:
+        return _at_rest(linkage)
+    plan = planned(linkage)
+    if drives is not None:
+        along = follow_path_of(linkage, drives, branch)
+        path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
+        return Stage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
+    if len(linkage.mechanism.drives) == 1:
+        try:
+            course = follow(linkage, branch)
+        except LinkageError as error:
+            return _one_position(linkage, given, branch, error)
+        path = course.at(drive_rows(course, between), 0)
+        pose = course.at(np.array([_value(course, given, path.drives[:, 0])]), 2)
+        return Stage(plan.lower, course, pose, path, _scale(plan.lower, path))
+    if given is None:
+        zeros = np.zeros(len(linkage.mechanism.drives))
+        given = zeros if plan.lower.home is None else at_home(plan, zeros).drives
+    pose = move(linkage, given.reshape(1, -1), branch=branch)
+    if not len(pose):
+        raise LinkageError(pose.message(), pose.message("de"))
+    return _posed(pose)
+
+
+def _posed(pose: Motion) -> Stage:
+    """One pose and no more."""
+    return Stage(pose.plan.lower, None, pose, pose, _scale(pose.plan.lower, pose))
+
+
+def _one_position(
+    linkage: Linkage, given: Reals | None, branch: str | Iterable[str] | None, why: LinkageError
+) -> Stage:
+    """The pose of a linkage that cannot be followed, at the value given or where there is one; else its error."""
+    tried = given.reshape(1, -1) if given is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
+    turning = linkage.mechanism.drives[0].direction.startswith("R")
+    for values in tried if given is not None or turning else ():
+        try:
+            pose = move(linkage, values.reshape(1, -1), branch=branch)
+        except LinkageError:
+            raise why from None
+        if len(pose):
+            return _posed(pose)
+    raise why
+
+
+def _at_rest(linkage: Linkage) -> Stage:
+    """The home of a linkage without a drive, found as that of the same linkage with one."""
+    mechanism = linkage.mechanism
+    for number in range(len(mechanism.chain.joints)) if linkage.home is not None else ():
+        try:
+            driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [number]))
+            plan = planned(driven)
+            pose = move(driven, at_home(plan, np.zeros(1)).drives.reshape(1, -1))
+        except GrueblerError:
+            continue
+        if len(pose):
+            return _posed(replace(pose, linkage=linkage))
+    name = mechanism.chain.joint_names()[0]
+    raise LinkageError(
+        f"no joint is driven, so there is no pose; name a drive, such as {name}",
+        f"kein Gelenk ist angetrieben, also gibt es keine Lage; ein Antrieb wäre zum Beispiel {name}",
+    )
+
+
+def drive_rows(course: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
+    """Drive values: so many even ones of each full turn, else of the whole range, slow at both ends.
+
+    Raises `LinkageError` if nothing of the range lies between the two values asked for.
+    """
+    span = course.span
+    low, high = span.low, span.high
+    if between is None and span.full:
+        return np.linspace(low, high, count * span.turns + 1)
+    if not course.turning_drive:
+        middle, room = float(course.start.drives[0, 0]), _ENDLESS * course.plan.lower.size
+        low = low if span.stops[0] is not None else max(low, middle - room)
+        high = high if span.stops[1] is not None else min(high, middle + room)
+    low, high = low + _INSIDE * (high - low), high - _INSIDE * (high - low)
+    if between is not None:
+        turn = 2 * math.pi if course.turning_drive and not span.full else math.inf
+        shift = turn * round((low + high - sum(between)) / 2 / turn) if turn < math.inf else 0.0
+        asked = between[0] + shift, between[1] + shift
+        low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
+    if not high > low:
+        raise LinkageError(
+            f"{_range(course, 'en')}; nothing of it lies between the two values asked for",
+            f"{_range(course, 'de')}; nichts davon liegt zwischen den beiden verlangten Werten",
+        )
+    return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
+
+
+def _value(course: Course, given: Reals | None, rows: Reals) -> float:
+    """The drive value of the pose."""
+    if given is None:
+        start = float(course.start.drives[0, 0])
+        if course.plan.lower.home is not None and rows[0] <= start <= rows[-1]:
+            return start
+        return math.pi / 3 if _is_whole(course, rows) else float(rows[len(rows) // 3])
+    if given.shape != (1,) or not np.isfinite(given).all():
+        raise LinkageError(
+            f"expected one finite drive value, but found {given.tolist()}",
+            f"erwartet wird ein endlicher Antriebswert, nicht {given.tolist()}",
+        )
+    value, span = float(given[0]), course.span
+    if course.turning_drive and not span.full:
+        value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
+    if not span.full and not span.low <= value <= span.high:
+        raise LinkageError(
+            f"{_range(course, 'en')}; there is no pose at {_said(course, float(given[0]), 'en')}",
+            f"{_range(course, 'de')}; bei {_said(course, float(given[0]), 'de')} gibt es keine Lage",
+        )
+    return value
+
+
+def _range(course: Course, lang: str) -> str:
+    low, high = (_said(course, value, lang) for value in (course.span.low, course.span.high))
+    if lang == "de":
+        return f"der Antrieb geht in dieser Einbaulage von {low} bis {high}"
+    return f"the drive goes from {low} to {high} on this branch"
+
+
+def _said(course: Course, value: float, lang: str) -> str:
+    degrees = "Grad" if lang == "de" else "degrees"
+    words = f"{math.degrees(value):.6g} {degrees}" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
+    return in_language(words, lang)
+
+
+def floating(linkage: Linkage) -> str:
+    """Of the links that are no neighbours of the frame the one with most joints and points; else the last link."""
+    mechanism = linkage.mechanism
+    near = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
+    far = [link for link in mechanism.chain.links if link not in near]
+    moving = [link for link in mechanism.chain.links if link != mechanism.frame]
+    return max(far, key=lambda link: len(nodes(linkage, link))) if far else moving[-1]
+
+
+def nodes(linkage: Linkage, link: str) -> list[complex]:
+    """The places of the joints and then the named points of a link, in its coordinates, each once."""
+    joints = [complex(e.x, e.y) for (_, own), e in linkage.elements.items() if own == link]
+    return list(dict.fromkeys([*joints, *(complex(p.x, p.y) for p in linkage.points.values() if p.link == link)]))
+
+
+def _reached(lower: Linkage, path: Motion) -> Complexes:
+    """Where all joints and named points are on the path, one after another."""
+    places = [Named(link, e.x, e.y) for (_, link), e in lower.elements.items()]
+    return np.concatenate([path.complex_point(place) for place in (*places, *lower.points.values())])
+
+
+def _scale(lower: Linkage, path: Motion) -> float:
+    """Pixels to a unit, so that all poses fit and short links stay longer than their pins are thick."""
+    links, z = lower.mechanism.chain.links, _reached(lower, path)
+    extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
+    usual = _PIXELS / extent
+    pins = {link: {e for (_, own), e in lower.elements.items() if own == link and isinstance(e, Pin)} for link in links}
+    pins.pop(lower.mechanism.frame)
+    sides = [math.dist(a, b) for mine in pins.values() for a, b in combinations(sorted(mine), 2)]
+    return min(max(usual, _SHORTEST / min(sides, default=math.inf)), _LARGEST * usual)

@@ -1,0 +1,1 @@
+"""Pictures of cams, Geneva drives and gear trains, to scale."""

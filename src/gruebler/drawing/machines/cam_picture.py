@@ -1,0 +1,250 @@
+"""Pictures of disc cams with their followers, to scale, and the diagram of the lift beneath: docs/theory/drawing.md."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.cams import Cam, CamError, Roller
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.moving_picture import Body, Clock, MovingPicture, even, lasting, listed, moving, still
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, bounds
+from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.canvas.symbols import arrow_head
+from gruebler.drawing.machines.cam_follower import follower_body, ground
+from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagram
+
+__all__ = ["animate_cam", "draw_cam", "lift_diagram"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_PIXELS = 150.0  # from the axis to the farthest point of the cam
+_ROWS = 720  # points of the contour
+_KEYS = 180  # of a turn
+_HOLE = 56.0  # pixels: with a smaller base circle a cam has no mark
+_ALPHA = 62.0  # pixels: radius of the arc of the pressure angle
+_BESIDE = 0.4  # radians: a smaller pressure angle is written beside the guide
+_FOLLOWERS = {
+    (False, "roller"): ("a translating roller follower", "Rollenstößel"),
+    (False, "knife"): ("a translating knife-edge follower", "Schneidenstößel"),
+    (False, "flat"): ("a translating flat-faced follower", "Tellerstößel"),
+    (True, "roller"): ("a swinging roller follower", "Schwinghebel mit Rolle"),
+    (True, "knife"): ("a swinging knife-edge follower", "Schwinghebel mit Schneide"),
+    (True, "flat"): ("a swinging flat-faced follower", "Schwinghebel mit ebener Fläche"),
+}
+_WORDS = {
+    "en": {
+        "title": "Cam with {follower}",
+        "about": "A disc cam, to scale, base circle {base:.4g}, turning counter-clockwise.",
+        "pose": "At {at}° the lift is {lift}, the pressure angle {pressure:.2f}°.",
+        "undercut": "Undercut near {at:.4g}°: the profile crosses itself.",
+        "turn": "It makes a turn in {seconds:g} s.",
+        "base": "base circle",
+        "pitch": "pitch curve",
+        "under": "undercut",
+        "diagram": "Lift over the cam's angle",
+    },
+    "de": {
+        "title": "Kurvenscheibe mit {follower}",
+        "about": "Eine Kurvenscheibe, maßstäblich, Grundkreis {base:.4g}, gegen den Uhrzeiger drehend.",
+        "pose": "Bei {at}° ist der Hub {lift}, der Druckwinkel {pressure:.2f}°.",
+        "undercut": "Unterschnitt bei {at:.4g}°: Das Profil überschneidet sich.",
+        "turn": "Eine Umdrehung in {seconds:g} s.",
+        "base": "Grundkreis",
+        "pitch": "Rollenmittelpunktbahn",
+        "under": "Unterschnitt",
+        "diagram": "Hub über dem Kurvenwinkel",
+    },
+}
+
+
+def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
+    """A cam with its follower in one position, base circle and pitch curve, the pressure angle drawn in.
+
+    Args:
+        cam: what to draw.
+        at: the cam's angle in radians; where the pressure angle is greatest without it.
+        plot: whether lift and its two derivatives stand beneath, over a turn.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+
+    Raises `gruebler.CamError` for an angle that is no finite number.
+
+    >>> from gruebler.cams import read_lift
+    >>> cam = Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), base=40, follower=Roller(10, offset=5))
+    >>> draw_cam(cam, 1.0).title
+    'Cam with a translating roller follower'
+    """
+    found, words = cam.findings(), _WORDS[lang]
+    if at is None:
+        at = max(found.pressure, key=lambda one: abs(one.value)).at
+    if isinstance(at, bool) or not isinstance(at, int | float) or not math.isfinite(at):
+        raise CamError(
+            f"the cam's angle is a finite number, not {at!r}", f"der Kurvenwinkel ist eine endliche Zahl, nicht {at!r}"
+        )
+    scale = _scale(cam)
+    shown = [*_machine(cam, scale, np.array([at]), lang), Body(tuple(_pressure(cam, scale, at)))]
+    if plot:
+        shown += [Body(tuple(beneath(lift_diagram(cam, at, lang), shown)))]
+    lift = float(cam.lift.at(at))
+    told = words["pose"].format(
+        at=_short(math.degrees(at)),
+        lift=f"{math.degrees(lift) + 0.0:.4g}°" if cam.follower.swings else f"{lift + 0.0:.4g}",
+        pressure=math.degrees(float(cam.pressure_angle(at))) + 0.0,
+    )
+    return still(shown, name or _title(cam, lang), f"{_about(cam, lang)} {told}")
+
+
+def animate_cam(
+    cam: Cam, *, plot: bool = True, seconds: float = 4.0, lang: str = "en", name: str = ""
+) -> MovingPicture:
+    """A turn of the cam with its follower; a cursor runs through the diagram of the lift beneath.
+
+    Raises `gruebler.GrueblerError` for a time that is no positive number of seconds.
+
+    >>> from gruebler.cams import Flat, read_lift
+    >>> from gruebler.drawing.canvas.moving_picture import moving_svg
+    >>> cam = Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), base=60, follower=Flat())
+    >>> moving_svg(animate_cam(cam)).count("<animateTransform")
+    3
+    """
+    scale = _scale(cam)
+    bodies = _machine(cam, scale, np.linspace(0, math.tau, _KEYS + 1), lang)
+    if plot:
+        bodies += running(beneath(lift_diagram(cam, None, lang), bodies))
+    about = f"{_about(cam, lang)} {_WORDS[lang]['turn'].format(seconds=seconds)}"
+    return moving(bodies, Clock(lasting(seconds), 0.0, 360.0, "°"), name or _title(cam, lang), about)
+
+
+def _scale(cam: Cam) -> float:
+    """Pixels to a unit."""
+    turn = np.linspace(0, math.tau, 181)
+    return _PIXELS / float(np.hypot(*np.concatenate([cam.profile(turn), cam.pitch(turn)]).T).max())
+
+
+def _title(cam: Cam, lang: str) -> str:
+    kind = "flat"
+    if isinstance(cam.follower, Roller):
+        kind = "roller" if cam.follower.radius else "knife"
+    return _WORDS[lang]["title"].format(follower=_FOLLOWERS[cam.follower.swings, kind][lang == "de"])
+
+
+def _about(cam: Cam, lang: str) -> str:
+    words, found = _WORDS[lang], cam.findings()
+    under = [words["undercut"].format(at=math.degrees(found.room.at))] if found.undercut else []
+    return " ".join([words["about"].format(base=cam.base), *under])
+
+
+def _short(value: float) -> str:
+    return f"{round(value, 2) + 0.0:g}"
+
+
+# --- the machine -----------------------------------------------------------------------------------
+
+
+def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
+    """Cam and follower at one angle, or at keys evenly through a turn."""
+    turn = even(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
+    words, found = _WORDS[lang], cam.findings()
+    middle = Point(0.0, 0.0)
+    rows = [("dead", words["base"])]
+    disc: list[Shape] = [Lines((_line(_contour(cam), scale),), "area", closed=True)]
+    if isinstance(cam.follower, Roller) and cam.follower.radius:
+        disc.append(Lines((_line(_complex(cam.pitch(_turn())), scale),), "centrode-moving", closed=True))
+        rows.append(("centrode-moving", words["pitch"]))
+    if found.undercut:
+        disc.append(Lines(tuple(_line(part, scale) for part in _undercut(cam)), "drive"))
+        rows.append(("drive", words["under"]))
+    if scale * cam.base > _HOLE:
+        disc.append(Circle(Point(0.6 * scale * cam.base, 0.0), 3.0, "node"))
+    arrow = Arc(middle, 24.0, math.radians(-30), math.radians(-120), "drive")
+    fixed: list[Shape] = [
+        Circle(middle, scale * cam.base, "dead"),
+        arrow,
+        arrow_head(arrow),
+        Circle(middle, 6.2, "joint"),
+    ]
+    guide = ground(cam, scale)
+    shapes = [*disc, *guide, *follower_body(cam, scale, phi[:1]).shapes]
+    corner, size = bounds(shapes, 0.0)
+    right = Point(max(corner.x + size.x, _PIXELS) + 24.0, -_PIXELS)
+    return [
+        Body(tuple(disc), (turn,)),
+        Body((*fixed, *guide, *listed(rows, right))),
+        follower_body(cam, scale, phi),
+    ]
+
+
+def _turn() -> Reals:
+    return np.linspace(0, math.tau, _ROWS + 1)
+
+
+def _complex(pairs: Reals) -> Complexes:
+    out: Complexes = pairs[..., 0] + 1j * pairs[..., 1]
+    return out
+
+
+def _contour(cam: Cam) -> Complexes:
+    return _complex(cam.profile(_turn()))
+
+
+def _line(points: Complexes, scale: float) -> tuple[Point, ...]:
+    """In pixels, with fewer points."""
+    good = points[np.isfinite(points)]
+    return tuple(thinned([Point(scale * z.real, -scale * z.imag) for z in good.tolist()], FINE))
+
+
+def _undercut(cam: Cam) -> Iterator[Complexes]:
+    """The stretches of the profile that are not there in truth: where it runs against the pitch curve, or is hollow."""
+    contour, turn = _contour(cam), _turn()
+    if isinstance(cam.follower, Roller):
+        wrong = (np.conj(np.diff(_complex(cam.pitch(turn)))) * np.diff(contour)).real <= 0
+    else:
+        wrong = cam.curvature((turn[1:] + turn[:-1]) / 2) <= 0
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], wrong, [False]]).astype(int)))
+    for first, last in zip(edges[::2], edges[1::2], strict=True):
+        yield contour[first : last + 1]
+
+
+def _pressure(cam: Cam, scale: float, at: float) -> Iterator[Shape]:
+    """The normal at the contact, the motion of the follower's point, and the angle between."""
+    turn = cmath.exp(1j * at)
+    touch, centre = (complex(*pair) * turn for pair in (cam.profile(at), cam.pitch(at)))
+    alpha = float(cam.pressure_angle(at))
+    if not (cmath.isfinite(touch) and math.isfinite(alpha)):
+        return
+    way = 1j
+    if cam.follower.swings:
+        lever = centre - cam.follower.distance
+        way = -1j * math.copysign(1.0, cam.follower.distance) * lever / abs(lever)
+    start, foot = (Point(scale * z.real, -scale * z.imag) for z in (centre, touch))
+    ends = [Point(z.real, -z.imag) for z in (way, way * cmath.exp(1j * alpha))]
+    yield Lines(((start, start.plus(ends[0], _ALPHA + 26.0)),), "dead")
+    yield Lines(((foot.plus(ends[1], -_ALPHA / 2), start.plus(ends[1], _ALPHA + 26.0)),), "measure")
+    yield Circle(foot, 3.2, "dot")
+    if abs(alpha) > 0.01:
+        yield Arc(start, _ALPHA, -cmath.phase(way), -alpha, "drive")
+    beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
+    words = f"α = {math.degrees(alpha) + 0.0:.1f}°".replace("-", "−")
+    anchor = "start" if beside.x >= 0 else "end"
+    yield Text(
+        start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), words, "mark", anchor
+    )
+
+
+# --- the diagram -----------------------------------------------------------------------------------
+
+
+def lift_diagram(cam: Cam, at: float | None = None, lang: str = "en") -> Figure:
+    """Lift, velocity and acceleration over a turn, one below the other, with an angle (radians) marked."""
+    unit = math.degrees(1.0) if cam.follower.swings else 1.0
+    names = ("ψ in °", "ψ′ = dψ/dφ", "ψ″ = d²ψ/dφ²") if cam.follower.swings else ("s", "s′ = ds/dφ", "s″ = d²s/dφ²")
+    spans = [(span, np.linspace(span.start, span.end, 73)) for span in cam.lift.spans()]
+    rates = [np.concatenate([span.orders[order](phi) for span, phi in spans]) for order in range(3)]
+    rows = [*zip(names, (unit * rates[0], *rates[1:]), strict=True)]
+    return turn_diagram(np.concatenate([phi for _, phi in spans]), rows, at, _WORDS[lang]["diagram"])

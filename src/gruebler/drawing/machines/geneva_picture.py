@@ -1,0 +1,144 @@
+"""Pictures of Geneva drives to scale: wheel with slots, driver with pins and locking disc: docs/theory/drawing.md."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.moving_picture import Body, Clock, MovingPicture, Shift, Turn, even, lasting, moving, still
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape
+from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.canvas.symbols import arrow_head
+from gruebler.drawing.machines.geneva_shape import GenevaShape
+from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagram
+from gruebler.geneva import Geneva, GenevaError
+
+__all__ = ["animate_geneva", "draw_geneva", "ratio_panels"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_PIXELS = 360.0  # the greater extent, about
+_KEYS = 240  # of a turn of the driver
+_WORDS = {
+    "en": {
+        False: "External Geneva drive with {slots} slots",
+        True: "Internal Geneva drive with {slots} slots",
+        "about": "A Geneva drive, to scale: {slots} slots, {pins} pin(s), the driver turning counter-clockwise.",
+        "pose": "Driver at {at:g}°, wheel at {wheel:.4g}°, ratio {ratio:.4g}.",
+        "rest": "The wheel is locked.",
+        "turn": "A turn of the driver in {seconds:g} s.",
+        "diagram": "Wheel over the driver's angle",
+    },
+    "de": {
+        False: "Malteserkreuzgetriebe mit {slots} Schlitzen, Außeneingriff",
+        True: "Malteserkreuzgetriebe mit {slots} Schlitzen, Inneneingriff",
+        "about": "Ein Malteserkreuzgetriebe, maßstäblich: {slots} Schlitze, {pins} Zapfen, der Treiber dreht gegen den "
+        "Uhrzeiger.",
+        "pose": "Treiber bei {at:g}°, Rad bei {wheel:.4g}°, Übersetzung {ratio:.4g}.",
+        "rest": "Das Rad ist gesperrt.",
+        "turn": "Eine Umdrehung des Treibers in {seconds:g} s.",
+        "diagram": "Rad über dem Treiberwinkel",
+    },
+}
+
+
+def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
+    """A Geneva drive in one position of its driver.
+
+    Args:
+        geneva: what to draw; pins, walls and locking disc have sensible thicknesses.
+        at: the driver's angle in radians; 0: a pin on the line of centres.
+        plot: whether the wheel's angle, its ratio and acceleration stand beneath, over a turn.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+
+    Raises `gruebler.GenevaError` for an angle that is no finite number.
+
+    >>> draw_geneva(Geneva(4), 0.5).description.partition("clockwise. ")[2]
+    'Driver at 28.6479°, wheel at -41.78°, ratio -0.4656.'
+    """
+    if isinstance(at, bool) or not isinstance(at, int | float):
+        raise GenevaError(f"the driver's angle is a finite number, not {at!r}")
+    moved, words = geneva.move(at), _WORDS[lang]
+    bodies = _machine(geneva, np.array([at], np.float64))
+    if plot:
+        bodies.append(Body(tuple(beneath(ratio_panels(geneva, at, lang), bodies))))
+    pose = words["pose"].format(
+        at=round(math.degrees(at), 4), wheel=math.degrees(float(moved.angle)) + 0.0, ratio=float(moved.ratio) + 0.0
+    )
+    told = [_about(geneva, lang), pose, *([words["rest"]] if moved.dwell else [])]
+    return still(bodies, name or words[geneva.internal].format(slots=geneva.slots), " ".join(told))
+
+
+def animate_geneva(
+    geneva: Geneva, *, plot: bool = True, seconds: float = 4.0, lang: str = "en", name: str = ""
+) -> MovingPicture:
+    """A turn of the driver, after which everything looks the same; a cursor runs through the diagram beneath.
+
+    Raises `gruebler.GrueblerError` for a time that is no positive number of seconds.
+    """
+    words = _WORDS[lang]
+    bodies = _machine(geneva, np.linspace(0.0, math.tau, _KEYS + 1))
+    if plot:
+        bodies += running(beneath(ratio_panels(geneva, None, lang), bodies))
+    about = f"{_about(geneva, lang)} {words['turn'].format(seconds=seconds)}"
+    title = name or words[geneva.internal].format(slots=geneva.slots)
+    return moving(bodies, Clock(lasting(seconds), 0.0, 360.0, "°"), title, about)
+
+
+def ratio_panels(geneva: Geneva, at: float | None = None, lang: str = "en") -> Figure:
+    """The wheel's angle, its ratio and its acceleration over a turn of the driver, with an angle (radians) marked."""
+    pitch = math.tau / geneva.pins
+    ends = [k * pitch + s * geneva.engaged for k in range(geneva.pins + 1) for s in (-1, 1)]
+    beside = [end + tiny for end in ends for tiny in (-1e-9, 1e-9)]
+    x = np.unique(np.clip(np.concatenate([np.linspace(0.0, math.tau, 721), beside]), 0.0, math.tau))
+    found = geneva.move(x)
+    rows = [("ψ in °", np.degrees(found.angle)), ("ψ′ = dψ/dφ", found.ratio), ("ψ″ = d²ψ/dφ²", found.acceleration)]
+    return turn_diagram(x, rows, at, _WORDS[lang]["diagram"])
+
+
+def _about(geneva: Geneva, lang: str) -> str:
+    return str(_WORDS[lang]["about"].format(slots=geneva.slots, pins=geneva.pins))
+
+
+# --- the machine -----------------------------------------------------------------------------------
+
+
+def _machine(geneva: Geneva, phi: Reals) -> list[Body]:
+    """Wheel and driver at one angle, or at keys evenly through a turn."""
+    shape = GenevaShape(geneva)
+    scale = _PIXELS / (2 * shape.rim if geneva.internal else 1 + shape.mouth + shape.crank)
+    axis, middle = Point(scale * shape.axis, 0.0), Point(0.0, 0.0)
+    contour = _pixels(shape.wheel(), scale)
+    if geneva.internal:
+        rim = shape.rim * np.exp(-1j * np.linspace(0, math.tau, 181))
+        wheel: tuple[Shape, ...] = (Lines((contour, _pixels(rim, scale)), "area", closed=True),)
+    else:
+        wheel = (Lines((contour,), "area", closed=True),)
+    pins = [
+        Point(scale * z.real, -scale * z.imag)
+        for z in shape.crank * np.exp(2j * math.pi / geneva.pins * np.arange(geneva.pins))
+    ]
+    ends = [*pins, Point(-scale * shape.lock, 0.0)] if geneva.internal else pins
+    arms: list[Shape] = [Lines(tuple((middle, end) for end in ends), f"{kind}-rod") for kind in ("outline", "body")]
+    disc = Lines(tuple(_pixels(part, scale) for part in shape.locking()), "block", closed=True)
+    tips = [Circle(pin, scale * shape.pin, "joint") for pin in pins]
+    arrow = Arc(middle, 14.0, math.radians(-30), math.radians(-120), "drive")
+    fixed: list[Shape] = [Lines(((axis, middle),), "dead"), Circle(axis, 6.2, "joint"), Circle(middle, 6.2, "joint")]
+    turn = even(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
+    steps = (Shift((axis,)), Turn(tuple(geneva.move(phi).angle.tolist())))
+    return [
+        Body(tuple(arms), (turn,)),
+        Body(wheel, steps),
+        Body((disc, *tips), (turn,)),
+        Body((*fixed, arrow, arrow_head(arrow))),
+    ]
+
+
+def _pixels(points: Complexes, scale: float) -> tuple[Point, ...]:
+    line = [Point(scale * z.real, -scale * z.imag) for z in points.tolist()]
+    return tuple(thinned(line, FINE))

@@ -1,0 +1,192 @@
+"""Pictures of gear trains: wheels by their pitch circles or with teeth, planets on their carriers, racks, belts, ropes.
+
+What a train leaves open - directions, the distance of belts, where stages stand - is chosen: docs/theory/drawing.md.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+from typing import Any, TypedDict
+
+from gruebler.drawing.canvas.figure import Figure
+from gruebler.drawing.canvas.moving_picture import Body, Clock, MovingPicture, Shift, at_time, lasting, moving, still
+from gruebler.drawing.canvas.shapes import Point, Shape, Text, bounds
+from gruebler.drawing.machines.train_layout import Stage, stages
+from gruebler.drawing.machines.train_motion import Course, course_of
+from gruebler.drawing.machines.train_shapes import Paint, stage_bodies
+from gruebler.gears import Train
+from gruebler.gears.messages import number
+
+__all__ = ["Options", "animate_train", "draw_train"]
+
+_SIZE = Point(640.0, 360.0)
+_LARGEST = 9.0  # pixels to a unit of pitch diameter 2, so that few teeth do not fill the picture
+_GAP = 46.0  # between stages
+_ROW = 17.0
+_WORDS = {
+    "en": {
+        "title": "Gear train",
+        "about": "A gear train with {links} moving links, to scale by tooth numbers or radii; directions are chosen.",
+        "bevel": "Bevel wheels are unfolded into the plane, as their carrier sees them.",
+        "cycle": "Until everything repeats: {turns}.",
+        "cut": "It repeats only after {whole}; shown: {turns}.",
+        "fro": "To and fro: {turns}.",
+        "turns": "{link} {turns} turn(s)",
+        "way": "{link} moves",
+        "chosen": "Driven: {links}.",
+    },
+    "de": {
+        "title": "Rädergetriebe",
+        "about": "Ein Rädergetriebe mit {links} bewegten Gliedern, maßstäblich nach Zähnezahlen oder Halbmessern; "
+        "Richtungen sind gewählt.",
+        "bevel": "Kegelräder sind in die Ebene geklappt, vom Steg aus gesehen.",
+        "cycle": "Bis alles sich wiederholt: {turns}.",
+        "cut": "Es wiederholt sich erst nach {whole}; gezeigt: {turns}.",
+        "fro": "Hin und her: {turns}.",
+        "turns": "{link} {turns} Umdrehung(en)",
+        "way": "{link} verschiebt sich",
+        "chosen": "Angetrieben: {links}.",
+    },
+}
+
+
+class Options(TypedDict, total=False):
+    """What pictures and moving pictures of a train are told alike."""
+
+    planets: Mapping[str, int]
+    teeth: bool
+    lang: str
+    name: str
+
+
+def draw_train(
+    train: Train,
+    *,
+    planets: Mapping[str, int] | None = None,
+    teeth: bool = False,
+    lang: str = "en",
+    name: str = "",
+) -> Figure:
+    """A gear train at home, to scale by its tooth numbers or radii.
+
+    Args:
+        train: what to draw.
+        planets: how many equal planets of a name there are.
+        teeth: whether gears with whole tooth numbers have involute teeth.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+
+    >>> from gruebler.gears import read_train
+    >>> figure = draw_train(read_train("sun:24 planet:18 ring:-60 on arm").train, planets={"planet": 3})
+    >>> figure.title, len(figure.svg()) < 12_000
+    ('Gear train', True)
+    """
+    shown = stages(train, planets or {})
+    return still(_bodies(shown, None, teeth), name or _WORDS[lang]["title"], _about(train, shown, lang))
+
+
+def animate_train(
+    train: Train,
+    drives: Mapping[str, object] | None = None,
+    *,
+    planets: Mapping[str, int] | None = None,
+    teeth: bool = False,
+    seconds: float = 4.0,
+    most: int = 100,
+    lang: str = "en",
+    name: str = "",
+) -> MovingPicture:
+    """A gear train that moves with its exact ratios until every link is where it began, over and over.
+
+    Args:
+        train: what to draw.
+        drives: speeds of links, as for `gruebler.gears.speeds`; without them links that make the rest follow are
+            chosen, the first turning and the others held.
+        planets: how many equal planets of a name there are.
+        teeth: whether gears with whole tooth numbers have involute teeth.
+        seconds: for a turn of the fastest link; with links that slide, for there and back.
+        most: turns of the fastest link; a longer cycle is cut after whole turns of the drive, and that is said.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+
+    Raises `gruebler.GearError` if the drives do not determine all speeds, or nothing moves,
+    `gruebler.GrueblerError` for a time that is no positive number of seconds.
+
+    >>> from gruebler.gears import read_train
+    >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
+    >>> animate_train(train, {"sun": 7, "ring": 0}).page.description.partition("everything ")[2]
+    'repeats: sun 21 turn(s), planet -14 turn(s), arm 6 turn(s), ring 0 turn(s).'
+    """
+    shown = stages(train, planets or {})
+    course = course_of(train, drives or {}, lasting(seconds), most)
+    words = _WORDS[lang]
+    told = [_about(train, shown, lang), _told(course, words)]
+    if course.chosen:
+        told.insert(1, words["chosen"].format(links=", ".join(course.chosen)))
+    clock = Clock(course.seconds, 0.0, 360.0 * float(course.drive_turns), "°", not course.slides)
+    return moving(_bodies(shown, course, teeth), clock, name or words["title"], " ".join(told))
+
+
+def _about(train: Train, shown: list[Stage], lang: str) -> str:
+    words = _WORDS[lang]
+    bevel = [words["bevel"]] if any(stage.is_bevel for stage in shown) else []
+    return " ".join([words["about"].format(links=len(train.links)), *bevel])
+
+
+def _told(course: Course, words: dict[str, Any]) -> str:
+    def turns(time: Fraction) -> str:
+        return ", ".join(
+            words["way"].format(link=link)
+            if link in course.slides
+            else words["turns"].format(link=link, turns=number(rate * time))
+            for link, rate in course.rates.items()
+        )
+
+    if course.slides:
+        return str(words["fro"].format(turns=turns(course.time)))
+    if course.time != course.cycle:
+        whole = words["turns"].format(link=course.drive, turns=number(abs(course.rates[course.drive]) * course.cycle))
+        return str(words["cut"].format(whole=whole, turns=turns(course.time)))
+    return str(words["cycle"].format(turns=turns(course.time)))
+
+
+def _bodies(shown: list[Stage], course: Course | None, teeth: bool) -> list[Body]:
+    """All stages side by side, each with the list of its links beneath."""
+    plain = [stage_bodies(stage, Paint(1.0, False), None) for stage in shown]
+    sizes = [bounds(at_time(part, 0.0), 0.0)[1] for part in plain]
+    wide, high = sum(size.x for size in sizes), max(size.y for size in sizes)
+    scale = min(_SIZE.x / wide, _SIZE.y / high, _LARGEST)
+    left, all_bodies = 0.0, []
+    for stage in shown:
+        made = stage_bodies(stage, Paint(scale, teeth), course)
+        corner, size = bounds(at_time(made, 0.0), 0.0)
+        shift = Point(left - corner.x, -(corner.y + size.y / 2))
+        texts = _listed(stage, Point(left, size.y / 2 + 22.0))
+        all_bodies += [Body(body.shapes, (Shift((shift,)), *body.steps)) for body in made]
+        all_bodies.append(Body(tuple(texts)))
+        words = bounds(texts, 0.0)[1].x
+        left += max(size.x, words) + _GAP
+    return all_bodies
+
+
+def _listed(stage: Stage, at: Point) -> list[Shape]:
+    """The links of a stage with what tells their sizes."""
+    sizes: dict[str, list[str]] = {}
+    for wheel in stage.wheels:
+        size = f"{wheel.size:g}".replace("-", "−")
+        mine = sizes.setdefault(wheel.link, [])
+        if size not in mine:
+            mine.append(size)
+    several = {wheel.link for wheel in stage.wheels if wheel.planet and stage.copies > 1}
+    rows = [
+        f"{link}: {', '.join(mine)}{f' × {stage.copies}' if link in several else ''}" for link, mine in sizes.items()
+    ]
+    others = [
+        link
+        for mesh in stage.meshes
+        for link in (mesh.a, mesh.b, mesh.carrier)
+        if link not in sizes and link != "frame"
+    ]
+    rows += list(dict.fromkeys(others))
+    return [Text(at.plus(Point(0.0, _ROW * k)), words, "value", "start") for k, words in enumerate(rows)]

@@ -1,0 +1,261 @@
+"""The wheels, carriers, belts, racks, ropes and screws of a stage as bodies that turn and slide."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn
+from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text, text_width
+from gruebler.drawing.canvas.symbols import ticks
+from gruebler.drawing.machines.teeth import toothed
+from gruebler.drawing.machines.train_layout import FRAME, Placed, Stage, Wheel
+from gruebler.drawing.machines.train_motion import Course
+
+__all__ = ["Paint", "stage_bodies"]
+
+Complexes = NDArray[np.complex128]
+Steps = tuple[Shift | Turn, ...]
+
+_RIM = 15.0  # pixels around an internal wheel
+_PIN = 5.0
+_KEYS = 72  # of a way to and fro
+_BAR = 16.0  # pixels: the thickness of a rack
+_LOAD = Point(13.0, 18.0)
+_SCREW = Point(150.0, 9.0)
+_NUT = Point(15.0, 17.0)
+_BELTS = ("belt", "chain", "crossed")
+
+
+class Paint(NamedTuple):
+    """Pixels to a unit, and whether wheels have teeth."""
+
+    scale: float
+    teeth: bool
+
+    def place(self, z: complex) -> Point:
+        """In pixels."""
+        return Point(self.scale * z.real, -self.scale * z.imag)
+
+    def line(self, points: Complexes) -> tuple[Point, ...]:
+        """In pixels."""
+        return tuple(self.place(z) for z in points.tolist())
+
+
+class _Moves:
+    """Steps of the links of a stage; without a course nothing moves."""
+
+    def __init__(self, stage: Stage, course: Course | None) -> None:
+        self.stage, self.course = stage, course
+
+    def turn(self, link: str, against: str = FRAME, sign: int = 1) -> Turn:
+        """The angle of a link against another, evenly or to and fro."""
+        if self.course is None:
+            return Turn((0.0,))
+        turns = sign * (self.course.turns(link) - self.course.turns(against))
+        return Turn(self._keys(math.tau * turns))
+
+    def slide(self, link: str, scale: float, along: Point) -> Shift:
+        """The way of a link along a direction on the page."""
+        if self.course is None or not self.course.way(link):
+            return Shift((Point(0.0, 0.0),))
+        return Shift(tuple(Point(0, 0).plus(along, way) for way in self._keys(scale * self.course.way(link))))
+
+    def _keys(self, whole: float) -> tuple[float, ...]:
+        if not whole:
+            return (0.0,)
+        if self.course is None or not self.course.slides:
+            return (0.0, whole)
+        return tuple(whole * math.sin(math.pi * k / _KEYS) ** 2 for k in range(_KEYS + 1))
+
+    def on_carrier(self, paint: Paint) -> Steps:
+        """How everything that the carrier holds moves."""
+        carrier = self.stage.carrier
+        if carrier == FRAME or self.stage.is_bevel:
+            return ()
+        if self.course is not None and carrier in self.course.slides:
+            return (self.slide(carrier, paint.scale, Point(1.0, 0.0)),)
+        return (self.turn(carrier),)
+
+    def of_wheel(self, wheel: Wheel, paint: Paint) -> Steps:
+        """A wheel about its axis, which may go round."""
+        carrier, shift = self.stage.carrier, Shift((paint.place(wheel.at),))
+        if self.stage.is_bevel:
+            side = -1 if wheel.size < 0 else 1
+            relative = any(wheel.link == mesh.b for mesh in self.stage.meshes) and carrier != FRAME
+            return shift, self.turn(wheel.link, FRAME if relative else carrier, side)
+        sliding = self.course is not None and carrier in self.course.slides
+        if sliding:
+            return (*self.on_carrier(paint), shift, self.turn(wheel.link))
+        if wheel.planet:
+            return (*self.on_carrier(paint), shift, self.turn(wheel.link, carrier))
+        return shift, self.turn(wheel.link)
+
+
+def stage_bodies(stage: Stage, paint: Paint, course: Course | None) -> list[Body]:
+    """All bodies of a stage in the order in which they are painted, its first axis or hub at the origin."""
+    moves = _Moves(stage, course)
+    order = sorted(stage.wheels, key=lambda wheel: (not _hollow(stage, wheel), -wheel.radius))
+    made = [Body(tuple(_wheel(stage, wheel, paint)), moves.of_wheel(wheel, paint)) for wheel in order]
+    made += [body for placed in stage.placed for body in _links(placed, moves, paint)]
+    made += _carrier(stage, moves, paint)
+    made += _pins(stage, moves, paint)
+    return [*made, *_names(stage, moves, paint)]
+
+
+def _hollow(stage: Stage, wheel: Wheel) -> bool:
+    return wheel.internal and not stage.is_bevel
+
+
+# --- wheels ----------------------------------------------------------------------------------------
+
+
+def _wheel(stage: Stage, wheel: Wheel, paint: Paint) -> Iterator[Shape]:
+    """A disc or ring with its pitch circle, teeth where they are wanted, and marks that show how it turns."""
+    radius = paint.scale * wheel.radius
+    style = "block-frame" if wheel.link == FRAME else "area"
+    geared = any(mesh.kind == "gear" and wheel.link in (mesh.a, mesh.b) for mesh in stage.meshes)
+    whole = wheel.size == round(wheel.size) and 4 <= abs(wheel.size) <= 400
+    toothy = paint.teeth and geared and whole
+    module = 2 * wheel.radius / abs(wheel.size)
+    middle = Point(0.0, 0.0)
+    if toothy:
+        rim = paint.line(toothed(round(abs(wheel.size)), module, internal=_hollow(stage, wheel), phase=wheel.phase))
+    if _hollow(stage, wheel):
+        inner = rim if toothy else _circle(radius)
+        outer = _circle(radius + (1.25 * module * paint.scale if toothy else 0.0) + _RIM)
+        yield Lines((outer, inner[::-1]), style, closed=True)
+        yield Circle(Point(outer[0].x - _RIM / 2, 0.0), 2.6, "node")
+    else:
+        yield Lines((rim,), style, closed=True) if toothy else Circle(middle, radius, style)
+        arm = 0.8 * radius
+        yield Lines(((Point(-arm, 0), Point(arm, 0)), (Point(0, -arm), Point(0, arm))), "hatch")
+        if radius > 16:
+            yield Circle(Point(0.62 * radius, 0.0), min(4.0, radius / 8), "node")
+    if toothy:
+        yield Circle(middle, radius, "dead")
+
+
+def _circle(radius: float) -> tuple[Point, ...]:
+    count = max(36, min(144, round(radius)))
+    return tuple(Point(radius * math.cos(t), -radius * math.sin(t)) for t in np.linspace(0, math.tau, count + 1)[:-1])
+
+
+def _carrier(stage: Stage, moves: _Moves, paint: Paint) -> list[Body]:
+    """Bars from the hub to the planets."""
+    hub = Point(0.0, 0.0)
+    ends = dict.fromkeys(paint.place(wheel.at) for wheel in stage.wheels if wheel.planet)
+    if not ends:
+        return []
+    bars = tuple((hub, end) for end in ends)
+    return [Body((Lines(bars, "outline-rod"), Lines(bars, "body-rod")), moves.on_carrier(paint))]
+
+
+def _pins(stage: Stage, moves: _Moves, paint: Paint) -> list[Body]:
+    """A circle on every axis."""
+    held = dict.fromkeys(wheel.at for wheel in stage.wheels if wheel.planet or not stage.central)
+    steps = moves.on_carrier(paint)
+    made = [Body(tuple(Circle(paint.place(at), _PIN, "joint") for at in held), steps)] if held else []
+    return [*made, Body((Circle(Point(0.0, 0.0), _PIN, "joint"),))] if stage.central else made
+
+
+def _names(stage: Stage, moves: _Moves, paint: Paint) -> Iterator[Body]:
+    """Names of links in their wheels where there is room; they stay level."""
+    taken: dict[complex, float] = {}
+    named: set[tuple[str, complex]] = set()
+    for wheel in sorted(stage.wheels, key=lambda one: one.radius):
+        inner = taken.get(wheel.at, 0.0)
+        radius = paint.scale * wheel.radius
+        taken[wheel.at] = max(inner, radius)
+        down = max(inner, _PIN) + 11.0
+        fits = down + 8.0 < radius and text_width(wheel.link) / 2 < math.sqrt(max(radius**2 - (down + 6) ** 2, 0.0))
+        if _hollow(stage, wheel) or not fits or (wheel.link, wheel.at) in named:
+            continue
+        named.add((wheel.link, wheel.at))
+        steps: Steps = (Shift((paint.place(wheel.at),)),)
+        if wheel.planet:
+            carried = moves.on_carrier(paint)
+            back = (Turn(tuple(-angle for angle in step.angles)) for step in carried if isinstance(step, Turn))
+            steps = (*carried, *steps, *back)
+        yield Body((Text(Point(0.0, down), wheel.link, "name"),), steps)
+
+
+# --- what has no teeth -----------------------------------------------------------------------------
+
+
+def _links(placed: Placed, moves: _Moves, paint: Paint) -> Iterator[Body]:
+    """Belt, rack, rope or screw of a mesh."""
+    kind = placed.mesh.kind
+    if kind in _BELTS:
+        line = paint.line(_belt(placed, kind == "crossed"))
+        yield Body((Lines((line,), "rail" if kind == "chain" else "edge", closed=True),), moves.on_carrier(paint))
+    elif kind.startswith("rack"):
+        yield _rack(placed, moves, paint)
+    elif kind == "winch":
+        yield from _rope(placed, moves, paint)
+    elif kind == "screw":
+        yield from _screw(placed, moves)
+
+
+def _belt(placed: Placed, crossed: bool) -> Complexes:
+    """The closed line around two wheels, along their common tangents."""
+    (ra, rb), way = placed.radii, placed.b - placed.a
+    towards, d = cmath.phase(way), abs(way)
+    beta = math.acos((ra + rb if crossed else ra - rb) / d)
+    first = np.linspace(towards + beta, towards + math.tau - beta, 49)
+    second = np.linspace(towards - beta, towards + beta, 49)
+    if crossed:
+        second = np.linspace(towards + math.pi - beta, towards - math.pi + beta, 49)
+    out: Complexes = np.concatenate([placed.a + ra * np.exp(1j * first), placed.b + rb * np.exp(1j * second)])
+    return out
+
+
+def _rack(placed: Placed, moves: _Moves, paint: Paint) -> Body:
+    """A bar along x below the wheel, above it for a negative radius."""
+    mesh, scale = placed.mesh, paint.scale
+    radius = placed.radii[0]
+    side = -1.0 if mesh.size_a < 0 else 1.0
+    at = paint.place(placed.a).plus(Point(0.0, side * scale * radius))
+    way = scale * abs(moves.course.way(mesh.b)) if moves.course else 0.0
+    half = max(1.6 * scale * radius, 40.0)
+    left, right = at.x - half - way, at.x + half + way
+    box = (Point(left, at.y), Point(right, at.y), Point(right, at.y + side * _BAR), Point(left, at.y + side * _BAR))
+    pieces: list[Shape] = [Lines((box,), "block", closed=True)]
+    pieces.append(ticks(Point(left, at.y + side * 4), Point(right, at.y + side * 4), Point(0.0, side * 0.8)))
+    return Body(tuple(pieces), (moves.slide(mesh.b, scale, Point(1.0, 0.0)),))
+
+
+def _rope(placed: Placed, moves: _Moves, paint: Paint) -> Iterator[Body]:
+    """A rope that hangs from the right of a drum, with its load; what is below the load is hidden."""
+    mesh, scale = placed.mesh, paint.scale
+    radius = placed.radii[0]
+    top = paint.place(placed.a + radius)
+    way = scale * moves.course.way(mesh.b) if moves.course else 0.0
+    low = top.plus(Point(0.0, scale * radius + 30.0 + abs(way)))
+    yield Body((Lines(((top, low.plus(Point(0.0, max(-way, 0.0)))),), "edge"),))
+    hidden = _box(low.plus(Point(0.0, _LOAD.y / 2 + abs(way))), 4.0, _LOAD.y / 2 + abs(way))
+    load = _box(low.plus(Point(0.0, _LOAD.y)), _LOAD.x, _LOAD.y)
+    shapes = (Lines((hidden,), "ground", closed=True), Lines((load,), "block", closed=True))
+    yield Body(shapes, (moves.slide(mesh.b, scale, Point(0.0, -1.0)),))
+
+
+def _screw(placed: Placed, moves: _Moves) -> Iterator[Body]:
+    """A spindle from the side with its nut; a turn moves the nut by a thread that is drawn, not to scale."""
+    mesh, lead = placed.mesh, 14.0
+    middle = Point(0.0, 0.0)
+    threads = tuple(
+        (Point(x, _SCREW.y), Point(x + math.copysign(lead / 2, float(mesh.size_a)), -_SCREW.y))
+        for x in np.arange(-_SCREW.x + lead / 2, _SCREW.x - lead / 2, lead).tolist()
+    )
+    yield Body((Lines((_box(middle, _SCREW.x, _SCREW.y),), "block", closed=True), Lines(threads, "hatch")))
+    per = lead / abs(float(mesh.size_a))
+    yield Body((Lines((_box(middle, *_NUT),), "block", closed=True),), (moves.slide(mesh.b, per, Point(1.0, 0.0)),))
+
+
+def _box(at: Point, half: float, high: float) -> tuple[Point, ...]:
+    return tuple(Point(at.x + a * half, at.y + b * high) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))

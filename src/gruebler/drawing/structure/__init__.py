@@ -1,0 +1,14 @@
+"""Structure pictures of chains and mechanisms, and their graphs."""
+
+from gruebler.drawing.structure.graphs import draw_contracted, draw_graph, draw_loops
+from gruebler.drawing.structure.picture import Placed, draw, paint, place
+
+__all__ = [
+    "Placed",
+    "draw",
+    "draw_contracted",
+    "draw_graph",
+    "draw_loops",
+    "paint",
+    "place",
+]

@@ -1,0 +1,216 @@
+"""Other pictures of a chain: its link graph, its contracted graph, and its independent loops."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from gruebler.chain import Chain
+from gruebler.chain.pairs import Space
+from gruebler.drawing.canvas.figure import Figure, figure_of
+from gruebler.drawing.canvas.free_space import complexes, from_segment, inside
+from gruebler.drawing.canvas.labels import labelled, legend, short_names
+from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.symbols import arrow_head
+from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.layout import lay_out
+from gruebler.drawing.structure.messages import describe, title
+from gruebler.drawing.structure.orientation import turned
+from gruebler.drawing.structure.picture import chain_of, letters, mean_scale, paint, place
+from gruebler.isomorphism import canonical_order
+from gruebler.mechanism import Mechanism
+
+__all__ = ["draw_contracted", "draw_graph", "draw_loops"]
+
+_NODE = 11.0
+_BIG = 6.0
+_SMALL = 3.2
+_LOOP = 15.0  # radius of the largest arrow in a loop
+_GRID = 24  # places in a row where it is looked for the most room
+
+
+@dataclass(frozen=True, slots=True)
+class _Placed:
+    points: tuple[Point, ...]
+    paths: tuple[tuple[Point, ...], ...]
+
+
+def _placed(colours: Sequence[int], bodies: Sequence[Sequence[int]]) -> _Placed:
+    layout = lay_out(Bodies.of(colours, bodies))
+    scale = mean_scale(layout)
+    points = [Point(scale * x, -scale * y) for x, y in turned(layout, None).tolist()]
+    paths = [tuple(points[p] for p in outline) for outline in layout.outlines]
+    curved = [path if len(body) > 2 else _smooth(path) for body, path in zip(bodies, paths, strict=True)]
+    return _Placed(tuple(points[: len(colours)]), tuple(curved))
+
+
+def _smooth(path: tuple[Point, ...]) -> tuple[Point, ...]:
+    """A path through elbows as a curve (of Bezier's, through one elbow or towards two)."""
+    if len(path) < 3:
+        return path
+    a, b = path[0], path[-1]
+    if len(path) == 3:
+        control = path[1].plus(path[1].minus(a), 0.5).plus(path[1].minus(b), 0.5)
+        controls = (a.plus(control.minus(a), 2 / 3), b.plus(control.minus(b), 2 / 3))
+    else:
+        controls = (a.plus(path[1].minus(a), 4 / 3), b.plus(path[-2].minus(b), 4 / 3))
+    return tuple(_bezier((a, *controls, b), k / 16) for k in range(17))
+
+
+def _bezier(points: Sequence[Point], t: float) -> Point:
+    rest = list(points)
+    while len(rest) > 1:
+        rest = [p.plus(q.minus(p), t) for p, q in pairwise(rest)]
+    return rest[0]
+
+
+def draw_graph(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
+    """The link graph: a node for each link, an edge for each joint, an area for a multiple joint.
+
+    A frame has a double circle; joints that do not turn have their symbol beside them.
+
+    >>> draw_graph(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).title
+    'four-bar chain'
+    """
+    chain = chain_of(thing)
+    order = canonical_order(chain)
+    rank = {chain.links[i]: k for k, i in enumerate(order.links)}
+    joints = [chain.joints[k] for k in order.joints]
+    drawn = _placed([0] * chain.n, [[rank[link] for link in joint.links] for joint in joints])
+    shapes: list[Shape] = []
+    for joint, path in zip(joints, drawn.paths, strict=True):
+        closed = len(joint.links) > 2
+        shapes.append(Lines((path,), "area" if closed else "edge", closed))
+        if joint.pair.name != "revolute" or chain.space is not Space.PLANAR:
+            a, b = path[len(path) // 2 - 1], path[len(path) // 2]
+            middle = a.plus(b.minus(a), 0.5).plus(b.minus(a).unit.across, 9.0)
+            shapes.append(Text(middle, letters(joint.pair), "note"))
+    names = short_names(chain.links)
+    for link in chain.links:
+        at = drawn.points[rank[link]]
+        if isinstance(thing, Mechanism) and link == thing.frame:
+            shapes.append(Circle(at, _NODE + 3.5, "node"))
+        shapes += [Circle(at, _NODE, "node"), Text(at, names[link], "letter")]
+    listed = {link: number for link, number in names.items() if link != number}
+    shapes += legend(listed, drawn.points) if listed else ()
+    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+
+
+def draw_contracted(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
+    """The contracted graph: what carries three joints or more, and the strings of binary links between, as dots.
+
+    Filled nodes are links, open ones multiple joints; what hangs at one end only is a node too. A closed loop without
+    any such node is drawn from its first link.
+    """
+    chain = chain_of(thing)
+    nodes, strings = _strings(chain)
+    drawn = _placed([int(v >= chain.n) for v in nodes], [(a, b) for a, b, _ in strings])
+    shapes: list[Shape] = [Lines((path,), "edge") for path in drawn.paths]
+    for (_, _, binary), path in zip(strings, drawn.paths, strict=True):
+        shapes += [Circle(_along(path, (k + 1) / (binary + 1)), _SMALL, "dot") for k in range(binary)]
+    shapes += [Circle(at, _BIG, "node" if v >= chain.n else "block") for v, at in zip(nodes, drawn.points, strict=True)]
+    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+
+
+def _strings(chain: Chain) -> tuple[list[int], list[tuple[int, int, int]]]:
+    """Nodes (links, then joints, in canonical order) and strings: two places among them, number of binary links."""
+    order = canonical_order(chain)
+    rank = {chain.links[i]: k for k, i in enumerate(order.links)}
+    near: list[list[int]] = [[] for _ in range(chain.n + len(chain.joints))]
+    for number, k in enumerate(order.joints, chain.n):
+        for link in sorted(rank[link] for link in chain.joints[k].links):
+            near[link].append(number)
+            near[number].append(link)
+    nodes = [v for v, around in enumerate(near) if len(around) != 2] or [0]
+    found, seen = [], set()
+    for v in nodes:
+        for first in near[v]:
+            if (v, first) in seen:
+                continue
+            path = [v, first]
+            while path[-1] not in nodes:
+                ways = [w for w in near[path[-1]] if w != path[-2]]
+                path.append(ways[0] if ways else path[-2])
+            seen |= {(v, first), (path[-1], path[-2])}
+            found.append((nodes.index(v), nodes.index(path[-1]), sum(u < chain.n for u in path[1:-1])))
+    return nodes, found
+
+
+def _along(path: Sequence[Point], part: float) -> Point:
+    """The point after this part of the length of a path."""
+    steps = [b.minus(a).length for a, b in pairwise(path)]
+    rest = part * sum(steps)
+    for a, b, step in zip(path, path[1:], steps, strict=False):
+        if rest <= step:
+            return a.plus(b.minus(a).unit, rest)
+        rest -= step
+    return path[-1]
+
+
+def draw_loops(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
+    """The structure picture with the independent loops: a numbered arrow in each inner face.
+
+    Where links cross or share two joints, faces are no loops; a shortest basis is told in words below the picture.
+    """
+    placed = place(thing)
+    shapes = paint(placed)
+    if len(placed.faces) != placed.chain.loops or any(len(set(face)) < 3 for face in placed.faces):
+        walks = [", ".join(loop) for loop in _shortest_loops(placed.chain)]
+        shapes = labelled(placed.outlines, {link: d > 2 for link, d in placed.chain.degrees.items()}, shapes)
+        shapes += legend({walk: f"{k}:" for k, walk in enumerate(walks, 1)}, _corners(shapes))
+        return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+    corners = [[placed.joints[k] for k in face] for face in placed.faces]
+    for number, loop in enumerate(sorted(corners, key=lambda loop: _middle(loop)[::-1]), 1):
+        at, room = _roomiest(loop)
+        arc = Arc(at, max(7.0, min(_LOOP, room - 11.0)), math.radians(-60), math.radians(300), "drive")
+        shapes += [arc, arrow_head(arc), Text(at, str(number), "mark")]
+    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+
+
+def _corners(shapes: Sequence[Shape]) -> list[Point]:
+    """Points that no shape but long lines and texts goes beyond."""
+    return [point for s in shapes if isinstance(s, Lines) for part in s.parts for point in part] + [
+        s.at for s in shapes if isinstance(s, Text)
+    ]
+
+
+def _middle(points: Sequence[Point]) -> Point:
+    return Point(*(round(sum(axis) / len(points), 3) for axis in zip(*points, strict=True)))
+
+
+def _shortest_loops(chain: Chain) -> list[tuple[str, ...]]:
+    """The links around each loop of a shortest basis, from the first one on."""
+    import networkx as nx
+
+    graph = nx.Graph()
+    for number, joint in enumerate(chain.joints):
+        graph.add_edges_from(((True, number), (False, chain.index(link))) for link in joint.links)
+    cycles = [[k for is_joint, k in cycle if not is_joint] for cycle in nx.minimum_cycle_basis(graph)]
+    return [tuple(chain.links[k] for k in cycle) for cycle in sorted(map(_from_least, cycles))]
+
+
+def _from_least(cycle: list[int]) -> list[int]:
+    k = cycle.index(min(cycle))
+    there = cycle[k:] + cycle[:k]
+    return min(there, [there[0], *there[:0:-1]])
+
+
+def _roomiest(loop: Sequence[Point]) -> tuple[Point, float]:
+    """The point of a grid inside a polygon that is farthest from its rim, and how far."""
+    left, right = min(p.x for p in loop), max(p.x for p in loop)
+    top, bottom = min(p.y for p in loop), max(p.y for p in loop)
+    parts = (np.arange(_GRID) + 0.5) / _GRID
+    x, y = np.meshgrid(left + (right - left) * parts, top + (bottom - top) * parts, indexing="ij")
+    rim, grid = complexes(loop), (x + 1j * y).ravel()
+    good = grid[inside(grid, rim)] if len(loop) > 2 else grid[:0]
+    if not len(good):
+        good = complexes([_middle(loop)])
+    room = np.min(from_segment(good[:, None], rim[None, :], np.roll(rim, -1)[None, :]), axis=1).round(3)
+    most = float(room.max())
+    best = [Point(float(z.real), float(z.imag)) for z in good[room >= most - 1.0]]
+    at = _middle(best)
+    return (at, most) if inside(complexes([at]), rim)[0] else (max(best), most)

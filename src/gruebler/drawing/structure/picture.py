@@ -1,0 +1,206 @@
+"""Structure pictures of chains and mechanisms in the manner of textbooks: links as bodies, joints as signs.
+
+The places depend on the structure alone: isomorphic chains get the same picture, and the inversions of a chain the same
+layout, turned so that the frame is low.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+
+from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet, Pair, Space
+from gruebler.drawing.canvas.figure import Figure, figure_of
+from gruebler.drawing.canvas.shapes import Point, Shape
+from gruebler.drawing.canvas.symbols import (
+    JointSign,
+    Member,
+    bar,
+    joint_sign,
+    polygon,
+    straight_drive,
+    turning_drive,
+    widest_gap,
+)
+from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.layout import Layout, lay_out
+from gruebler.drawing.structure.messages import describe, title
+from gruebler.drawing.structure.orientation import turned
+from gruebler.isomorphism import canonical_order
+from gruebler.mechanism import Mechanism
+
+__all__ = ["Placed", "chain_of", "draw", "letters", "mean_scale", "paint", "place"]
+
+_LENGTH = 78.0  # pixels from joint to joint, on average
+_NARROW = 30.0  # pixels between a joint and a foreign link, at least, as long as the picture does not become huge
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A chain with places for its joints, in pixels; what draws links, joints and drives needs no more."""
+
+    chain: Chain
+    joints: tuple[Point, ...]
+    outlines: dict[str, tuple[Point, ...]]
+    """For each link its corners in drawing order, free ends and elbows included."""
+    frame: str | None = None
+    drives: tuple[tuple[int, str], ...] = ()
+    """Driven joints with the direction of the freedom."""
+    crossing: frozenset[str] = frozenset()
+    """Links that are to be set off from others below them."""
+    faces: tuple[tuple[int, ...], ...] = ()
+
+
+def draw(
+    thing: Chain | Mechanism,
+    *,
+    labels: bool = False,
+    lang: str = "en",
+    name: str = "",
+    names: Mapping[str, str] | None = None,
+) -> Figure:
+    """The structure picture of a chain or a mechanism.
+
+    Args:
+        thing: what to draw.
+        labels: whether to name the links.
+        lang: language of title and description, ``en`` or ``de``.
+        name: the title, if it is not to be found out.
+        names: what to call links in the picture, where that is not their own name.
+
+    >>> picture = draw(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
+    >>> len(picture.svg()) < 5000
+    True
+    """
+    from gruebler.drawing.canvas.labels import labelled
+
+    placed = place(thing)
+    shapes = paint(placed)
+    if labels:
+        degrees = chain_of(thing).degrees
+        outlines = {link: placed.outlines[link] for link in degrees}
+        shapes = labelled(outlines, {link: degrees[link] > 2 for link in degrees}, shapes, names)
+    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+
+
+def chain_of(thing: Chain | Mechanism) -> Chain:
+    """The chain itself, or the mechanism's."""
+    return thing if isinstance(thing, Chain) else thing.chain
+
+
+def place(thing: Chain | Mechanism) -> Placed:
+    """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure."""
+    frame, drives = (None, ()) if isinstance(thing, Chain) else (thing.frame, thing.drives)
+    chain, number = _ordered(chain_of(thing), frame, {drive.joint for drive in drives})
+    plain, where = _ordered(chain)
+    layout = _layout_of(
+        tuple((joint.pair.name, tuple(sorted(map(plain.index, joint.links)))) for joint in plain.joints), chain.n
+    )
+    scale = mean_scale(layout)
+    low = None if frame is None else plain.index(frame)
+    points = [Point(scale * x, -scale * y) for x, y in turned(layout, low).tolist()]
+    back = {p: k for k, p in where.items()}
+    return Placed(
+        chain,
+        tuple(points[where[k]] for k in range(len(chain.joints))),
+        {link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
+        frame,
+        tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
+        frozenset(plain.links[max(pair)] for pair in layout.crossings),
+        tuple(tuple(back[p] for p in face if p in back) for face in layout.faces),
+    )
+
+
+def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> tuple[Chain, dict[int, int]]:
+    """The chain with links and joints in canonical order, and where each joint has gone."""
+    order = canonical_order(chain, frame, drives)
+    moved = Chain(
+        [chain.joints[k] for k in order.joints], links=[chain.links[i] for i in order.links], space=chain.space
+    )
+    return moved, {k: place for place, k in enumerate(order.joints)}
+
+
+@lru_cache(maxsize=4096)
+def _layout_of(rows: tuple[tuple[str, tuple[int, ...]], ...], links: int) -> Layout:
+    kinds = list(dict.fromkeys(kind for kind, _ in rows))
+    colours = [kinds.index(kind) for kind, _ in rows]
+    held = [[p for p, (_, members) in enumerate(rows) if link in members] for link in range(links)]
+    return lay_out(Bodies.of(colours, held))
+
+
+def mean_scale(layout: Layout) -> float:
+    """Pixels for the longer side: bars of usual length, more where points would be too near to others."""
+    sides = [math.dist(layout.points[a], layout.points[b]) for outline in layout.outlines for a, b in pairwise(outline)]
+    usual = _LENGTH / max(float(np.mean(sides)), 1e-9)
+    return min(max(usual, _NARROW / max(layout.clearance, 1e-9)), 1.8 * usual)
+
+
+def paint(placed: Placed) -> list[Shape]:
+    """Links, joints and drives, in the order of painting."""
+    signs = [_sign(placed, number) for number in range(len(placed.chain.joints))]
+    shapes = [shape for sign, _ in signs for shape in sign.below]
+    holds = {
+        (link, number): hold
+        for number, (sign, members) in enumerate(signs)
+        for link, hold in zip(members, sign.holds, strict=True)
+    }
+    for link in sorted(placed.chain.links, key=lambda link: (link in placed.crossing, -placed.chain.degrees[link])):
+        shapes += _link(placed, link, holds)
+    shapes += [shape for sign, _ in signs for shape in sign.above]
+    for number, direction in placed.drives:
+        shapes += _drive(placed, number, direction, signs[number][0])
+    return shapes
+
+
+def _link(placed: Placed, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:
+    """The body of a link, its corners moved to where it takes hold of its joints."""
+    moved = {placed.joints[n]: holds[link, n] for n, j in enumerate(placed.chain.joints) if link in j.links}
+    corners = [moved.get(corner, corner) for corner in placed.outlines[link]]
+    shape = polygon if placed.chain.degrees[link] > 2 else bar
+    return shape(corners, is_frame=link == placed.frame, halo=link in placed.crossing)
+
+
+def towards(placed: Placed, link: str, number: int) -> Point:
+    """The direction from a joint to where the link lies."""
+    at = placed.joints[number]
+    corners = placed.outlines[link]
+    if placed.chain.degrees[link] < 3:
+        k = corners.index(at)
+        return corners[k + 1 if k == 0 else k - 1].minus(at)
+    middle = Point(sum(p.x for p in corners) / len(corners), sum(p.y for p in corners) / len(corners))
+    return middle.minus(at)
+
+
+def _sign(placed: Placed, number: int) -> tuple[JointSign, list[str]]:
+    """The sign of a joint and its links in the order of the sign: the frame first, then the larger ones."""
+    joint = placed.chain.joints[number]
+    links = sorted(joint.links, key=lambda link: _precedence(placed, link))
+    members = [Member(towards(placed, link, number), link == placed.frame) for link in links]
+    flat = placed.chain.space is Space.PLANAR
+    letter = "" if flat else letters(joint.pair)
+    return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter), links
+
+
+def _precedence(placed: Placed, link: str) -> tuple[bool, int, int]:
+    return link != placed.frame, -placed.chain.degrees[link], placed.chain.index(link)
+
+
+def letters(pair: Pair) -> str:
+    """The international symbol of a pair, or the German one where there is none."""
+    return pair.symbols.get(Alphabet.INTERNATIONAL) or pair.symbols[Alphabet.GERMAN]
+
+
+def _drive(placed: Placed, number: int, direction: str, sign: JointSign) -> list[Shape]:
+    at = placed.joints[number]
+    directions = [towards(placed, link, number) for link in placed.chain.joints[number].links]
+    if direction.startswith("T"):
+        side = sign.axis.across
+        lean = sum(side.dot(d.unit) for d in directions)
+        return straight_drive(at, sign.axis, Point(-side.x, -side.y) if lean > 0 else side)
+    return turning_drive(at, sign.reach + 9.0, widest_gap([math.atan2(d.y, d.x) for d in directions]))

@@ -1,0 +1,229 @@
+"""The work that answers a request, cut into pieces: plain data, in an order that is always the same.
+
+A piece holds contracted graphs (chains that are not fractionated), a way to add the last block (fractionated ones) or
+some chains with simple joints (multiple joints grow from them). `Counter` and `Lister` are pure functions of a piece
+and can be sent to any worker.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from itertools import islice
+from typing import NamedTuple
+
+from gruebler.chain import Chain
+from gruebler.enumeration.assortment import Assortment, loop_number
+from gruebler.enumeration.condition import fractionation
+from gruebler.enumeration.fractionated import Parts, composed, fractionated_chains, parts
+from gruebler.enumeration.multiple import with_multiple_joints
+from gruebler.enumeration.pieces import Piece, count_piece, list_piece, pieces
+from gruebler.enumeration.request import Request, RequestCount
+from gruebler.enumeration.simple_chains import chains as plain_chains
+from gruebler.isomorphism import orbits as orbits_of
+from gruebler.isomorphism import symmetry
+
+__all__ = ["Counter", "Lister", "Listing", "Tally", "Work", "add_tallies", "chains_of_request", "work_of"]
+
+_GROWN_AT_ONCE = 32  # chains with simple joints in a piece; at 12 links some thousand chains grow from them
+
+Edges = tuple[tuple[int, int], ...]
+
+
+class Ring(NamedTuple):
+    """The chain of one loop, which has no contracted graph."""
+
+    links: int
+
+
+class Grown(NamedTuple):
+    """Chains with simple joints from which those with multiple joints grow."""
+
+    links: int
+    simple: tuple[Edges, ...]
+
+
+Work = Piece | Ring | Parts | Grown
+
+
+class Tally(NamedTuple):
+    """The chains of one class and assortment in a piece, and the orbits on them (0 if not asked for)."""
+
+    kind: str
+    assortment: Assortment
+    chains: int
+    inversions: int
+    joint_orbits: int
+    drives: int
+
+
+class Listing(NamedTuple):
+    """The chains of one class in a piece, written out."""
+
+    kind: str
+    chains: int
+    text: bytes
+    """A line for each chain, line ends included: graph6, the text of a chain, or a JSON document."""
+
+
+def work_of(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
+    """The pieces of work, lazily.
+
+    Args:
+        request: what is asked.
+        size: work of a piece of contracted graphs, see `pieces.Piece`.
+    """
+    if not request.only_simple:
+        simple = chains_of_request(Request(request.links, request.mobility, "all"))
+        while some := tuple(_edges(chain) for chain in islice(simple, _GROWN_AT_ONCE)):
+            yield Grown(request.links, some)
+        return
+    for kind in request.classes:
+        if kind != "none":
+            yield from parts(request.links, request.mobility, kind)
+        elif loop_number(request.links, request.mobility) == 1:
+            if request.assortment in (None, (request.links,)):
+                yield Ring(request.links)
+        else:
+            yield from pieces(request.links, request.mobility, assortment=request.assortment, size=size)
+
+
+def chains_of_request(request: Request) -> Iterator[Chain]:
+    """The chains asked for, lazily, in the order of the pieces of work."""
+    if request.only_simple and request.classes == ("none",):
+        yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
+        return
+    if request.only_simple:
+        for kind in request.classes:
+            if kind == "none":
+                yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
+            else:
+                found = fractionated_chains(plain_chains, request.links, request.mobility, kind)
+                yield from (chain for chain in found if request.assortment in (None, chain.assortment))
+        return
+    for work in work_of(request):
+        yield from (chain for _, chain in _chains(request, work))
+
+
+def _chains(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
+    """The chains of a piece with their classes; a piece of contracted graphs is never asked."""
+    if isinstance(work, Ring):
+        yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
+    elif isinstance(work, Parts):
+        kind = "joint" if work.bridges else "link"
+        for compound in composed(plain_chains, work):
+            if request.assortment in (None, compound.chain.assortment):
+                yield kind, compound.chain
+    elif isinstance(work, Grown):
+        fewest, most = request.joints_range
+        simple = (Chain([("revolute", edge) for edge in edges], links=range(work.links)) for edges in work.simple)
+        for chain in with_multiple_joints(simple, fewest=fewest, most=most):
+            if request.assortment in (None, chain.assortment) and (kind := fractionation(chain)) in request.classes:
+                yield kind, chain
+
+
+def _edges(chain: Chain) -> Edges:
+    return tuple((chain.index(a), chain.index(b)) for a, b in (joint.links for joint in chain.joints))
+
+
+@dataclass(frozen=True, slots=True)
+class Counter:
+    """What a worker does to count a piece."""
+
+    request: Request
+    orbits: bool
+
+    def __call__(self, work: Work) -> list[Tally]:
+        """The numbers of a piece, by class and assortment."""
+        if isinstance(work, Piece):
+            return [Tally("none", *found) for found in count_piece(work, self.orbits)]
+        sums: dict[tuple[str, Assortment], list[int]] = {}
+        for kind, chain in _chains(self.request, work):
+            row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
+            for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
+                row[k] += number
+        return [Tally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]
+
+
+def _orbits(chain: Chain) -> tuple[int, int, int]:
+    """Orbits of links, of joints, and of (frame, joint at it, link that the joint drives)."""
+    found = symmetry(chain)
+    drives = [
+        (i, number, j)
+        for number, joint in enumerate(chain.joints)
+        for i in map(chain.index, joint.links)
+        for j in map(chain.index, joint.links)
+        if i != j
+    ]
+    images = [{(i, k, j): (g.links[i], g.joints[k], g.links[j]) for i, k, j in drives} for g in found.generators]
+    return len(found.link_orbits), len(found.joint_orbits), len(orbits_of(drives, images))
+
+
+def add_tallies(request: Request, orbits: bool, found: Iterable[Iterable[Tally]]) -> RequestCount:
+    """The numbers of all pieces in one."""
+    by_assortment: dict[Assortment, int] = {}
+    by_kind = dict.fromkeys(request.classes if request.fractionated != "all" else ("none", "link", "joint"), 0)
+    sums = [0, 0, 0, 0]
+    for tallies in found:
+        for tally in tallies:
+            if tally.chains:
+                by_assortment[tally.assortment] = by_assortment.get(tally.assortment, 0) + tally.chains
+            by_kind[tally.kind] += tally.chains
+            sums = [old + new for old, new in zip(sums, tally[2:], strict=True)]
+    chains, inversions, joint_orbits, drives = sums
+    return RequestCount(
+        request.links,
+        request.mobility,
+        chains,
+        dict(sorted(by_assortment.items())),
+        inversions if orbits else None,
+        drives if orbits else None,
+        joint_orbits if orbits else None,
+        by_kind,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Lister:
+    """What a worker does to write out a piece in a format: graph6, text or json."""
+
+    request: Request
+    format: str
+
+    def __call__(self, work: Work) -> list[Listing]:
+        """The chains of a piece by class, written out."""
+        if isinstance(work, Piece) and self.format == "graph6":
+            block = list_piece(work, "graph6")
+            return [Listing("none", len(block), block.tobytes())]
+        found: dict[str, list[str]] = {}
+        for kind, joints in self._joints(work):
+            found.setdefault(kind, []).append(self._written(kind, joints))
+        return [Listing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(found.items())]
+
+    def _joints(self, work: Work) -> Iterator[tuple[str, Iterable[Iterable[int]]]]:
+        if isinstance(work, Piece):
+            yield from (("none", edges) for edges in list_piece(work).tolist())
+        else:
+            for kind, chain in _chains(self.request, work):
+                yield kind, [[chain.index(link) for link in joint.links] for joint in chain.joints]
+
+    def _written(self, kind: str, joints: Iterable[Iterable[int]]) -> str:
+        if self.format == "text":
+            return " ".join(f"R({'-'.join(map(str, links))})" for links in joints) + "\n"
+        if self.format == "graph6":
+            return _graph6(self.request.links, joints)
+        label = {"fractionation": kind} if self.request.fractionated == "all" else {}
+        names = [str(i) for i in range(self.request.links)]
+        made = [{"pair": "revolute", "links": [names[i] for i in links]} for links in joints]
+        return json.dumps({**label, "space": "planar", "links": names, "joints": made}) + "\n"
+
+
+def _graph6(links: int, joints: Iterable[Iterable[int]]) -> str:
+    """One line; format: B. D. McKay, Description of graph6, sparse6 and digraph6 encodings."""
+    import networkx as nx
+
+    graph = nx.empty_graph(links)
+    graph.add_edges_from(tuple(joint) for joint in joints)
+    text: str = nx.to_graph6_bytes(graph, header=False).decode("ascii")
+    return text

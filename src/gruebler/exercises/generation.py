@@ -1,0 +1,400 @@
+"""Fresh tasks: from the enumeration of chains and from random sensible dimensions; the same id, the same task."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from itertools import count as counting
+from random import Random
+from typing import NamedTuple
+
+from gruebler.chain import Chain
+from gruebler.enumeration import chains
+from gruebler.errors import GrueblerError
+from gruebler.exercises.solution import number
+from gruebler.exercises.solving import solve
+from gruebler.formats import Exercise
+from gruebler.formats.catalog_records import Asked
+from gruebler.fourbar import FourBar, SliderCrank
+from gruebler.mobility import counted, mobility_report
+from gruebler.text import Text
+
+__all__ = ["KINDS", "LEVELS", "fresh", "from_id", "is_fresh"]
+
+LEVELS = (1, 2, 3)
+Given = dict[str, float | str]
+
+
+class _Made(NamedTuple):
+    """What a maker gives: method, quantities, results asked for, the task."""
+
+    method: str
+    given: Given
+    asked: tuple[str, ...]
+    task: Text
+
+
+def fresh(kind: str, seed: int, level: int = 1) -> Exercise:
+    """A task of a kind and a level from 1 (easy) to 3; its id names all three.
+
+    Raises `GrueblerError` for an unknown kind or level, or a seed below 0.
+
+    >>> task = fresh("dead-centre", seed=7)
+    >>> task.id, task.given
+    ('dead-centre-1-7', {'a': 30, 'b': 100, 'unit': 'mm'})
+    """
+    if kind not in KINDS:
+        raise GrueblerError(f"the kinds of fresh tasks are {', '.join(KINDS)}, not {kind!r}")
+    if level not in LEVELS:
+        raise GrueblerError(f"the level is 1, 2 or 3, not {level!r}")
+    if not isinstance(seed, int) or not 0 <= seed < 10**9:
+        raise GrueblerError(f"the seed is a whole number from 0 to 999999999, not {seed!r}")
+    name, maker = KINDS[kind]
+    random = Random(f"gruebler {kind} {level} {seed}")
+    title = Text(f"{name.en}, level {level}", f"{name.de}, Stufe {level}")
+    id = f"{kind}-{level}-{seed}"
+    while True:
+        made = maker(random, level)
+        asked = tuple(Asked(key) for key in made.asked)
+        task = Exercise(id=id, name=title, source="", task=made.task, method=made.method, given=made.given, asked=asked)
+        if kind not in _MEASURED or _tells_mistakes(task):
+            return task
+
+
+_MEASURED = ("dead-centre", "transmission-angle", "velocity")
+_APART = 5e-3  # relative, of a likely mistake from the right answer
+
+
+def _tells_mistakes(task: Exercise) -> bool:
+    """Whether no likely mistake is so near the right answer that it would pass for it."""
+    solution = solve(task)
+    asked = {one.key for one in task.asked}
+    pairs = [(m.value, solution[m.key]) for m in solution.mistakes if m.key in asked]
+    return all(
+        abs(wrong - right) > _APART * abs(right)
+        for wrong, right in pairs
+        if isinstance(wrong, float) and isinstance(right, float)
+    )
+
+
+_FRESH = re.compile(r"([a-z-]+)-(\d)-(\d{1,9})")
+
+
+def is_fresh(word: str) -> bool:
+    """Whether a word is the id of a fresh task."""
+    match = _FRESH.fullmatch(word)
+    return match is not None and match[1] in KINDS
+
+
+def from_id(id: str) -> Exercise:
+    """The fresh task of an id."""
+    match = _FRESH.fullmatch(id)
+    if match is None:
+        raise GrueblerError(f"a fresh task is named KIND-LEVEL-SEED, such as grashof-1-7, not {id!r}")
+    return fresh(match[1], int(match[3]), int(match[2]))
+
+
+# --- chains -----------------------------------------------------------------------------------------
+
+
+def _mobility(random: Random, level: int) -> _Made:
+    found = _typed(random, level)
+    while mobility_report(found).generic != max(counted(found), 0):
+        found = _typed(random, level)
+    shuffled = _shuffled(random, found)
+    text, german = str(shuffled), shuffled.text("german")
+    letters = sorted({joint.pair.name for joint in shuffled.joints}, key=list(_LETTERS).index)
+    en, de = (", ".join(_LETTERS[name][column] for name in letters) for column in (0, 1))
+    task = Text(
+        f"Count links and joints of the planar chain {text} ({en}; the numbers name the links) and find its degree of "
+        "freedom F.",
+        f"Zählen Sie Glieder und Gelenke der ebenen Kette {german} ({de}; die Zahlen benennen die Glieder) und "
+        "bestimmen Sie den Getriebefreiheitsgrad F.",
+    )
+    return _Made("mobility.chain", {"chain": text}, ("n", "g1", "g2", "F"), task)
+
+
+def _shuffled(random: Random, chain: Chain) -> Chain:
+    """The chain with its links numbered anew."""
+    names = random.sample(range(1, chain.n + 1), chain.n)
+    return chain.renamed({link: str(name) for link, name in zip(chain.links, names, strict=True)})
+
+
+def _typed(random: Random, level: int) -> Chain:
+    found = random.choice(_structures(level))
+    if level > 1:
+        found = _with_pairs(random, found, "prismatic", random.choice((1, 1, 2)))
+    return _with_pairs(random, found, "roll_slide", random.choice((1, 2))) if level > 2 else found
+
+
+_LETTERS = {
+    "revolute": ("R: turning pair", "D: Drehgelenk"),
+    "prismatic": ("P: sliding pair", "S: Schubgelenk"),
+    "roll_slide": ("G: rolling and sliding pair", "G: Gleitwälzgelenk"),
+}
+
+
+@lru_cache
+def _structures(level: int) -> list[Chain]:
+    sizes = ((4, 1), (5, 2), (5, 0), (6, 1), (7, 2)) if level == 1 else ((6, 1), (7, 2), (8, 1))
+    joints = 0 if level == 1 else "1-2"
+    return [one for n, mobility in sizes for one in chains(n, mobility, multiple_joints=joints)]
+
+
+def _with_pairs(random: Random, chain: Chain, kind: str, number_: int) -> Chain:
+    """The chain with some of its simple revolutes replaced by another pair."""
+    places = [k for k, joint in enumerate(chain.joints) if joint.pair.name == "revolute" and joint.count == 1]
+    chosen = set(random.sample(places, min(number_, len(places))))
+    joints = [(kind if k in chosen else joint.pair.name, joint.links) for k, joint in enumerate(chain.joints)]
+    return Chain(joints, links=chain.links)
+
+
+def _dyad(random: Random, level: int) -> _Made:
+    is_dyad = random.random() < 0.6
+    sizes = {1: ((4, 1), (5, 2)), 2: ((5, 2), (6, 3)), 3: ((6, 1),)}[level]
+    size = random.choice(sizes if is_dyad or level == 3 else ((5, 2), (6, 3)))
+    start = _shuffled(random, random.choice(list(chains(*size))))
+    given: Given = {"chain": str(start)}
+    text, german = str(start), start.text("german")
+    asked: tuple[str, ...] = ("F_before", "F_after")
+    more_en, more_de = "How does F change?", "Wie ändert sich F?"
+    if level > 1:
+        asked += ("chains",)
+        more_en += " How many essentially different chains can come out (names of the links aside)?"
+        more_de += " Wie viele wesentlich verschiedene Ketten können entstehen (die Namen der Glieder zählen nicht)?"
+    if is_dyad or level == 3:
+        form, kind, art = random.choice(_DYADS if level > 1 else _DYADS[:1])
+        en = f"Extend the chain {{}} by a dyad of {kind} between two of its links."
+        de = f"Erweitern Sie die Kette {{}} um einen Zweischlag mit {art} zwischen zwei ihrer Glieder."
+        method = "dyads.dyad"
+        given["form"] = form
+    else:
+        en = (
+            "Connect two links of the chain {} by a coupler with two turning pairs, so that no rigid triangle comes "
+            "out."
+        )
+        de = (
+            "Verbinden Sie zwei Glieder der Kette {} durch eine Koppel mit zwei Drehgelenken, ohne dass ein starres "
+            "Dreieck entsteht."
+        )
+        method = "dyads.coupler"
+    task = Text(f"{en.format(text)} {more_en}", f"{de.format(german)} {more_de}")
+    return _Made(method, given, asked, task)
+
+
+_DYADS = (
+    ("RRR", "three turning pairs", "drei Drehgelenken"),
+    ("RPR", "two turning pairs and a sliding pair between them", "zwei Drehgelenken und einem Schubgelenk dazwischen"),
+    ("RRP", "two turning pairs and a sliding pair at one end", "zwei Drehgelenken und einem Schubgelenk an einem Ende"),
+)
+"""Forms with what they are called."""
+
+
+# --- dimensions -------------------------------------------------------------------------------------
+
+
+def _until(make: Callable[[], Given], good: Callable[[Given], bool]) -> Given:
+    for tried in counting():
+        given = make()
+        if good(given):
+            return given
+        if tried > 100_000:
+            raise AssertionError("no sensible dimensions found")
+    raise AssertionError
+
+
+def _lengths(random: Random, **ranges: tuple[int, int]) -> Iterator[tuple[str, int]]:
+    for name, (low, high) in ranges.items():
+        yield name, 5 * random.randint(low, high)
+
+
+def _told(given: Given, names: str = "abcde") -> tuple[str, str]:
+    """The lengths as they stand in a task, in English and German."""
+    words = [f"{name} = {number(abs(float(given[name])))} mm" for name in names if given.get(name)]
+    return _listed(words, "and"), _listed([word.replace(".", ",") for word in words], "und")
+
+
+def _listed(words: list[str], last: str) -> str:
+    return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
+
+
+def _four_bar(given: Given) -> FourBar:
+    return FourBar(**{name: float(given[name]) for name in "abcd"})
+
+
+def _any_four_bar(random: Random) -> Given:
+    return dict(_lengths(random, a=(3, 12), b=(6, 25), c=(5, 22), d=(6, 25)))
+
+
+def _change_point(random: Random) -> Given:
+    """With a + d = b + c, d the longest."""
+    given = _any_four_bar(random)
+    return given | {"d": max(5.0, float(given["b"]) + float(given["c"]) - float(given["a"]))}
+
+
+def _good_rocker(given: Given) -> bool:
+    """A crank-rocker that is no change point, with a transmission angle worth a task."""
+    size = _four_bar(given)
+    return size.type.key == "crank_rocker" and size.transmission_angle.smallest > 0.35
+
+
+def _grashof(random: Random, level: int) -> _Made:
+    if level == 1:
+        wanted = random.choice(_TYPES)
+        make = _change_point if wanted.startswith("change") else _any_four_bar
+        given = _until(lambda: make(random), lambda g: _four_bar(g).type.key == wanted)
+        en, de = _told(given)
+        task = Text(
+            f"A four-bar has the crank, coupler, rocker and frame {en}. Does the crank a turn fully, and what kind of "
+            "mechanism is it?",
+            f"Ein Gelenkviereck hat Kurbel, Koppel, Schwinge und Gestell {de}. Ist die Kurbel a umlauffähig, und "
+            "welcher Getriebetyp ist es?",
+        )
+        return _Made("grashof.condition", given | {"unit": "mm"}, ("sum_ends", "sum_others", "turns", "type"), task)
+    free = random.choice("bcd") if level == 2 else "d"
+    given = _until(lambda: _any_four_bar(random), lambda g: _range_worth_asking(g, free, level))
+    del given[free]
+    en, de = _told(given)
+    task = Text(
+        f"A four-bar has {en} (a crank, b coupler, c rocker, d frame). Within which limits may the length {free} lie "
+        "for a crank-rocker with the rotating crank a?",
+        f"Ein Gelenkviereck hat {de} (a Kurbel, b Koppel, c Schwinge, d Gestell). In welchen Grenzen darf die Länge "
+        f"{free} liegen, damit eine Kurbelschwinge mit umlaufender Kurbel a entsteht?",
+    )
+    asked: tuple[str, ...] = (f"{free}_min", f"{free}_max")
+    if level == 3:
+        asked += ("shortest_upper",)
+        task = Text(
+            f"{task.en} Up to which length of the frame does a turn fully with the frame as the shortest link?",
+            f"{task.de} Bis zu welcher Gestelllänge läuft a auch mit dem Gestell als kürzestem Glied um?",
+        )
+    return _Made("grashof.length_range", given | {"free": free, "unit": "mm"}, asked, task)
+
+
+_TYPES = (
+    "crank_rocker",
+    "crank_rocker",
+    "double_crank",
+    "grashof_double_rocker",
+    "triple_rocker",
+    "change_point_crank_rocker",
+)
+"""What a four-bar of the first level may be."""
+
+
+def _range_worth_asking(given: Given, free: str, level: int) -> bool:
+    a, *rest = sorted(float(given[name]) for name in "abcd" if name != free)
+    if a != given["a"] or len({a, *rest}) < 3:
+        return False
+    short, long = rest
+    return level == 2 or a + short > long
+
+
+def _slider(random: Random, eccentric: bool) -> Given:
+    def make() -> Given:
+        given: Given = dict(_lengths(random, a=(3, 12), b=(8, 30)))
+        return given | ({"e": random.choice((5, 10, 15, 20, 25))} if eccentric else {})
+
+    def good(given: Given) -> bool:
+        a, b, e = float(given["a"]), float(given["b"]), float(given.get("e", 0))
+        size = SliderCrank(a, b, e)
+        return size.turning == ("a",) and (a + e) / b < 0.85 and b >= 1.6 * a and e != a
+
+    return _until(make, good)
+
+
+def _article(kind: str) -> str:
+    return "An" if kind[0] in "aeiou" else "A"
+
+
+_SLIDER = ("central slider-crank", "zentrische Schubkurbel"), ("eccentric slider-crank", "exzentrische Schubkurbel")
+
+
+def _dead_centre(random: Random, level: int) -> _Made:
+    if level < 3:
+        given = _slider(random, level == 2)
+        (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
+        asked: tuple[str, ...] = ("l_a", "l_i", "H") if level == 1 else ("H", "φ_max", "time_ratio")
+        more = (
+            ("", "")
+            if level == 1
+            else (
+                ", the larger crank angle between the dead centres and the ratio of times",
+                ", den größeren Kurbelwinkel zwischen den Totlagen und das Zeitverhältnis",
+            )
+        )
+        task = Text(
+            f"{_article(kind)} {kind} has {en}. Find the dead centres and the stroke H{more[0]}.",
+            f"Eine {art} hat {de}. Bestimmen Sie die Totlagen und den Hub H{more[1]}.",
+        )
+        return _Made("dead_centres.slider_crank", given | {"unit": "mm"}, asked, task)
+    given = _until(lambda: _any_four_bar(random), lambda g: _good_rocker(g) and not _four_bar(g).is_central)
+    rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
+    en, de = _told(given)
+    task = Text(
+        f"A crank-rocker has {en}; the crank makes {rpm} turns a minute. Find the swing of the rocker, the larger "
+        "crank angle between the dead centres and the times of both ways.",
+        f"Eine Kurbelschwinge hat {de}; die Kurbel macht {rpm} Umdrehungen je Minute. Bestimmen Sie den "
+        "Schwingwinkel, den größeren Kurbelwinkel zwischen den Totlagen und die Zeiten beider Wege.",
+    )
+    asked = ("φ_i", "φ_a", "φ_max", "ψ_H", "T_max", "T_min")
+    return _Made("dead_centres.crank_rocker", given | {"rpm": rpm, "unit": "mm"}, asked, task)
+
+
+def _transmission(random: Random, level: int) -> _Made:
+    if level < 3:
+        given = _slider(random, level == 2)
+        (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
+        task = Text(
+            f"{_article(kind)} {kind} has {en}. Find the largest deviation angle and the smallest transmission angle.",
+            f"Eine {art} hat {de}. Bestimmen Sie den größten Ablenkwinkel und den kleinsten Übertragungswinkel.",
+        )
+        return _Made("transmission_angle.slider_crank", given | {"unit": "mm"}, ("α_max", "μ_min"), task)
+    given = _until(lambda: _any_four_bar(random), _good_rocker)
+    en, de = _told(given)
+    task = Text(
+        f"A crank-rocker has {en}. Find the transmission angle in both frame positions and the smallest one. Is it at "
+        "least 40°?",
+        f"Eine Kurbelschwinge hat {de}. Bestimmen Sie den Übertragungswinkel in beiden Steglagen und den kleinsten. "
+        "Beträgt er mindestens 40°?",
+    )
+    asked = ("μ_I*", "μ_II*", "μ_min", "good")
+    return _Made("transmission_angle.four_bar", given | {"unit": "mm"}, asked, task)
+
+
+def _velocity(random: Random, level: int) -> _Made:
+    omega, phi = random.choice((5, 8, 10, 12, 20)), 5 * random.randint(4, 31)
+    turn_en, turn_de = f"The crank turns left at ω = {omega} rad/s", f"Die Kurbel dreht links mit ω = {omega} 1/s"
+    if level < 3:
+        given = _slider(random, level == 2) | {"phi": phi, "omega": omega, "unit": "mm"}
+        (en, de), (kind, art) = _told(given, "abe"), _SLIDER[level - 1]
+        more = ("", "") if level == 1 else (" (e above the crank's pivot)", " (e über dem Kurbeldrehpunkt)")
+        acceleration = ("", "") if level == 1 else (" and acceleration", " und Beschleunigung")
+        task = Text(
+            f"{_article(kind)} {kind} has {en}{more[0]}. {turn_en} and stands at φ = {phi}° to the slider's way. Find "
+            f"velocity{acceleration[0]} of the slider.",
+            f"Eine {art} hat {de}{more[1]}. {turn_de} und steht unter φ = {phi}° zum Schieberweg. Bestimmen Sie die "
+            f"Geschwindigkeit{acceleration[1]} des Schiebers.",
+        )
+        return _Made("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)
+    given = _until(lambda: _any_four_bar(random), _good_rocker)
+    en, de = _told(given)
+    task = Text(
+        f"A crank-rocker has {en}, B above the line A-B0. {turn_en} and stands at φ = {phi}° to the frame. Find the "
+        "velocity of B, the transmission ratio and the acceleration of B.",
+        f"Eine Kurbelschwinge hat {de}, B oberhalb der Geraden A-B0. {turn_de} und steht unter φ = {phi}° zum "
+        "Gestell. Bestimmen Sie die Geschwindigkeit von B, das Übersetzungsverhältnis und die Beschleunigung von B.",
+    )
+    return _Made("velocities.four_bar", given | {"phi": phi, "omega": omega, "unit": "mm"}, ("v_B", "i", "a_B"), task)
+
+
+KINDS: dict[str, tuple[Text, Callable[[Random, int], _Made]]] = {
+    "mobility": (Text("Degree of freedom", "Getriebefreiheitsgrad"), _mobility),
+    "grashof": (Text("Grashof's theorem", "Satz von Grashof"), _grashof),
+    "dead-centre": (Text("Dead centres", "Totlagen"), _dead_centre),
+    "transmission-angle": (Text("Transmission angle", "Übertragungswinkel"), _transmission),
+    "dyad": (Text("Dyad and coupler", "Zweischlag und Koppel"), _dyad),
+    "velocity": (Text("Velocities", "Geschwindigkeiten"), _velocity),
+}
+"""Name and maker of each kind."""

@@ -1,0 +1,226 @@
+"""A student's answers marked: right, nearly right, or wrong with a hint at the likely mistake."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from gruebler.errors import GrueblerError, nearest
+from gruebler.exercises.answers import Given, read_answer
+from gruebler.exercises.solution import Mistake, Result, Value
+from gruebler.exercises.solving import scale_of, solve
+from gruebler.formats import Exercise
+from gruebler.formats.catalog_records import Asked
+from gruebler.text import Text
+
+__all__ = ["Mark", "Marked", "mark", "plain_key", "plain_name"]
+
+_FINE = 1e-3  # relative difference of an answer that is right whatever its digits
+_NEAR = 0.02  # of one that is nearly right: rounded on the way
+_WORDS = {"yes": True, "ja": True, "true": True, "no": False, "nein": False, "false": False}
+
+
+class Mark(StrEnum):
+    """What an answer is worth."""
+
+    RIGHT = "right"
+    NEAR = "near"
+    WRONG = "wrong"
+
+
+@dataclass(frozen=True, slots=True)
+class Marked:
+    """One answer beside the result."""
+
+    key: str
+    answer: str
+    result: Result
+    mark: Mark
+    hint: Text | None = None
+    """What may have gone wrong."""
+
+
+# What goes wrong with any measured number: the answer as a function of the right one, where it applies (by unit), hint.
+_ANYWHERE = (
+    (lambda x: -x, "", Text("Look at the sign.", "Auf das Vorzeichen achten.")),
+    (
+        math.radians,
+        "°",
+        Text(
+            "That is the angle in radians; degrees are asked for.", "Das ist der Winkel im Bogenmaß; gefragt sind Grad."
+        ),
+    ),
+    (
+        lambda x: math.degrees(math.sin(math.radians(x))) if abs(x) < 360 else math.nan,
+        "°",
+        Text("The inverse function is missing (arcsin, arccos).", "Die Umkehrfunktion fehlt (arcsin, arccos)."),
+    ),
+    (
+        lambda x: 180 - x,
+        "°",
+        Text("That is the supplementary angle, 180° less it.", "Das ist der Ergänzungswinkel zu 180°."),
+    ),
+    (lambda x: 90 - x, "°", Text("That is the complement, 90° less it.", "Das ist der Ergänzungswinkel zu 90°.")),
+    (lambda x: x / 10, "", Text("Look at the unit: a factor of 10.", "Auf die Einheit achten: Faktor 10.")),
+    (lambda x: 10 * x, "", Text("Look at the unit: a factor of 10.", "Auf die Einheit achten: Faktor 10.")),
+    (lambda x: x / 1000, "", Text("Look at the unit: a factor of 1000.", "Auf die Einheit achten: Faktor 1000.")),
+    (lambda x: 1000 * x, "", Text("Look at the unit: a factor of 1000.", "Auf die Einheit achten: Faktor 1000.")),
+    (lambda x: 2 * x, "", Text("That is twice as much.", "Das ist das Doppelte.")),
+    (lambda x: x / 2, "", Text("That is half of it.", "Das ist die Hälfte.")),
+)
+
+
+def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
+    """Mark the answers, given as texts by the keys of the results or by the symbols that the solution prints.
+
+    A number is right within half a unit of its last digit or a thousandth; decimal comma or point, with a unit or in
+    that of the result or of the printed answer. Raises `GrueblerError` for a key that is not asked, an answer that is
+    no number where one is asked, and an exercise that is answered by a table.
+
+    >>> from gruebler.exercises.generation import fresh
+    >>> [m.mark.value for m in mark(fresh("dead-centre", 7), {"H": "60", "l_a": "130"})]
+    ['right', 'right']
+    >>> mark(fresh("dead-centre", 7), {"H": "30"})[0].hint.en
+    'The stroke is twice the crank, not once.'
+    """
+    solution = solve(exercise)
+    if not solution.results:
+        raise GrueblerError(
+            f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
+        )
+    found: list[Marked] = []
+    for word, answer in answers.items():
+        key = _asked_for(word, exercise, solution.results)
+        if key in (one.key for one in found):
+            raise GrueblerError(f"{word} is answered twice: give one answer for each")
+        printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
+        known = [*printed, *(m for m in solution.mistakes if m.key == key)]
+        result = solution.results[key]
+        scales = [1.0, *(scale_of(asked, result) for asked in exercise.asked if asked.key == key)]
+        found.append(_marked(known, result, answer.strip(), scales))
+    return found
+
+
+def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> str:
+    """The key of the result that a word names: by the key, or by the symbol that the solution prints."""
+    wanted = _bare(word)
+    named = [key for key in results if _bare(key) == wanted] or [
+        key for key, result in results.items() if _bare(result.symbol) == wanted
+    ]
+    if len(named) == 1:
+        return named[0]
+    if named:
+        raise GrueblerError(f"{word} stands for several results of {exercise.id}: {', '.join(map(plain_key, named))}")
+    asked = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
+    raise GrueblerError(
+        f"{exercise.id} does not ask for {word!r}{nearest(word, asked)}; it asks for {', '.join(asked)}"
+    )
+
+
+def _bare(word: str) -> str:
+    return "".join(plain_key(word).split())
+
+
+def plain_name(result: Result) -> str:
+    """What a result is called: its key, and its symbol where that is another word, in letters of every keyboard."""
+    key, symbol = plain_key(result.key), plain_key(result.symbol)
+    return f"{key} ({symbol})" if symbol and symbol != key and "." not in key else key
+
+
+def plain_key(key: str) -> str:
+    """A key in letters that every keyboard has.
+
+    >>> plain_key("Δφ"), plain_key("μ_I*"), plain_key("H")
+    ('Deltaphi', 'mu_I*', 'H')
+    """
+    return "".join(_GREEK.get(letter, letter) for letter in key)
+
+
+_GREEK = {
+    "α": "alpha",
+    "β": "beta",
+    "δ": "delta",
+    "Δ": "Delta",
+    "ε": "epsilon",
+    "θ": "theta",
+    "λ": "lambda",
+    "μ": "mu",
+    "φ": "phi",
+    "ψ": "psi",
+    "ω": "omega",
+}
+
+
+def _misprint(asked: Asked, result: Result) -> Iterator[Mistake]:
+    """The printed answer as a mistake, where it is one."""
+    if asked.printed is not None and asked.reason is not None:
+        why = asked.reason
+        hint = Text(f"That is the printed answer. {why.en}", f"Das ist die gedruckte Antwort. {why.de}")
+        yield Mistake(asked.key, float(asked.printed) * scale_of(asked, result), hint)
+
+
+def _marked(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Marked:
+    if isinstance(result.value, int | float) and not isinstance(result.value, bool):
+        return _marked_number(known, result, answer, scales)
+    worth = _worth_of_words(result.value, answer)
+    hints = [m.hint for m in known if worth is Mark.WRONG and _worth_of_words(m.value, answer) is Mark.RIGHT]
+    return Marked(result.key, answer, result, worth, hints[0] if hints else None)
+
+
+def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Marked:
+    given, value = read_answer(answer, result), float(result.value)  # type: ignore[arg-type]
+    if result.either_sign:
+        given = given._replace(number=math.copysign(given.number, value))
+    if not given.has_unit:  # in the unit of the print, if it is right in that one
+        read = [Given(given.number * scale, given.place * scale, False) for scale in scales]
+        given = next((one for one in read if _worth(result.value, one) is Mark.RIGHT), given)
+    worth = _worth(result.value, given)
+    if worth is Mark.RIGHT and not any(_rather(m.value, value, given) for m in known):
+        return Marked(result.key, answer, result, worth)
+    hints = [m.hint for m in known if _worth(m.value, given) is Mark.RIGHT]
+    if not hints and isinstance(result.value, float):
+        hints = [
+            hint
+            for change, unit, hint in _ANYWHERE
+            if result.unit and (not unit or unit == result.unit) and _worth(change(value), given) is Mark.RIGHT
+        ]
+    if hints:
+        return Marked(result.key, answer, result, Mark.WRONG, hints[0])
+    near = Text(
+        "Right in principle; carry more digits on the way.", "Im Ansatz richtig; unterwegs mit mehr Stellen rechnen."
+    )
+    return Marked(result.key, answer, result, worth, near if worth is Mark.NEAR else None)
+
+
+def _rather(mistake: Value, right: float, given: Given) -> bool:
+    """Whether an answer that rounding would excuse is just that of a known mistake, such as H = 50 for 50.3."""
+    if not isinstance(mistake, float):
+        return False
+    return abs(given.number - mistake) <= 1e-5 * abs(mistake) and abs(given.number - right) > _FINE * abs(right)
+
+
+def _worth(value: Value, given: Given) -> Mark:
+    if isinstance(value, str | Text | bool):
+        return Mark.WRONG
+    off, size = abs(given.number - value), abs(value)
+    if isinstance(value, int):
+        return Mark.RIGHT if off == 0 else Mark.WRONG
+    if off <= _FINE * size or (off <= 0.5 * given.place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
+        return Mark.RIGHT
+    return Mark.NEAR if off <= _NEAR * size else Mark.WRONG
+
+
+def _worth_of_words(value: Value, answer: str) -> Mark:
+    if isinstance(value, bool):
+        if answer.casefold() not in _WORDS:
+            raise GrueblerError(f"expected yes or no (ja, nein), not {answer!r}")
+        return Mark.RIGHT if _WORDS[answer.casefold()] == value else Mark.WRONG
+    names = [value.en, value.de] if isinstance(value, Text) else [str(value)]
+    return Mark.RIGHT if _plain(answer) in map(_plain, names) else Mark.WRONG
+
+
+def _plain(name: str) -> str:
+    """A name as it is compared: what stands in brackets, hyphens and capitals do not count."""
+    return " ".join(name.partition("(")[0].casefold().replace("-", " ").split())

@@ -1,0 +1,55 @@
+"""All exercises: those of the catalog and the worked examples beside them, by their ids or short names."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from gruebler.catalog import catalog_folder, exercises
+from gruebler.errors import CatalogError, nearest
+from gruebler.exercises.generation import from_id, is_fresh
+from gruebler.formats import Exercise, read_exercise
+
+__all__ = ["all_exercises", "exercise"]
+
+
+@cache
+def all_exercises() -> dict[str, Exercise]:
+    """Worked examples and exercises in the order of the text.
+
+    >>> list(all_exercises())[:2], len(all_exercises())
+    (['example-2.3', 'example-2.5'], 40)
+    """
+    found = dict(exercises())
+    for path in sorted((catalog_folder() / "solved").glob("*.toml")):
+        record = read_exercise(path)
+        if record.id != path.stem:
+            raise CatalogError(f"{path}: id: {record.id!r} should be the name of the file, {path.stem!r}")
+        found[record.id] = record
+    return {id: found[id] for id in sorted(found, key=_order)}
+
+
+def _order(id: str) -> tuple[str, tuple[int, ...], str]:
+    """Examples first, then exercises, by their numbers."""
+    kind, _, rest = id.partition("-")
+    return kind, tuple(int(word) for word in re.findall(r"\d+", rest)), rest
+
+
+def exercise(word: str) -> Exercise:
+    """The exercise of an id; ``15`` stands for ``exercise-15``, ``3.2.1-central`` for ``example-3.2.1-central``.
+
+    The id of a fresh task (``grashof-2-17``) makes that task again. `CatalogError` for any other word.
+
+    >>> exercise("15").id, exercise("grashof-1-7").method
+    ('exercise-15', 'grashof.condition')
+    """
+    known = all_exercises()
+    for id in (word, f"exercise-{word}", f"example-{word}"):
+        if id in known:
+            return known[id]
+    if is_fresh(word):
+        return from_id(word)
+    raise CatalogError(
+        f"there is no exercise {word!r}{nearest(word, known)}; `gruebler exercise list` shows them, and a fresh task "
+        "is named KIND-LEVEL-SEED, such as grashof-1-7"
+    )

@@ -1,0 +1,100 @@
+"""Exercises, solutions and marks as plain data, both languages side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from gruebler.exercises.grading import Marked, plain_key
+from gruebler.exercises.solution import Heading, Part, Solution, Step, Table, Value
+from gruebler.exercises.solving import Comparison, compare
+from gruebler.formats import Exercise
+from gruebler.text import Text
+
+__all__ = ["plain_marks", "plain_solution", "plain_table", "plain_task"]
+
+
+def plain_task(exercise: Exercise) -> dict[str, Any]:
+    """The task without its solution."""
+    return {
+        "id": exercise.id,
+        "name": _value(exercise.name),
+        "source": exercise.source,
+        "task": _value(exercise.task),
+        "method": exercise.method,
+        "given": dict(exercise.given),
+        "asked": [plain_key(asked.key) for asked in exercise.asked],
+        "remark": None if exercise.remark is None else _value(exercise.remark),
+    }
+
+
+def plain_solution(exercise: Exercise, solution: Solution) -> dict[str, Any]:
+    """The task with the way, the results, what is printed for them, and the checks."""
+    return plain_task(exercise) | {
+        "steps": [_part(part) for part in solution.parts],
+        "results": {
+            plain_key(r.key): {"symbol": r.symbol, "name": _value(r.name), "value": _value(r.value), "unit": r.unit}
+            for r in solution.results.values()
+        },
+        "printed": [_comparison(one) for one in compare(exercise, solution) if one.asked.printed is not None],
+        "checks": [
+            {"text": _value(c.text), "first": c.first, "second": c.second, "unit": c.unit, "holds": c.holds}
+            for c in solution.checks
+        ],
+    }
+
+
+def plain_table(table: Table) -> dict[str, Any]:
+    """A table: title, headers, rows."""
+    return {
+        "title": _value(table.title),
+        "headers": [_value(header) for header in table.headers],
+        "rows": [[_value(value) for value in row] for row in table.rows],
+    }
+
+
+def plain_marks(marks: Sequence[Marked]) -> list[dict[str, Any]]:
+    """The marked answers."""
+    return [
+        {
+            "key": plain_key(one.key),
+            "answer": one.answer,
+            "mark": one.mark.value,
+            "hint": None if one.hint is None else _value(one.hint),
+        }
+        for one in marks
+    ]
+
+
+def _part(part: Part) -> dict[str, Any]:
+    if isinstance(part, Table):
+        return {"table": plain_table(part)}
+    if isinstance(part, Heading):
+        return {"heading": _value(part.text)}
+    return _step(part)
+
+
+def _step(step: Step) -> dict[str, Any]:
+    value = None if step.value is None else _value(step.value)
+    return {
+        "text": _value(step.text),
+        "formula": step.formula,
+        "numbers": step.numbers,
+        "value": value,
+        "unit": step.unit,
+    }
+
+
+def _comparison(one: Comparison) -> dict[str, Any]:
+    return {
+        "key": plain_key(one.asked.key),
+        "printed": one.asked.printed,
+        "unit": one.asked.unit or one.result.unit,
+        "value": _value(one.result.value),
+        "agrees": one.agrees,
+        "reason": None if one.asked.reason is None else _value(one.asked.reason),
+    }
+
+
+def _value(value: Value) -> Any:
+    return {"en": value.en, "de": value.de} if isinstance(value, Text) else value

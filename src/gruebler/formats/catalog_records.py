@@ -1,0 +1,241 @@
+"""What stands in a catalog file: the records, their reading and their checking.
+
+msgspec knows the shape of a record and refuses what does not fit it; a key that no record has is refused with the
+nearest one that it has. What the shape cannot say (the chain is sound, the frame is one of its links) is checked
+here, so that an entry is sound or does not exist.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Literal, TypeVar
+
+import msgspec
+
+from gruebler.chain import Chain
+from gruebler.documents import fitted, load
+from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
+from gruebler.formats.linkage_records import Dimensions, dimensioned
+from gruebler.formats.screws import Screws, screwed
+from gruebler.linkages import Linkage
+from gruebler.mechanism import Mechanism
+from gruebler.screws import SpatialLinkage, known
+from gruebler.text import Text
+
+__all__ = [
+    "Asked",
+    "Case",
+    "Claims",
+    "Entry",
+    "Exercise",
+    "Group",
+    "Sizes",
+    "entry_of_data",
+    "read_entry",
+    "read_exercise",
+]
+
+
+class Group(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A smaller group of motions in which the count is right: its b, the count with it, and why."""
+
+    b: int
+    counted: int
+    reason: Text
+
+
+class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """What the entry says of itself; everything but the reasons is derived again by `gruebler check`."""
+
+    n: int | None = None
+    g1: int | None = None
+    g2: int | None = None
+    g3: int | None = None
+    g4: int | None = None
+    g5: int | None = None
+    counted: int | None = None
+    mobility: int | None = None
+    """What the machine really does where its special dimensions make it differ from the generic mobility."""
+    reason: Text | None = None
+    group: Group | None = None
+    idle: tuple[str, ...] = ()
+
+
+class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Dimensions of an entry, as in the file of a linkage (`gruebler.formats.linkages`), and where they come from."""
+
+    assumed: bool = False
+    """Whether the seeds print none, so that the dimensions are chosen here."""
+    source: str = ""
+    """Where they are printed."""
+    drive: str | tuple[str, ...] | None = None
+    """The driven joint of the example, or several, where the machine itself names none."""
+    range: tuple[float, float] | None = None
+    """Drive values between which it moves, in degrees or in the unit."""
+
+    @property
+    def shown_drives(self) -> tuple[str, ...]:
+        """The driven joints of the example; empty where the machine names its own."""
+        return (self.drive,) if isinstance(self.drive, str) else self.drive or ()
+
+
+class HomeScrews(Screws, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The joints of an entry in one position (`gruebler.formats.screws`), and where their places come from."""
+
+    assumed: bool = False
+    source: str = ""
+
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One machine of the catalog."""
+
+    id: str
+    name: Text
+    source: str
+    joints: str
+    links: dict[str, str]
+    """Every link, the frame first, with its German name."""
+    space: Literal["planar", "spherical", "spatial"] = "planar"
+    figure_lost: bool = False
+    """Whether the seeds' figure is lost, so that the structure is an assumption."""
+    frame: str | None = None
+    drives: tuple[str, ...] = ()
+    outputs: tuple[str, ...] = ()
+    remark: Text | None = None
+    claims: Claims = Claims()
+    dimensions: Sizes | None = None
+    screws: HomeScrews | None = None
+    """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
+
+    def chain(self) -> Chain:
+        """The chain of the entry, its links in the order of the file."""
+        written = Chain.parse(self.joints, self.space)
+        return Chain(written.joints, links=self.links, space=self.space)
+
+    def linkage(self) -> Linkage:
+        """The machine with its dimensions; `CatalogError` if the entry has none."""
+        if self.dimensions is None:
+            raise CatalogError(f"the catalog entry {self.id!r} has no dimensions")
+        chain = self.chain()
+        mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
+        return dimensioned(self.dimensions, mechanism, self.outputs)
+
+    def placed(self) -> Linkage | SpatialLinkage | None:
+        """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
+        if self.screws is not None:
+            chain = self.chain()
+            return screwed(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
+        linkage = None if self.dimensions is None else self.linkage()
+        return linkage if linkage is not None and known(linkage) else None
+
+
+class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One chain of an exercise: a machine of the catalog, with what the exercise says of it."""
+
+    id: str
+    name: Text
+    machine: str
+    claims: Claims = Claims()
+
+
+class Asked(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """One thing that an exercise asks, and what is printed for it."""
+
+    key: str
+    """The key of the result in the solution."""
+    printed: str | None = None
+    """The printed answer digit for digit, such as ``66.4``; its last digit tells how exact it is. Or a word."""
+    unit: str = ""
+    """The unit of the printed number, where it is not that of the result."""
+    reason: Text | None = None
+    """Why the printed answer differs from the computed one, where it does."""
+
+
+class Exercise(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """One exercise or worked example, the task in our own words; the answer is computed when it is asked for."""
+
+    id: str
+    name: Text
+    source: str
+    task: Text
+    cases: tuple[Case, ...] = ()
+    method: str | None = None
+    """What solves it, such as ``dead_centres.slider_crank`` (`gruebler.exercises`); None: the cases are all."""
+    given: dict[str, float | str] = {}
+    """The given quantities, as the method names them; angles in degrees."""
+    asked: tuple[Asked, ...] = ()
+    remark: Text | None = None
+
+
+Record = TypeVar("Record", Entry, Exercise)
+
+
+def read_entry(path: Path) -> Entry:
+    """The machine in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
+    entry = _read(path, Entry)
+    _check(entry, path)
+    return entry
+
+
+def entry_of_data(data: object, where: str) -> Entry:
+    """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
+    entry = fitted(data, Entry, lambda text: CatalogError(f"{where}: {text}"))
+    _check(entry, where)
+    return entry
+
+
+def read_exercise(path: Path) -> Exercise:
+    """The exercise in a TOML file; `CatalogError` as for `read_entry`."""
+    return _read(path, Exercise)
+
+
+def _read(path: Path, kind: type[Record]) -> Record:
+    def fail(text: str) -> CatalogError:
+        return CatalogError(f"{path}: {text}")
+
+    return fitted(load(path, fail), kind, fail)
+
+
+def _check(entry: Entry, path: Path | str) -> None:
+    """What the shape of a record cannot say."""
+    try:
+        chain = entry.chain()
+    except (ChainError, NotationError, PairError) as error:
+        raise CatalogError(f"{path}: joints: {error}") from None
+    for key, links in (
+        ("frame", (entry.frame,) if entry.frame is not None else ()),
+        ("outputs", entry.outputs),
+        ("claims.idle", entry.claims.idle),
+    ):
+        for link in links:
+            try:
+                chain.index(link)
+            except ChainError as error:
+                raise CatalogError(f"{path}: {key}: {error}") from None
+    for drive in entry.drives:
+        if chain.find_joint(drive) is None:
+            raise CatalogError(
+                f"{path}: drives: {drive!r} is not one of the joints; they are {', '.join(chain.joint_names())}"
+            )
+    if entry.screws is not None:
+        if entry.screws.assumed == bool(entry.screws.source):
+            raise CatalogError(f"{path}: screws: either assumed = true, or a source that prints them")
+        try:
+            entry.placed()
+        except GrueblerError as error:
+            raise CatalogError(f"{path}: {error}") from None
+    if entry.dimensions is not None:
+        _check_dimensions(entry, entry.dimensions, chain, path)
+
+
+def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str) -> None:
+    if sizes.assumed == bool(sizes.source):
+        raise CatalogError(f"{path}: dimensions: either assumed = true, or a source that prints them")
+    if sizes.shown_drives and (entry.drives or any(chain.find_joint(drive) is None for drive in sizes.shown_drives)):
+        raise CatalogError(f"{path}: dimensions.drive: for an entry without drives, one of its joints")
+    if sizes.range is not None and not -1e9 < sizes.range[0] < sizes.range[1] < 1e9:
+        raise CatalogError(f"{path}: dimensions.range: expected two numbers, the smaller first")
+    try:
+        entry.linkage()
+    except GrueblerError as error:
+        raise CatalogError(f"{path}: dimensions: {error}") from None

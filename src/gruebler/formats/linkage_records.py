@@ -1,0 +1,320 @@
+"""What stands in a file of a linkage: the keys, and what they make of a mechanism.
+
+Lengths are in the unit that the file names, angles in degrees; docs/theory/linkage-files.md has every key.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import msgspec
+
+from gruebler.documents import fitted
+from gruebler.errors import LinkageError, nearest
+from gruebler.formats.angles import in_degrees, in_radians
+from gruebler.fourbar.four_bar import FourBar
+from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
+from gruebler.fourbar.length_forms import Door, mapped
+from gruebler.fourbar.slider_crank import SliderCrank
+from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, NonCircular, Place, Wheel
+from gruebler.linkages.model import Linkage, joint_number
+from gruebler.mechanism import Mechanism
+
+__all__ = ["Dimensions", "dimensioned"]
+
+
+class FourBarLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, coupler b, rocker c, frame d."""
+
+    a: float
+    b: float
+    c: float
+    d: float
+    branch: int = 1
+
+
+class SliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, connecting rod b, eccentricity e."""
+
+    a: float
+    b: float
+    e: float = 0.0
+    branch: int = 1
+
+
+class InvertedSliderCrankLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """Crank a, frame d, eccentricity e."""
+
+    a: float
+    d: float
+    e: float = 0.0
+    branch: int = 1
+
+
+class PointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A named point: its link, and where it lies."""
+
+    link: str
+    at: list[float]
+
+
+class RoundRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """A wheel, or a smooth circle: its centre and its size."""
+
+    at: list[float]
+    radius: float | None = None
+    teeth: int = 0
+    module: float | None = None
+    belt: str = ""
+    circle: float | None = None
+    angle: Any = 0
+    """Degrees, of a cam, pins or slots."""
+    cam: str | None = None
+    base: float | None = None
+    roller: float = 0.0
+    offset: float = 0.0
+    flat: bool = False
+    scale: float = 1.0
+    arm: float = 0.0
+    distance: float = 0.0
+    face: float = 0.0
+    pins: int | None = None
+    slots: int | None = None
+    internal: bool = False
+    transfer: str | None = None
+
+
+_KINDS = {
+    "circle": {"circle"},
+    "cam": {"cam", "angle", "base", "roller", "offset", "flat", "scale", "arm", "distance", "face"},
+    "pins": {"pins", "angle"},
+    "slots": {"slots", "angle", "internal"},
+    "transfer": {"transfer", "angle", "teeth"},
+}
+"""What makes an element something else than a wheel, and its keys."""
+
+
+class Dimensions(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    """The sizes of a mechanism, given in one of several ways."""
+
+    unit: str
+    elements: dict[str, Any] | None = None
+    home: dict[str, Any] | None = None
+    places: dict[str, Any] | None = None
+    four_bar: FourBarLengths | None = None
+    slider_crank: SliderCrankLengths | None = None
+    inverted_slider_crank: InvertedSliderCrankLengths | None = None
+    points: dict[str, Any] = {}
+
+
+_DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_crank": InvertedSliderCrank}
+_WAYS = ("elements", "places", *_DOORS)
+
+
+def dimensioned(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
+    """The linkage of these sizes; without a mechanism the one that four_bar, slider_crank, ... bring along.
+
+    Raises `LinkageError` with the key of the first thing that does not fit.
+    """
+    given = [way for way in _WAYS if getattr(sizes, way) is not None]
+    if len(given) != 1:
+        raise LinkageError(f"expected one of {', '.join(_WAYS)}, but found {' and '.join(given) or 'none'}")
+    way = given[0]
+    if sizes.home is not None and way != "elements":
+        raise LinkageError(f"home goes with elements; {way} says itself how the linkage is assembled")
+    if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
+        raise LinkageError(f"unit: expected the name of a unit of length such as 'mm', but found {sizes.unit[:20]!r}")
+    if mechanism is None and way not in _DOORS:
+        raise LinkageError(f"joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...")
+    if way in _DOORS:
+        return _door(way, getattr(sizes, way), sizes, mechanism, outputs)
+    assert mechanism is not None
+    points = _points(sizes.points, mechanism.chain.links)
+    chosen = outputs or ()
+    if way == "places":
+        assert sizes.places is not None
+        places = _by_joint(mechanism, _aimed(mechanism, sizes.places), "places", slots=True)
+        _refuse_rounded_axes(mechanism, places)
+        return Linkage.drawn(mechanism, places, points, unit=sizes.unit, outputs=chosen)
+    assert sizes.elements is not None
+    elements: dict[str, Mapping[str | int, object]] = {}
+    for link, mine in sizes.elements.items():
+        _check_link(link, mechanism.chain.links, "elements")
+        if not isinstance(mine, Mapping):
+            raise LinkageError(f"elements.{link}: expected a table of joints, but found {_short(mine)}")
+        elements[link] = _by_joint(mechanism, mine, f"elements.{link}")
+    home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
+    return Linkage(mechanism, elements, points, unit=sizes.unit, home=home, outputs=chosen)
+
+
+def _door(
+    way: str, lengths: Any, sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None
+) -> Linkage:
+    given = msgspec.structs.asdict(lengths)
+    branch = given.pop("branch")
+    if branch not in (1, -1):
+        raise LinkageError(f"{way}.branch: expected 1 or -1, but found {branch}")
+    try:
+        door: Door = _DOORS[way](**given)
+    except LinkageError as error:
+        raise LinkageError(f"{way}: {error}") from None
+    linkage = mapped(way, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
+    points = _points(sizes.points, linkage.mechanism.chain.links)
+    return linkage.with_points(points) if points else linkage
+
+
+def _by_joint(
+    mechanism: Mechanism, mine: Mapping[str, Any], where: str, *, slots: bool = False
+) -> dict[str | int, object]:
+    out: dict[str | int, object] = {}
+    for joint, raw in mine.items():
+        try:
+            number = joint_number(mechanism, joint)
+        except LinkageError as error:
+            raise LinkageError(f"{where}: {error}") from None
+        if number in out:
+            raise LinkageError(f"{where}.{joint}: this joint stands there twice")
+        out[number] = _element(raw, f"{where}.{joint}", slots)
+    return out
+
+
+def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
+    """The places with degrees instead of the joint through which a slide passes: ``[x, y, "R(piston-boom)"]``."""
+    chain = mechanism.chain
+    by_number = {chain.find_joint(joint): raw for joint, raw in places.items()}
+    out = dict(places)
+    for joint, raw in places.items():
+        if not (isinstance(raw, list) and len(raw) == 3 and isinstance(raw[2], str) and "(" in raw[2]):
+            continue
+        where, target = f"places.{joint}", by_number.get(chain.find_joint(raw[2]))
+        if not isinstance(target, list):
+            raise LinkageError(f"{where}: {raw[2][:60]!r} has no place through which the slide could pass")
+        (x, y), (u, v) = _numbers(raw[:2], where, (2,)), _numbers(target[:2], f"places.{raw[2]}", (2,))
+        if (x, y) == (u, v):
+            raise LinkageError(f"{where}: {raw[2]} is at the slide's own point; give another point of its line")
+        out[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
+    return out
+
+
+_ROUNDED, _MEANT = 1e-9, 1e-3  # of the distance of two pins: what rounding to all digits and to three leaves open
+
+
+def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object]) -> None:
+    """Refuse a slide between moving links that all but passes through a pin of each: its angle has too few digits.
+
+    A cylinder drawn so would have an offset that nobody meant.
+    """
+    chain, names = mechanism.chain, mechanism.chain.joint_names()
+    pins = {k: raw for k, raw in places.items() if isinstance(raw, tuple) and len(raw) == 2}
+    for number, joint in enumerate(chain.joints):
+        raw = places.get(number)
+        if joint.pair.name != "prismatic" or mechanism.frame in joint.links or not isinstance(raw, tuple):
+            continue
+        angle = raw[2] if len(raw) == 3 else 0.0
+        on = [[k for k in pins if isinstance(k, int) and link in chain.joints[k].links] for link in joint.links]
+        for one, other in itertools.product(*on[:2]):
+            across = (pins[other][0] - pins[one][0], pins[other][1] - pins[one][1])
+            far, miss = math.hypot(*across), abs(math.cos(angle) * across[1] - math.sin(angle) * across[0])
+            if _ROUNDED * far < miss < _MEANT * far:
+                raise LinkageError(
+                    f"places.{names[number]}: the slide through {names[one]} misses {names[other]} by {miss:.2g}; "
+                    f'write "{names[other]}" instead of the angle, or the angle with all its digits'
+                )
+
+
+def _element(raw: Any, where: str, slots: bool) -> object:
+    if slots and isinstance(raw, Mapping):
+        return {link: _element(one, f"{where}.{link}", False) for link, one in raw.items()}
+    if isinstance(raw, Mapping):
+        return _round(fitted(raw, RoundRecord, LinkageError, where), raw, where)
+    if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
+        return (*_numbers(raw[:3], where, (3,)), raw[3])
+    return _numbers(raw, where, (2, 3))
+
+
+def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element:
+    kind = next((key for key in _KINDS if key in given), "")
+    allowed = _KINDS.get(kind, {"radius", "teeth", "module", "belt"})
+    wrong = next((key for key in given if key not in {"at", *allowed}), None)
+    if wrong is not None:
+        raise LinkageError(f"{where}.{wrong}: does not go with {kind or 'a wheel'}")
+    if kind in ("", "circle"):
+        x, y = _numbers(record.at, f"{where}.at", (2,))
+        return Circle(x, y, record.circle) if record.circle is not None else _wheel(record, x, y, where)
+    x, y, angle = _numbers([*record.at, record.angle], f"{where}.at", (3,))
+    if record.cam is not None:
+        if record.base is None:
+            raise LinkageError(f"{where}.base: the radius of the base circle is missing")
+        sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
+        return Disc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
+    if record.pins is not None:
+        return Driver(x, y, angle, record.pins)
+    if record.transfer is not None:
+        return NonCircular(x, y, angle, record.transfer, record.teeth)
+    assert record.slots is not None
+    return Cross(x, y, angle, record.slots, record.internal)
+
+
+def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
+    radius = record.radius
+    if record.module is not None:
+        if radius is not None or not record.teeth or not record.module > 0:
+            raise LinkageError(f"{where}.module: a positive number that goes with teeth, and without a radius")
+        radius = record.module * record.teeth / 2
+    if radius is None and not record.teeth:
+        raise LinkageError(f"{where}: expected a radius, teeth or a circle")
+    return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
+
+
+def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
+    """x, y and perhaps an angle, which comes in degrees and goes in radians."""
+    if not isinstance(raw, list) or len(raw) not in counts:
+        wanted = " or ".join("[x, y]" if count == 2 else "[x, y, degrees]" for count in counts)
+        raise LinkageError(f"{where}: expected {wanted}, but found {_short(raw)}")
+    for value in raw[:2]:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not -1e100 < value < 1e100:
+            raise LinkageError(f"{where}: expected numbers below 1e100, but found {_short(value)}")
+    try:
+        return (float(raw[0]), float(raw[1]), *(in_radians(angle) for angle in raw[2:]))
+    except ValueError:
+        raise LinkageError(f"{where}: expected an angle in degrees, but found {_short(raw[2])}") from None
+
+
+def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Place]:
+    for link in home:
+        _check_link(link, links, "home")
+    return {link: Place(*_numbers(raw, f"home.{link}", (3,))) for link, raw in home.items()}
+
+
+def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
+    out = {}
+    for name, raw in points.items():
+        where = f"points.{name}"
+        if not name.strip() or not name.isprintable():
+            raise LinkageError(f"points: {name!r} cannot name a point")
+        point = fitted(raw, PointRecord, LinkageError, where)
+        _check_link(point.link, links, where)
+        x, y = _numbers(point.at, f"{where}.at", (2,))
+        out[name] = (point.link, x, y)
+    return out
+
+
+def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
+    if link not in links:
+        known = ", ".join(links[:12]) + (", ..." if len(links) > 12 else "")
+        raise LinkageError(f"{where}: there is no link {link!r}{nearest(link, links)}; links are {known}")
+
+
+def _short(value: object) -> str:
+    match value:
+        case list():
+            return f"a list of {len(value)}" if len(value) > 4 else f"[{', '.join(_short(one) for one in value)}]"
+        case Mapping():
+            return "a table"
+        case int() if not -(10**20) < value < 10**20:
+            return "a number of many digits"
+    shown = repr(value)
+    return shown if len(shown) < 40 else shown[:37] + "..."

@@ -1,0 +1,45 @@
+"""The four-bar, the slider-crank and the inverted slider-crank in closed form.
+
+Types (`grashof`), dead centres, transmission angles, motion: docs/theory/four-bar.md.
+"""
+
+from gruebler.fourbar.crank_motion import CrankMotion, InvertedMotion, Track
+from gruebler.fourbar.extremes import Arc, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
+from gruebler.fourbar.four_bar import FourBar
+from gruebler.fourbar.grashof import (
+    FOUR_BAR_TYPES,
+    Grashof,
+    LengthRange,
+    LinkageType,
+    grashof,
+    turning_ranges,
+    types_along,
+)
+from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
+from gruebler.fourbar.slider_crank import SliderCrank, StrokeMiddle
+from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, SLIDER_CRANK_TYPES
+
+__all__ = [
+    "FOUR_BAR_TYPES",
+    "INVERTED_SLIDER_CRANK_TYPES",
+    "SLIDER_CRANK_TYPES",
+    "Arc",
+    "CrankMotion",
+    "DeadCentre",
+    "DeadCentres",
+    "FourBar",
+    "Grashof",
+    "InvertedMotion",
+    "InvertedSliderCrank",
+    "LengthRange",
+    "LinkageType",
+    "SliderCrank",
+    "StrokeMiddle",
+    "StrokeTimes",
+    "Track",
+    "Transmission",
+    "TransmissionAngle",
+    "grashof",
+    "turning_ranges",
+    "types_along",
+]

@@ -1,0 +1,213 @@
+"""The inverted slider-crank a, d, e in closed form: turning and swinging block, slotted lever, conchoid linkage."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gruebler.errors import LinkageError
+from gruebler.fourbar.coupler_points import CouplerPoints, _on_coupler
+from gruebler.fourbar.crank_motion import InvertedMotion, Track, crank_track, determined, points, turned
+from gruebler.fourbar.extremes import (
+    TURN,
+    Arc,
+    DeadCentre,
+    DeadCentres,
+    Transmission,
+    TransmissionAngle,
+    arcs_of_distance,
+    clipped,
+    unassembled,
+)
+from gruebler.fourbar.grashof import LinkageType
+from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
+from gruebler.linkages.model import Linkage
+from gruebler.linkages.quantities import FloatArray, as_branch, as_eccentricity, as_finite, as_lengths, as_positive
+from gruebler.mechanism import Mechanism
+
+__all__ = ["InvertedSliderCrank", "inverted_slider_crank_linkage"]
+
+
+@dataclass(frozen=True, slots=True)
+class InvertedSliderCrank:
+    """An inverted slider-crank: crank a = A0A, frame d = A0B0, eccentricity e of the guide.
+
+    A0 = (0, 0), B0 = (d, 0), A = a exp(i phi). The guide runs through A in the direction theta and passes B0 on its
+    right at the distance e: B0 = A + (r + i e) exp(i theta), r the way of the block. Branch +1 has r > 0, branch -1 r
+    < 0. The same motion belongs to a rod on the crank pin that slides through a block swivelling about B0 (turning and
+    swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
+
+    >>> shaper = InvertedSliderCrank(a=30, d=50)
+    >>> print(shaper.type.german, round(shaper.dead_centres.time_ratio, 6))
+    schwingende Kurbelschleife 2.38791
+    """
+
+    a: float
+    d: float
+    e: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name, value in as_lengths(a=self.a, d=self.d).items():
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "e", as_eccentricity(self.e, self.a, self.d))
+
+    @classmethod
+    def for_time_ratio(cls, time_ratio: float, *, d: float) -> InvertedSliderCrank:
+        """The central one on the frame d whose guide swings with a ratio of times: a = d cos(pi/(1 + ratio)).
+
+        >>> round(InvertedSliderCrank.for_time_ratio(2, d=100).a, 9)
+        50.0
+        """
+        ratio = as_finite("time_ratio", time_ratio)
+        if ratio <= 1:
+            raise LinkageError(f"the time ratio, slow by quick, must be above 1, not {time_ratio!r}")
+        return cls(as_positive("d", d) * math.cos(math.pi / (1 + ratio)), d)
+
+    def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
+        """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""
+        return inverted_slider_crank_linkage(self, points, unit)
+
+    @property
+    def type(self) -> LinkageType:
+        """What it is: with swinging guide, with turning guide, ..."""
+        return INVERTED_SLIDER_CRANK_TYPES[offset_relation(self.e, a=self.a, d=self.d)]
+
+    @property
+    def turning(self) -> tuple[str, ...]:
+        """The links that turn fully against the frame: ``a`` the crank, ``guide``."""
+        relation, shorter = offset_relation(self.e, a=self.a, d=self.d)
+        return (("a",) if relation in "<=" else ()) + (("guide",) if "d" in shorter else ())
+
+    @property
+    def limits(self) -> tuple[Arc, ...]:
+        """The crank angles for which it can be assembled: those with A at least |e| from B0."""
+        return arcs_of_distance(self.a, self.d, abs(self.e), math.inf)
+
+    @property
+    def dead_centres(self) -> DeadCentres | None:
+        """Where the guide turns back, on branch +1: the crank is perpendicular to it. None if it turns fully.
+
+        ``output`` is psi; as with a four-bar it is larger in the inner one.
+
+        >>> round(math.degrees(InvertedSliderCrank(a=30, d=50).dead_centres.outer.phi), 6)
+        53.130102
+        """
+        if self.turning != ("a",):
+            return None
+        found = []
+        for side in (-1, 1):
+            theta = math.asin(clipped((-side * self.a - self.e) / self.d))
+            found.append(DeadCentre((theta + side * math.pi / 2) % TURN, theta + math.pi, theta))
+        outer, inner = sorted(found, key=lambda centre: centre.output)
+        return DeadCentres(inner, outer)
+
+    @property
+    def swing(self) -> float | None:
+        """The angle between the dead centres; None if there are none."""
+        centres = self.dead_centres
+        return None if centres is None else centres.travel
+
+    @property
+    def transmission_angle(self) -> TransmissionAngle:
+        """The extremes of the transmission angle onto the lever about B0: crank over the frame (first), away (second).
+
+        cos mu = |e|/AB0, so that it is pi/2 throughout for e = 0. Raises LinkageError if it is not assemblable.
+        """
+        limits = self.limits
+        if not limits:
+            raise LinkageError(f"the inverted slider-crank {self.a:g}, {self.d:g}, e = {self.e:g} is not assemblable")
+        nearest = max(abs(self.d - self.a), abs(self.e))
+        first = limits[0].start
+        return TransmissionAngle(
+            Transmission(first, math.acos(clipped(abs(self.e) / nearest)) if nearest else math.pi / 2),
+            Transmission(math.pi, math.acos(clipped(abs(self.e) / (self.d + self.a)))),
+        )
+
+    def motion(
+        self,
+        phi: npt.ArrayLike,
+        *,
+        omega: npt.ArrayLike = 1.0,
+        alpha: npt.ArrayLike = 0.0,
+        jerk: npt.ArrayLike = 0.0,
+        branch: int = 1,
+    ) -> InvertedMotion:
+        """Positions, velocities, accelerations and jerks over crank angles of any shape, in closed form.
+
+        ``coupler`` is the guide's direction theta, ``output`` psi = theta + pi (for e = 0 the direction from B0 to A),
+        ``slide`` the way r. Poses that cannot be assembled are NaN; ``message`` says where (``limits``).
+
+        >>> shaper = InvertedSliderCrank(a=30, d=50).motion(math.radians(60), omega=2)
+        >>> round(float(shaper.slide.value), 6), round(math.degrees(shaper.coupler.value), 6)
+        (43.588989, -36.586776)
+        >>> shaper.point(90).value.round(6)
+        array([ 87.265956, -27.662798])
+        """
+        a, d, e = self.a, self.d, self.e
+        side = as_branch(branch)
+        crank = crank_track(phi, omega, alpha, jerk)
+        slack = 64 * np.finfo(float).eps * (a + d + abs(e))
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            to_b0 = d - a * np.exp(1j * crank.value)
+            f = np.abs(to_b0)
+            gap = f - abs(e)
+            slide = [side * np.sqrt(np.where(np.abs(gap) < slack, 0, gap) * (f + abs(e)))]
+            undetermined = (f < slack) & (abs(e) < slack)
+            theta = [np.where(undetermined, np.nan, np.angle(to_b0 / (slide[0] + 1j * e)))]
+            self._add_rates(crank, theta, slide)
+            mu = np.where(np.isnan(theta[0]), np.nan, np.arctan2(np.abs(slide[0]), abs(e)))
+            guide, block = determined(theta), determined(slide)
+            output = guide._replace(value=(guide.value + np.pi) % TURN)
+            foot = [points(1j * e * turned(guide[: k + 1], k)) for k in range(4)]
+            joint_a = [a * turned(crank[: k + 1], k) for k in range(4)]
+        b0 = np.array([d, 0.0])
+        singular = np.isnan(guide.velocity) & ~np.isnan(guide.value)
+        return InvertedMotion(
+            crank=crank,
+            coupler=guide,
+            output=output,
+            A=Track(*map(points, joint_a)),
+            B=Track(b0 - foot[0], *(-rate for rate in foot[1:])),
+            mu=mu,
+            branch=side,
+            message=unassembled(self.limits, np.isnan(slide[0]), undetermined, singular),
+            slide=block,
+        )
+
+    def _add_rates(self, crank: Track, theta: list[FloatArray], slide: list[FloatArray]) -> None:
+        """Append three derivatives of theta and of the way r, by differentiating the loop."""
+        for k in (1, 2, 3):
+            arm: list[Any] = [slide[0] + 1j * self.e, *slide[1:], 0.0]
+            known = self.a * turned(crank[: k + 1], k)
+            for j in range(k + 1):
+                known = known + math.comb(k, j) * arm[j] * turned(theta[: k - j + 1], k - j)
+            wanted = -known * np.exp(-1j * theta[0])
+            theta_k = np.imag(wanted) / slide[0]
+            slide.append(np.real(wanted) + theta_k * self.e)
+            theta.append(theta_k)
+
+
+_INVERTED = "R(frame-crank) R(crank-coupler) P(coupler-block) R(frame-block); drive=R(frame-crank)"
+
+
+def inverted_slider_crank_linkage(
+    size: InvertedSliderCrank, points: CouplerPoints | None = None, unit: str = "mm"
+) -> Linkage:
+    """Frame, crank, coupler (a rod through the block), block swivelling about B0; points (u from A, v)."""
+    return Linkage(
+        Mechanism.parse(_INVERTED),
+        {
+            "frame": {"R(frame-crank)": (0, 0), "R(frame-block)": (size.d, 0)},
+            "crank": {"R(frame-crank)": (0, 0), "R(crank-coupler)": (size.a, 0)},
+            "coupler": {"R(crank-coupler)": (0, 0), "P(coupler-block)": (0, size.e, 0)},
+            "block": {"R(frame-block)": (0, 0), "P(coupler-block)": (0, 0, 0)},
+        },
+        _on_coupler(points),
+        unit=unit,
+        outputs=["block"],
+    )

@@ -1,0 +1,230 @@
+"""What there is to draw for a mechanism, and what a drawing means for the kernel.
+
+A drawing is an array (joints, 3): x, y and angle of each joint in one position (the angle counts for slides only).
+Every link has the coordinates of the plane in that position, so that all drives, places and angles are 0 there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.chain import Chain
+from gruebler.chain.pairs import Space
+from gruebler.errors import LinkageError
+from gruebler.kinematics.plan import Plan, plan
+from gruebler.linkages import Linkage
+from gruebler.mechanism import Mechanism
+
+if TYPE_CHECKING:
+    from gruebler._numeric.motion.program import Program
+
+__all__ = ["Setting", "Sketch", "check_drawable", "places", "sketch"]
+
+Reals = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+_DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
+_RRR, _RRP, _RPR = 2, 3, 4
+
+
+class Setting(NamedTuple):
+    """A drawing as the kernel takes it."""
+
+    program: Program
+    signs: Reals
+    """Of the dyads, in the drawn position."""
+    unknowns: Reals
+    """Of the larger groups there: all 0."""
+
+
+@dataclass(frozen=True)
+class Sketch:
+    """The joints of a mechanism, to be drawn."""
+
+    mechanism: Mechanism
+    slots: tuple[tuple[int, str], ...]
+    """Which link has the slot of each pin in a slot."""
+    plan: Plan
+    """The order of solving; its dimensions are of no account."""
+    joints: NDArray[np.int64]
+    """The drawn joint of each element of the plan."""
+    askew: Complexes
+    """How the line of each element is turned against its drawn joint: 1, or i for the second way of a double slide."""
+
+    @cached_property
+    def pins(self) -> tuple[tuple[int, ...], ...]:
+        """For each link the joints that are points of it."""
+        slots = dict(self.slots)
+        return tuple(
+            tuple(
+                k
+                for k, joint in enumerate(self.mechanism.chain.joints)
+                if link in joint.links and (joint.pair.name == "revolute" or slots.get(k, link) != link)
+            )
+            for link in self.mechanism.chain.links
+        )
+
+    @cached_property
+    def slides(self) -> tuple[int, ...]:
+        """The joints that have a direction."""
+        return tuple(k for k, j in enumerate(self.mechanism.chain.joints) if j.pair.name != "revolute")
+
+    @cached_property
+    def blocks(self) -> dict[int, tuple[int, ...]]:
+        """For each slide the pins (one or two) that its line goes through: those of links with one pin besides it."""
+        chain, out = self.mechanism.chain, {}
+        for k in self.slides:
+            if chain.joints[k].pair.name != "prismatic":
+                continue
+            pins = []
+            for link in chain.joints[k].links:
+                others = [m for m, joint in enumerate(chain.joints) if link in joint.links and m != k]
+                if link != self.mechanism.frame and len(others) == 1 and others[0] not in self.slides:
+                    pins += others
+            if pins:
+                out[k] = tuple(pins)
+        return out
+
+    @cached_property
+    def pairs(self) -> NDArray[np.int64]:
+        """The two joints of each length: pins of one link; (pairs, 2)."""
+        found = {pair for mine in self.pins for pair in combinations(mine, 2)}
+        return np.array(sorted(found), np.int64).reshape(-1, 2)
+
+    @cached_property
+    def spans(self) -> NDArray[np.int64]:
+        """The same with the slides."""
+        links, joints = self.mechanism.chain.links, self.mechanism.chain.joints
+        found = {pair for a in links for pair in combinations([k for k, j in enumerate(joints) if a in j.links], 2)}
+        return np.array(sorted(found), np.int64).reshape(-1, 2)
+
+    @cached_property
+    def apart(self) -> NDArray[np.bool_]:
+        """Pairs of joints that are to be drawn apart: all but slides and the pins of their blocks; (joints, joints)."""
+        count = len(self.mechanism.chain.joints)
+        out: NDArray[np.bool_] = np.triu(np.ones((count, count), bool), 1)
+        for slide in self.slides:
+            out[slide, :] = out[:, slide] = False
+        return out
+
+    @cached_property
+    def crossings(self) -> NDArray[np.int64]:
+        """Pairs of lengths of different moving links without a common joint: (pairs, 4)."""
+        links = self.mechanism.chain.links
+        rods = [
+            (link, pair)
+            for link, mine in zip(links, self.pins, strict=True)
+            if link != self.mechanism.frame
+            for pair in combinations(mine, 2)
+        ]
+        found = [
+            (*one, *other) for (a, one), (b, other) in combinations(rods, 2) if a != b and not set(one) & set(other)
+        ]
+        return np.array(found, np.int64).reshape(-1, 4)
+
+    def tied(self, drawing: Reals) -> Reals:
+        """The drawing with the lines of slides laid through the pins of their blocks."""
+        out = drawing.copy()
+        for slide, pins in self.blocks.items():
+            out[slide, :2] = out[pins[0], :2]
+            if len(pins) == 2:
+                x, y = out[pins[1], :2] - out[pins[0], :2]
+                out[slide, 2] = np.arctan2(y, x)
+        return out
+
+    def size(self, drawing: Reals) -> float:
+        """The largest distance of joints on one link, as `Linkage.size`."""
+        gaps = drawing[self.spans[:, 0], :2] - drawing[self.spans[:, 1], :2]
+        return float(np.hypot(gaps[:, 0], gaps[:, 1]).max(initial=0.0)) or 1.0
+
+    def frame_width(self, drawing: Reals) -> float:
+        """The largest distance of joints of the frame; infinite if it has one only."""
+        chain, frame = self.mechanism.chain, self.mechanism.frame
+        mine = [k for k, joint in enumerate(chain.joints) if frame in joint.links]
+        z = drawing[mine, 0] + 1j * drawing[mine, 1]
+        return float(np.abs(z[:, None] - z).max()) if len(mine) > 1 else np.inf
+
+    def setting(self, drawing: Reals) -> Setting:
+        """What the kernel takes."""
+        places = drawing[self.joints]
+        points = places[:, 0] + 1j * places[:, 1]
+        lines = np.exp(1j * places[:, 2]) * self.askew
+        size, program = self.size(drawing), self.plan.program
+        turning = [d.direction.startswith("R") for d in self.mechanism.drives]
+        most = np.where(turning, self.plan.longest_steps, self.plan.longest_steps * (size / self.plan.lower.size))
+        made = program._replace(points=points, lines=lines, size=size, most=most)
+        signs = np.ones(len(self.plan.dyads))
+        for row in self.plan.operations:
+            if row[0] in (_RRR, _RRP, _RPR):
+                signs[row[9]] = 1.0 if _side(row, points, lines) >= 0 else -1.0
+        return Setting(made, signs, np.zeros(3 * len(program.roots)))
+
+
+def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
+    """The number whose sign is the label of a dyad (`gruebler.kinematics.branches`)."""
+    kind, outer, inner, other = row[0], row[1], row[3], row[6]
+    if kind == _RRR:
+        return float(((points[other] - points[outer]).conjugate() * (points[inner] - points[outer])).imag)
+    if kind == _RRP:
+        return float((lines[other].conjugate() * (points[inner] - points[outer])).real)
+    return float((lines[inner].conjugate() * (points[other] - points[outer])).real)
+
+
+def sketch(mechanism: Mechanism) -> Sketch:
+    """What there is to draw; `LinkageError` for joints without dimensions and for drives that do not fix the motion."""
+    chain = mechanism.chain
+    check_drawable(chain)
+    slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.name == "roll_slide")
+    made = plan(Linkage.drawn(mechanism, places(mechanism, slots, _anywhere(len(chain.joints)))))
+    split = []
+    for number, joint in enumerate(chain.joints):
+        ways = {"roll_slide": (1, 1), "double_slide": (1, 1j)}.get(joint.pair.name, (1,))
+        split += [(number, way) for way in ways]
+    return Sketch(
+        mechanism,
+        slots,
+        made,
+        np.array([split[joint][0] for joint, _ in made.keys], np.int64),
+        np.array([split[joint][1] for joint, _ in made.keys], np.complex128),
+    )
+
+
+def check_drawable(chain: Chain) -> None:
+    """`LinkageError` for joints whose dimensions are not known."""
+    if chain.space is not Space.PLANAR:
+        raise LinkageError(f"dimensions are found for planar mechanisms; this one is {chain.space}")
+    for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
+        if joint.pair.name not in _DRAWN:
+            raise LinkageError(
+                f"{name}: dimensions of {joint.pair.name} joints are not found yet; known are {', '.join(_DRAWN)}"
+            )
+
+
+def places(
+    mechanism: Mechanism, slots: tuple[tuple[int, str], ...], drawing: Reals
+) -> dict[str | int, tuple[object, ...]]:
+    """A drawing as `Linkage.drawn` takes it."""
+    out: dict[str | int, tuple[object, ...]] = {}
+    owner = dict(slots)
+    for number, joint in enumerate(mechanism.chain.joints):
+        x, y, angle = (float(v) for v in drawing[number])
+        line = () if joint.pair.name == "revolute" else (angle,)
+        out[number] = (x, y, *line, *([owner[number]] if number in owner else []))
+    return out
+
+
+def _anywhere(joints: int) -> Reals:
+    return np.random.default_rng(0).uniform(0.0, 1.0, (joints, 3))
+
+
+def _slotted(mechanism: Mechanism, number: int) -> str:
+    """The link with the slot: not a driven one, rather one with few joints; else the second."""
+    driven = {link for drive in mechanism.drives for link in drive.between} - {mechanism.frame}
+    first, second = mechanism.chain.joints[number].links
+    return first if second in driven and first not in driven else second

@@ -1,0 +1,151 @@
+"""One drawing tried: how far its drives move it, how well, and how it looks."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.kinematics.kernel_calls import Rows, run_rows
+from gruebler.realisation.layout_program import Setting, Sketch
+from gruebler.realisation.measures import conditioning
+
+__all__ = ["FLOOR", "Trial", "closes", "followed", "range_path", "tried"]
+
+Reals = NDArray[np.float64]
+
+FLOOR = 0.1
+"""A pose with a smaller measure does not count as within the range."""
+_ROWS = 73
+_WINDINGS = (1, 5, 7, 11, 13)
+_SWINGS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.08)
+_STROKE = 0.3  # of the size, to either side: a longer stroke is not sought
+_LENGTH, _GAP, _FRAME, _CROSSING = 0.15, 0.1, 0.4, 0.97
+
+
+class Trial(NamedTuple):
+    """What a drawing is worth."""
+
+    score: float
+    """The greater the better: 1 and more if every drive turns fully, 0 if it does not move."""
+    ranges: tuple[tuple[float, float], ...]
+    """From where to where each drive moves, seen from the drawn position."""
+    full: bool
+    """Whether every drive turns fully."""
+    quality: float
+    """The smallest measure in that range."""
+
+
+_NOTHING = Trial(0.0, (), False, 0.0)
+
+
+def tried(sketch: Sketch, drawing: Reals, wanted: float) -> Trial:
+    """Move a drawing and judge it.
+
+    Args:
+        sketch: what is drawn.
+        drawing: (joints, 3).
+        wanted: the measure above which more is of no use.
+    """
+    beauty = _beauty(sketch, drawing)
+    if beauty < 1e-3:
+        return _NOTHING
+    setting = sketch.setting(drawing)
+    drives = sketch.mechanism.drives
+    turning = all(drive.direction.startswith("R") for drive in drives)
+    if turning:
+        around = ((0.0, 2 * np.pi),) * len(drives)
+        quality = followed(sketch, setting, range_path(around, full=True))
+        if quality >= FLOOR:
+            return Trial(1 + beauty * min(quality / wanted, 1.0), around, True, quality)
+    ranges, quality = _limited(sketch, setting) if len(drives) == 1 else _swinging(sketch, setting)
+    if not ranges:
+        return _NOTHING
+    unit = [2 * np.pi if d.direction.startswith("R") else 2 * _STROKE * setting.program.size for d in drives]
+    share = min(min(1.0, (r[1] - r[0]) / u) for r, u in zip(ranges, unit, strict=True))
+    return Trial(share * beauty * (0.5 + 0.5 * min(quality / wanted, 1.0)), ranges, False, quality)
+
+
+def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int = _ROWS) -> Reals:
+    """A path through ranges of drives: (rows, drives).
+
+    One drive goes from end to end. Several wind at different speeds: fully turning ones around, others to and fro.
+    """
+    count = (rows - 1) * _WINDINGS[len(ranges) - 1] + 1
+    way = np.linspace(0.0, 1.0, count)
+    if len(ranges) == 1 or full:
+        return np.stack([a + (b - a) * n * way for (a, b), n in zip(ranges, _WINDINGS, strict=False)], axis=1)
+    waves = [np.sin(2 * np.pi * n * way) for n in _WINDINGS]
+    return np.stack([(a + b) / 2 + (b - a) / 2 * wave for (a, b), wave in zip(ranges, waves, strict=False)], axis=1)
+
+
+def _run(sketch: Sketch, setting: Setting, path: Reals) -> tuple[Rows, Reals]:
+    """The rows that are reached and their measures."""
+    rows = run_rows(setting.program, sketch.plan, path, None, 0, setting.signs, setting.unknowns)
+    return rows, conditioning(sketch.plan, setting.program, rows.places[0], rows.turns, rows.roots)
+
+
+def closes(places: NDArray[np.complex128], turns: NDArray[np.complex128], size: float) -> bool:
+    """Whether the last pose is the first: a larger group may come back in another assembly mode."""
+    return bool(abs(places[-1] - places[0]).max() < 1e-6 * size and abs(turns[-1] - turns[0]).max() < 1e-6)
+
+
+def followed(sketch: Sketch, setting: Setting, path: Reals) -> float:
+    """The smallest measure on a closed path; 0 if it cannot be followed to its end or does not close."""
+    rows = run_rows(setting.program, sketch.plan, path, None, 0, setting.signs, setting.unknowns)
+    if rows.reached < len(path) or not closes(rows.places[0], rows.turns, setting.program.size):
+        return 0.0
+    return float(conditioning(sketch.plan, setting.program, rows.places[0], rows.turns, rows.roots).min())
+
+
+def _limited(sketch: Sketch, setting: Setting) -> tuple[tuple[tuple[float, float], ...], float]:
+    """How far one drive moves to both sides of the drawn position, and the smallest measure there."""
+    turning = sketch.mechanism.drives[0].direction.startswith("R")
+    most = 2 * np.pi if turning else _STROKE * setting.program.size
+    ends, worst = [], 1.0
+    for side in (-most, most):
+        path = np.linspace(0.0, side, _ROWS).reshape(-1, 1)
+        _, measures = _run(sketch, setting, path)
+        good = len(measures) if (measures >= FLOOR).all() else int(np.argmax(measures < FLOOR))
+        if good < 2:
+            return (), 0.0
+        ends.append(float(path[good - 1, 0]))
+        worst = min(worst, float(measures[:good].min()))
+    if turning and ends[1] - ends[0] > 2 * np.pi:  # it does not close after one turn
+        ends = [max(ends[0], -np.pi), min(ends[1], np.pi)]
+    return ((ends[0], ends[1]),), worst
+
+
+def _swinging(sketch: Sketch, setting: Setting) -> tuple[tuple[tuple[float, float], ...], float]:
+    """The widest of some ranges about the drawn position through which all drives move at once."""
+    for swing in _SWINGS:
+        units = [np.pi if d.direction.startswith("R") else setting.program.size / 2 for d in sketch.mechanism.drives]
+        ranges = tuple((-swing * unit, swing * unit) for unit in units)
+        quality = followed(sketch, setting, range_path(ranges, full=False))
+        if quality >= FLOOR:
+            return ranges, quality
+    return (), 0.0
+
+
+def _beauty(sketch: Sketch, drawing: Reals) -> float:
+    """1 if no length is short, no joints are near each other, the frame is wide, and nothing crosses; else less."""
+    z = drawing[:, 0] + 1j * drawing[:, 1]
+    size = sketch.size(drawing)
+    lengths = np.abs(z[sketch.pairs[:, 0]] - z[sketch.pairs[:, 1]])
+    gaps = np.abs(z[:, None] - z[None, :])[sketch.apart]
+    short = min(1.0, float(lengths.min(initial=np.inf)) / (_LENGTH * size))
+    near = min(1.0, float(gaps.min(initial=np.inf)) / (_GAP * size))
+    wide = min(1.0, sketch.frame_width(drawing) / (_FRAME * size))
+    return float(short * near**0.5 * wide**0.5 * _CROSSING ** _crossed(z, sketch.crossings))
+
+
+def _crossed(z: NDArray[np.complex128], quads: NDArray[np.int64]) -> int:
+    """How many of the pairs of segments cross."""
+    a, b, c, d = z[quads].T
+
+    def side(p: NDArray[np.complex128], q: NDArray[np.complex128], r: NDArray[np.complex128]) -> Reals:
+        out: Reals = ((q - p).conj() * (r - p)).imag
+        return out
+
+    return int(np.count_nonzero((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)))

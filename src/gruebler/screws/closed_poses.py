@@ -1,0 +1,190 @@
+"""A linkage in a pose: its closing conditions and where its links are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import cos, inf, sin
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.errors import LinkageError
+from gruebler.linkages import Line, Linkage, Pin
+from gruebler.screws.closing import Closing, Tie
+from gruebler.screws.double_roots import sharpened
+from gruebler.screws.following import followed_together, joint_value
+from gruebler.screws.instant_mobility import at_pose
+from gruebler.screws.joint_places import JointPlace
+from gruebler.screws.model import SpatialLinkage
+from gruebler.screws.rigid_motions import inverse
+
+__all__ = ["known", "placed"]
+
+Reals = NDArray[np.float64]
+
+_EXACT = 1e-15  # a home that is closed so well is meant as it is
+_NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
+_STARTS = 60  # random poses from which a linkage without a home is assembled
+# Of the size: joints that are closed; that may be closed at a double root. Newton's method leaves some 1e-15, and at a
+# double root, where the pose is known to 1e-8 only, its square: so 1e-12 is rounding, and 1e-9 is a gap.
+_CLOSED, _NEARLY = 1e-12, 1e-8
+_PATIENT = 60  # steps of Newton's method: beside a double root each halves the error only
+_ENOUGH = 6  # closed poses among which the best is taken
+_GOOD = 0.01  # a smallest singular value, for each unknown, with which the search for a pose stops
+
+
+def placed(
+    linkage: Linkage | SpatialLinkage, at: Sequence[float] | None = None, branch: str | Iterable[str] | None = None
+) -> tuple[Closing, Reals]:
+    """The closing conditions of a linkage and a pose: at drive values, else its home, else one that is regular.
+
+    Raises `LinkageError` if there is no such pose.
+    """
+    if isinstance(linkage, SpatialLinkage):
+        if branch is not None:
+            raise LinkageError("a linkage that is given by its home has no assembly mode to choose")
+        closing = Closing.of(linkage)
+        return closing, closing.home if at is None else _driven(closing, closing.home, at, linkage.size)
+    closing = _planar(linkage)
+    if at is not None or branch is not None:
+        return closing, _at(linkage, closing, at, branch)
+    if linkage.home is None:
+        return closing, _assembled(closing)
+    return closing, _centred(closing, _settled(closing, _home(linkage)))
+
+
+def known(linkage: Linkage) -> bool:
+    """Whether all its joints are pins and lines; others are given by their screws."""
+    return all(isinstance(element, Pin | Line) for element in linkage.elements.values())
+
+
+def _planar(linkage: Linkage) -> Closing:
+    chain, size = linkage.mechanism.chain, linkage.size
+    ties = []
+    for number, joint in enumerate(chain.joints):
+        first = joint.links[0]
+        for other in joint.links[1:]:
+            one, two = linkage.elements[number, first], linkage.elements[number, other]
+            radii = (inf if isinstance(one, Line) else 0.0, inf if isinstance(two, Line) else 0.0)
+            place = JointPlace(radii=radii if joint.pair.name == "roll_slide" else None)
+            ends = _frame(one, size), _frame(two, size)
+            ties.append(Tie(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
+    return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
+
+
+def _frame(element: object, size: float) -> Reals:
+    if not isinstance(element, Pin | Line):
+        raise LinkageError(f"mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws")
+    return _matrix(element.x / size, element.y / size, element.angle if isinstance(element, Line) else 0.0)
+
+
+def _matrix(x: float, y: float, angle: float) -> Reals:
+    c, s = cos(angle), sin(angle)
+    return np.array([[c, -s, 0, x], [s, c, 0, y], [0, 0, 1, 0], [0, 0, 0, 1.0]])
+
+
+def _home(linkage: Linkage) -> Reals:
+    assert linkage.home is not None
+    places = [linkage.home[link] for link in linkage.mechanism.chain.links]
+    return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
+
+
+def _settled(closing: Closing, home: Reals) -> Reals:
+    """The pose near home in which the joints are closed."""
+    pose = closing.settled(home)
+    if abs(closing.residual(pose)).max() > _CLOSED or abs(pose - home).max() > _NEAR:
+        gap = abs(closing.residual(home)).max()
+        raise LinkageError(f"the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size")
+    inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
+    return sharpened(closing, pose) if inexact else pose
+
+
+def _centred(closing: Closing, pose: Reals) -> Reals:
+    """The same pose with the mean of the joints' points at the origin, so that no frame is preferred."""
+    points = [(pose[tie.first] @ tie.on_first)[:3, 3] for tie in closing.ties]
+    moved = pose.copy()
+    moved[:, :3, 3] -= np.mean(points, axis=0)
+    return moved
+
+
+def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: str | Iterable[str] | None) -> Reals:
+    """The pose at drive values, as `move` finds it; with redundant constraints followed from home."""
+    drives = linkage.mechanism.drives
+    if at is None:
+        raise LinkageError("an assembly mode is one of several at a drive value, which is missing")
+    _check_count(at, len(drives))
+    if linkage.home is not None and branch is None:
+        home = _settled(closing, _home(linkage))
+        sided = [_sided(linkage, k, value) for k, value in enumerate(at)]
+        return _centred(closing, _driven(closing, home, sided, linkage.size))
+    from gruebler.kinematics import move
+
+    motion = move(linkage, [tuple(at)], branch=branch)
+    if not len(motion):
+        raise LinkageError(motion.message())
+    chain = linkage.mechanism.chain
+    rows = []
+    for link in chain.links:
+        k = motion.plan.lower.mechanism.chain.index(link)
+        z, turn = motion.places[0, 0, k] / linkage.size, motion.turns[0, k]
+        rows.append(_matrix(z.real, z.imag, float(np.angle(turn))))
+    return _centred(closing, _settled(closing, np.array(rows)))
+
+
+def _check_count(at: Sequence[float], drives: int) -> None:
+    if not drives:
+        raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
+    if len(at) != drives:
+        raise LinkageError(f"expected {drives} drive value{'s' * (drives > 1)}, one for each, but found {len(at)}")
+
+
+def _sided(linkage: Linkage, drive: int, value: float) -> float:
+    """The drive value with the first link of the joint as the one that is measured against."""
+    first, _ = linkage.reference(drive)
+    mechanism = linkage.mechanism
+    return value if first == mechanism.chain.joints[mechanism.drives[drive].joint].links[0] else -value
+
+
+def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> Reals:
+    """The pose at the values of all drives, which are followed from home together."""
+    mechanism = closing.mechanism
+    _check_count(at, len(mechanism.drives))
+    joints, values = [drive.joint for drive in mechanism.drives], []
+    for joint, value in zip(joints, at, strict=True):
+        if mechanism.chain.joints[joint].pair.name == "revolute":
+            now = joint_value(closing, home, joint)
+            values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
+        else:
+            values.append(value / size)
+    return followed_together(closing, home, joints, np.array([values]))[0]
+
+
+def _assembled(closing: Closing) -> Reals:
+    """A pose with closed joints: of some the most movable, with the drives and most joints moving, the most regular."""
+    random = np.random.default_rng(20_261_121)
+    found: list[tuple[int, tuple[bool, int], float, Reals]] = []
+    driven = {drive.joint for drive in closing.mechanism.drives}
+    least = np.inf
+    frame = closing.mechanism.chain.index(closing.mechanism.frame)
+    for _ in range(_STARTS):
+        start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.home), 3))])
+        pose = closing.settled(inverse(start[frame]) @ start, most=_PATIENT)
+        open_by = float(abs(closing.residual(pose)).max())
+        if _CLOSED < open_by < _NEARLY:  # at a double root steps only halve
+            pose = sharpened(closing, pose)
+            open_by = float(abs(closing.residual(pose)).max())
+        least = min(least, open_by)
+        if open_by > _CLOSED:
+            continue
+        here = at_pose(closing, pose, 1e-9)
+        margin = float(here.values[here.rank - 1]) / closing.unknowns
+        moving = driven.isdisjoint(here.immobile), -len(here.immobile)
+        found.append((here.mobility, moving, margin, pose))
+        if len(found) >= _ENOUGH or (not here.redundancy and not here.immobile and margin > _GOOD):
+            break
+    if not found:
+        raise LinkageError(
+            f"no position was found in which the joints can be closed: they stay open by {least:.1e} of the linkage's "
+            "size at least"
+        )
+    return _centred(closing, sharpened(closing, max(found, key=lambda one: one[:3])[3]))

@@ -1,0 +1,101 @@
+"""Mobility at a pose: the rank of the closing conditions there, and which of them are redundant."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.notebook import Brief
+from gruebler.screws.closing import Closing
+
+__all__ = ["Instant", "at_pose"]
+
+Reals = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Instant(Brief):
+    """The singular values of the constraints at a pose, and the spaces on either side of the gap among them."""
+
+    closing: Closing
+    pose: Reals
+    """(n, 4, 4), lengths in sizes."""
+    values: Reals
+    """All singular values, the largest first: as many as the smaller of constraints and unknowns."""
+    left: Reals
+    right: Reals
+    """The singular vectors: (constraints, constraints) by columns, (unknowns, unknowns) by rows."""
+    tolerance: float
+    """A singular value below tolerance times the largest counts as zero."""
+
+    @cached_property
+    def rank(self) -> int:
+        """Independent constraints."""
+        return int(np.sum(self.values > self.tolerance * max(self.values[0], 1e-300)))
+
+    @property
+    def constraints(self) -> int:
+        """All constraints, the sum of u over the joints."""
+        return self.closing.equations
+
+    @property
+    def mobility(self) -> int:
+        """Independent velocities: b (n - 1) - rank."""
+        return self.closing.unknowns - self.rank
+
+    @property
+    def redundancy(self) -> int:
+        """Constraints that follow from the others."""
+        return self.constraints - self.rank
+
+    @property
+    def gap(self) -> tuple[float, float]:
+        """The smallest singular value that counts and the largest that does not, against the largest of all.
+
+        The second is 0 if none is missing.
+        """
+        relative = self.values / max(self.values[0], 1e-300)
+        below = float(relative[self.rank]) if self.rank < len(relative) else 0.0
+        return (float(relative[self.rank - 1]) if self.rank else 0.0), below
+
+    @property
+    def motions(self) -> Reals:
+        """An orthonormal basis of the velocities, (mobility, unknowns)."""
+        return self.right[self.rank :]
+
+    @property
+    def stresses(self) -> Reals:
+        """An orthonormal basis of the self-stresses, (redundancy, constraints)."""
+        return self.left[:, self.rank :].T
+
+    @cached_property
+    def redundant(self) -> dict[int, int]:
+        """For each joint that holds redundant constraints, how many of its own could be left out."""
+        out = {}
+        for joint in np.unique(self.closing.joint_of_row).tolist():
+            mine = self.stresses[:, self.closing.joint_of_row == joint]
+            many = int(np.linalg.matrix_rank(mine, tol=1e-7)) if mine.size else 0
+            if many:
+                out[joint] = many
+        return out
+
+    @cached_property
+    def immobile(self) -> tuple[int, ...]:
+        """The joints between links that have the same velocity in every motion."""
+        out = []
+        twists = np.array([self.closing.twists(motion) for motion in self.motions])
+        for joint in range(len(self.closing.mechanism.chain.joints)):
+            ties = [tie for tie in self.closing.ties if tie.joint == joint]
+            if not len(twists) or all(abs(twists[:, t.first] - twists[:, t.second]).max() < 1e-7 for t in ties):
+                out.append(joint)
+        return tuple(out)
+
+
+def at_pose(closing: Closing, pose: Reals, tolerance: float) -> Instant:
+    """The mobility at a pose. Cost cubic in the unknowns."""
+    _, by_twist = closing.linearised(pose)
+    left, values, right = np.linalg.svd(by_twist)
+    return Instant(closing, pose, values, left, right, tolerance)

@@ -1,0 +1,64 @@
+"""What stays open of the redundant constraints near a pose, as a function of its velocities (Lyapunov and Schmidt)."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gruebler.screws.instant_mobility import Instant
+
+__all__ = ["Excess", "Point"]
+
+Reals = NDArray[np.float64]
+
+
+class Point(NamedTuple):
+    """A motion from the pose in which all but the redundant constraints are closed."""
+
+    motion: Reals
+    value: Reals
+    """F: what is open of the redundant ones, (redundancy,)."""
+    slope: Reals
+    """dF/dk, (redundancy, mobility)."""
+
+
+class Excess:
+    """The map F: what stays open of the redundant constraints when all others are closed and k is held."""
+
+    def __init__(self, instant: Instant) -> None:
+        self.instant = instant
+        self._independent = instant.left[:, : instant.rank].T
+
+    def __call__(self, k: Reals) -> Point | None:
+        """The point over k, or None if Newton's method does not close the other constraints so far away."""
+        found = self.instant
+        motion = k @ found.motions
+        for _ in range(15):
+            value, by_motion = found.closing.along(found.pose, motion)
+            matrix = np.vstack([self._independent @ by_motion, found.motions])
+            rest = np.append(self._independent @ value, np.zeros(found.mobility))
+            held = np.vstack([np.zeros((found.rank, found.mobility)), np.eye(found.mobility)])
+            try:
+                solved = np.linalg.solve(matrix, np.column_stack([rest, held]))
+            except np.linalg.LinAlgError:
+                return None
+            step = solved[:, 0]
+            if abs(step).max() < 1e-13 or abs(rest).max() < 1e-15:
+                return Point(motion, found.stresses @ value, found.stresses @ by_motion @ solved[:, 1:])
+            motion = motion - step
+            if not abs(motion).max() < 3:
+                return None
+        return None
+
+    def second(self, step: float = 1e-3) -> Reals | None:
+        """The quadratic forms of the second order, (redundancy, mobility, mobility): F(k) = k·Q·k / 2 + ..."""
+        ahead = [(self(step * k), self(-step * k)) for k in np.eye(self.instant.mobility)]
+        if any(one is None or other is None for one, other in ahead):
+            return None
+        slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
+        out = np.stack(slopes, axis=2)
+        out = (out + np.swapaxes(out, 1, 2)) / 2
+        out[abs(out) < 1e-6] = 0.0
+        return out

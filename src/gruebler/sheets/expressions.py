@@ -1,0 +1,279 @@
+"""Dimensions as they are written in exact form, such as ``5/2*sqrt(3)``: read safely, kept, and valued exactly.
+
+Numbers, ``+ - * / **``, parentheses, ``sqrt`` and ``pi``; whole exponents only. The value is known as a sum of square
+roots with rational factors wherever it is one (`surds`), and in any case to any number of digits (`brackets`).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import NamedTuple
+
+from gruebler.errors import LinkageError
+from gruebler.sheets import interval_arithmetic, surds
+from gruebler.sheets.interval_arithmetic import Bracket, Unsettled
+from gruebler.sheets.surds import Surd
+
+__all__ = ["Expression"]
+
+_LONGEST = 300  # characters
+_DEEPEST = 30  # parentheses, signs and powers within one another
+_MOST_TIMES = 64  # exponent
+_RANGE = 900  # bits before the point, and behind it
+_PRECISIONS = (96, 256, 1024, 4096)  # bits behind the point
+_TOKEN = re.compile(r"\s*(?:([0-9]+(?:\.[0-9]*)?|\.[0-9]+)|(\*\*|[-+*/()√π])|([^\W\d]\w*)|(\S))")
+_ALIKE = str.maketrans("−·×", "-**")
+
+
+class _Step(NamedTuple):
+    """A step of the calculation, its operands being the last results; ``at`` is its column in the text."""
+
+    kind: str
+    at: int
+    number: Fraction = Fraction(0)
+
+
+@dataclass(frozen=True)
+class Expression:
+    """A number as it is written. Two are equal if they are written alike; `same` compares the values.
+
+    Raises `LinkageError` for a text that is no such number, naming the column.
+
+    >>> side = Expression("5/2*sqrt(3)")
+    >>> print(side, float(side), side.same(Expression("sqrt(75)/2")), side.printed)
+    5/2*sqrt(3) 4.330127018922194 True 5/2·√3
+    >>> Expression("5/2*sqr(3)")
+    Traceback (most recent call last):
+        ...
+    gruebler.errors.LinkageError: '5/2*sqr(3)', column 5: unknown name 'sqr'; known are sqrt and pi
+    """
+
+    text: str
+    steps: tuple[_Step, ...] = field(init=False, repr=False, compare=False)
+    value: float = field(init=False, repr=False, compare=False)
+    """The nearest double."""
+    exact: Surd | None = field(init=False, repr=False, compare=False)
+    """The value as a sum of roots, factors by what is under them; None if it is not known as one."""
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.text, str) or len(self.text) > _LONGEST:
+            found = f"one of {len(self.text)}" if isinstance(self.text, str) else repr(self.text)[:40]
+            raise LinkageError(f"an expression is a text of at most {_LONGEST} characters, not {found}")
+        object.__setattr__(self, "steps", tuple(_Reader(self.text).whole()))
+        object.__setattr__(self, "value", _nearest(self.text, self.steps))
+        object.__setattr__(self, "exact", _exactly(self.steps))
+
+    def __str__(self) -> str:
+        return self.text
+
+    def __float__(self) -> float:
+        return self.value
+
+    @property
+    def printed(self) -> str:
+        """The value in print, as a sum of roots (``5/2·√3``) if it is known as one, else the text."""
+        return self.text if self.exact is None else surds.written(self.exact)
+
+    @property
+    def typeset(self) -> str:
+        """The text in print, as it is written.
+
+        >>> Expression("1/3*sqrt(2)*(5*sqrt(11)-9*sqrt(3))").typeset
+        '1/3·√2·(5·√11 − 9·√3)'
+        """
+        plain = re.sub(r"sqrt\((\d+)\)", r"√\1", self.text).replace("sqrt", "√").replace("pi", "π")
+        plain = re.sub(r"(?<=[\w)])\s*([-+])\s*", r" \1 ", plain.replace("**", "^").replace("*", "·"))
+        return plain.replace("-", "−")
+
+    def same(self, other: Expression) -> bool:
+        """Whether the values are equal: exactly if both are known as sums of roots, else to 1000 binary places."""
+        if self.exact is not None and other.exact is not None:
+            return dict(self.exact) == dict(other.exact)
+        mine, others = (_bracketed(one.text, one.steps, 4096) for one in (self, other))
+        return mine[0] - others[1] <= 1 << 3096 and others[0] - mine[1] <= 1 << 3096
+
+
+def _wrong(text: str, at: int, what: str) -> LinkageError:
+    shown = text if len(text) <= 60 else f"{text[:57]}..."
+    return LinkageError(f"{shown!r}, column {at}: {what}")
+
+
+# --- values -----------------------------------------------------------------------------------------
+
+
+def _nearest(text: str, steps: tuple[_Step, ...]) -> float:
+    """From ever narrower brackets; what none tells from half-way between two doubles is there."""
+    for p in _PRECISIONS:
+        try:
+            low, high = (Fraction(end, 1 << p) for end in _bracketed(text, steps, p))
+        except Unsettled as stop:
+            if p == _PRECISIONS[-1]:
+                raise _wrong(text, stop.at, "a division by zero") from None
+            continue
+        if float(low) == float(high):
+            return float(low) + 0.0  # no minus zero
+    return float((low + high) / 2)
+
+
+def _bracketed(text: str, steps: tuple[_Step, ...], p: int) -> Bracket:
+    """The value between two bounds, p bits behind the point."""
+    stack: list[Bracket] = []
+    for step in steps:
+        try:
+            made = _bracket(step, stack, p)
+        except Unsettled:
+            raise Unsettled(step.at) from None
+        if made is None:
+            raise _wrong(text, step.at, "the root of a negative number")
+        if max(abs(made[0]), abs(made[1])) >> p + _RANGE:
+            raise _wrong(text, step.at, f"a number beyond 2^{_RANGE}")
+        stack.append(made)
+    return stack[0]
+
+
+def _bracket(step: _Step, stack: list[Bracket], p: int) -> Bracket | None:
+    """The result of a step, its operands taken from the stack; None for the root of a negative number."""
+    match step.kind:
+        case "number":
+            return interval_arithmetic.of_fraction(step.number, p)
+        case "pi":
+            return interval_arithmetic.pi(p)
+        case "negative":
+            low, high = stack.pop()
+            return -high, -low
+        case "**":
+            return interval_arithmetic.power(stack.pop(), int(step.number), p)
+        case "sqrt":
+            under = stack.pop()
+            return None if under[1] < 0 else interval_arithmetic.root(under, p)
+    second, first = stack.pop(), stack.pop()
+    return interval_arithmetic.OPERATIONS[step.kind](first, second, p)
+
+
+def _exactly(steps: tuple[_Step, ...]) -> Surd | None:
+    """The value as a sum of roots; None as soon as it leaves their realm. No step is wrong: see `_nearest`."""
+    stack: list[Surd] = []
+    for step in steps:
+        made = _surd(step, stack)
+        if made is None:
+            return None
+        stack.append(made)
+    return stack[0]
+
+
+def _surd(step: _Step, stack: list[Surd]) -> Surd | None:
+    match step.kind:
+        case "number":
+            return surds.rational(step.number)
+        case "pi":
+            return None
+        case "negative":
+            return {d: -q for d, q in stack.pop().items()}
+        case "**":
+            return surds.power(stack.pop(), int(step.number))
+        case "sqrt":
+            return surds.root(stack.pop())
+    second, first = stack.pop(), stack.pop()
+    return surds.OPERATIONS[step.kind](first, second)
+
+
+# --- reading ----------------------------------------------------------------------------------------
+
+
+class _Reader:
+    """From a text to steps, by recursive descent; powers bind more than signs, and to the right."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+        found = _TOKEN.finditer(text.translate(_ALIKE))
+        self.tokens = [(token, match.start(match.lastindex or 0) + 1) for match in found if (token := match[0].strip())]
+        self.tokens.append(("", len(text) + 1))
+        self.depth = 0
+
+    def whole(self) -> Iterator[_Step]:
+        yield from self.sum()
+        if self.tokens[0][0]:
+            raise self.unexpected("a sign of calculation")
+
+    def sum(self) -> Iterator[_Step]:
+        yield from self.products("+-", lambda: self.products("*/", self.signed))
+
+    def products(self, signs: str, operand: Callable[[], Iterator[_Step]]) -> Iterator[_Step]:
+        """Operands with signs between them, from left to right."""
+        yield from operand()
+        while (sign := self.tokens[0][0]) and sign in signs:
+            at = self.taken()
+            yield from operand()
+            yield _Step(sign, at)
+
+    def signed(self) -> Iterator[_Step]:
+        if self.tokens[0][0] not in ("+", "-"):
+            yield from self.power()
+            return
+        sign, at = self.tokens[0][0], self.deeper()
+        yield from self.signed()
+        self.depth -= 1
+        if sign == "-":
+            yield _Step("negative", at)
+
+    def power(self) -> Iterator[_Step]:
+        yield from self.atom()
+        if self.tokens[0][0] == "**":
+            at = self.deeper()
+            exponent = tuple(self.signed())
+            self.depth -= 1
+            yield _Step("**", at, self.whole_number(exponent, at))
+
+    def whole_number(self, steps: tuple[_Step, ...], at: int) -> Fraction:
+        """An exponent, to be known exactly."""
+        _nearest(self.text, steps)
+        exact = _exactly(steps)
+        number = None if exact is None or not set(exact) <= {1} else exact.get(1, Fraction(0))
+        if number is None or number.denominator != 1 or abs(number) > _MOST_TIMES:
+            raise _wrong(self.text, at, f"an exponent is a whole number from -{_MOST_TIMES} to {_MOST_TIMES}")
+        return number
+
+    def atom(self) -> Iterator[_Step]:
+        token, at = self.tokens[0]
+        if token[:1] in tuple("0123456789.") and token != ".":
+            self.taken()
+            yield _Step("number", at, Fraction(token))
+        elif token in ("pi", "π"):
+            self.taken()
+            yield _Step("pi", at)
+        elif token in ("sqrt", "√"):
+            self.deeper()
+            if token == "sqrt" and self.tokens[0][0] != "(":
+                raise self.unexpected("a parenthesis")
+            yield from self.atom()
+            self.depth -= 1
+            yield _Step("sqrt", at)
+        elif token == "(":
+            self.deeper()
+            yield from self.sum()
+            if self.tokens[0][0] != ")":
+                raise self.unexpected("a closing parenthesis")
+            self.taken()
+            self.depth -= 1
+        elif token.isidentifier():
+            raise _wrong(self.text, at, f"unknown name {token[:20]!r}; known are sqrt and pi")
+        else:
+            raise self.unexpected("a number")
+
+    def taken(self) -> int:
+        """Go on to the next token; the column of the one left behind."""
+        return self.tokens.pop(0)[1]
+
+    def deeper(self) -> int:
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise _wrong(self.text, self.tokens[0][1], f"more than {_DEEPEST} levels within one another")
+        return self.taken()
+
+    def unexpected(self, wanted: str) -> LinkageError:
+        token, at = self.tokens[0]
+        hint = "; powers are written **" if token == "^" else ""
+        return _wrong(self.text, at, f"expected {wanted}, but found {repr(token[:20]) if token else 'the end'}{hint}")

@@ -1,0 +1,37 @@
+"""Chains made from chains: dyads, couplers and Assur groups put in and taken out, links merged and split.
+
+Each transformation is a function of a chain that returns a `Step`; steps make a `Derivation` that can be done again.
+"""
+
+from gruebler.transformations.contacts import replace_roll_slide, restore_roll_slide
+from gruebler.transformations.contraction import contract, expand
+from gruebler.transformations.derivations import OPERATIONS, Derivation, replay
+from gruebler.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
+from gruebler.transformations.extension import Extension, extend, grown
+from gruebler.transformations.groups import insert_group, remove_group
+from gruebler.transformations.growth import Growth, derive
+from gruebler.transformations.places import Place
+from gruebler.transformations.steps import Step
+
+__all__ = [
+    "OPERATIONS",
+    "Derivation",
+    "Extension",
+    "Growth",
+    "Place",
+    "Step",
+    "contract",
+    "derive",
+    "expand",
+    "extend",
+    "grown",
+    "insert_coupler",
+    "insert_dyad",
+    "insert_group",
+    "remove_coupler",
+    "remove_dyad",
+    "remove_group",
+    "replace_roll_slide",
+    "replay",
+    "restore_roll_slide",
+]

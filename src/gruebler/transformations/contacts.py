@@ -1,0 +1,72 @@
+"""A roll-slide joint and the binary link that stands for it at one instant, either way.
+
+The link's revolutes lie in the centres of curvature of the two contours; a straight contour has its centre at infinity,
+which makes a prismatic joint of that end. Counted and generic mobility stay: docs/theory/transformations.md.
+"""
+
+from __future__ import annotations
+
+from gruebler.chain import Chain
+from gruebler.chain.pairs import pair
+from gruebler.errors import ChainError, TransformationError
+from gruebler.transformations.places import Sketch, check_counting, fresh_names, letters_of, links_at, pairs_of
+from gruebler.transformations.steps import Step
+
+__all__ = ["replace_roll_slide", "restore_roll_slide"]
+
+_EQUIVALENTS = ("RR", "RP", "PR")
+
+
+def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | None = None) -> Step:
+    """Put a binary link in the place of a roll-slide joint; F stays.
+
+    Args:
+        chain: a planar or spherical chain.
+        joint: the number of the roll-slide joint.
+        pairs: RR, or RP (PR) where the second (first) of the joint's links has a straight contour.
+        link: the name of the new link; the lowest free number if left out.
+
+    >>> print(replace_roll_slide(Chain.parse("R(frame-cam) G(cam-valve) P(valve-frame)"), 1, "RP", "contact").chain)
+    R(frame-cam) R(cam-contact) P(contact-valve) P(valve-frame)
+    """
+    check_counting(chain)
+    one, other = pairs_of(pairs, 2, "contact")
+    word = letters_of((one, other))
+    if word not in _EQUIVALENTS:
+        raise TransformationError(f"a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}")
+    a, *rest = links_at(chain, joint)
+    if chain.joints[joint].pair.name != "roll_slide":
+        raise TransformationError(f"{chain.joints[joint]} is not a roll-slide joint")
+    (name,) = fresh_names(chain, 1, None if link is None else [link])
+    sketch = Sketch(chain)
+    sketch.joints[joint : joint + 1] = [(one, [a, name]), (other, [name, *rest])]
+    return Step("replace_roll_slide", {"joint": joint, "pairs": word, "link": name}, chain, sketch.done([name]))
+
+
+def restore_roll_slide(chain: Chain, link: str) -> Step:
+    """Put a roll-slide joint in the place of a binary link with two revolutes, or a revolute and a prismatic joint.
+
+    >>> print(restore_roll_slide(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), "2").chain)
+    R(0-1) G(1-3) R(3-0)
+    """
+    check_counting(chain)
+    chain.index(link)
+    mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+    joints = [chain.joints[k] for k in mine]
+    others = [a for joint in joints for a in joint.links if a != link]
+    if len(mine) != 2 or any(j.count > 1 for j in joints) or letters_of(j.pair for j in joints) not in _EQUIVALENTS:
+        raise TransformationError(
+            f"{link} does not stand for a roll-slide joint: it must be a binary link with two simple revolutes, or one "
+            "revolute and one prismatic joint"
+        )
+    if others[0] == others[1]:
+        raise TransformationError(f"{link} does not stand for a roll-slide joint: both its joints are on {others[0]!r}")
+    contact = (pair("roll_slide"), others)
+    kept = [(j.pair, list(j.links)) for j in chain.joints]
+    kept[mine[0]] = contact
+    del kept[mine[1]]
+    try:
+        new = Chain(kept, links=[a for a in chain.links if a != link], space=chain.space)
+    except ChainError as error:
+        raise TransformationError(f"without {link} there is no chain left: {error}") from None
+    return Step("restore_roll_slide", {"link": link}, chain, new)

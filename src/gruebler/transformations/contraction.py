@@ -1,0 +1,94 @@
+"""Contraction: the two links of a joint become one. Expansion, its inverse, splits a link."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gruebler.chain import Chain, pairs
+from gruebler.chain.pairs import Pair
+from gruebler.errors import ChainError, TransformationError
+from gruebler.transformations.places import Sketch, fresh_names, links_at
+from gruebler.transformations.steps import Step
+
+__all__ = ["contract", "expand"]
+
+
+def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> Step:
+    """Make two links of a joint one, which keeps the first name; F falls by the joint's freedoms.
+
+    Args:
+        chain: any chain.
+        joint: the number of the joint. It goes, or loses a link if it has more than two.
+        links: the two links of a multiple joint; else the joint's own, in either order.
+
+    Raises `TransformationError` if the two links meet in a second joint, which would have nothing left to do.
+
+    >>> print(contract(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"), 0).chain)
+    R(0-2) R(2-3) R(3-4) R(4-0)
+    """
+    carriers = links_at(chain, joint)
+    chosen = list(carriers if links is None else links)
+    if len(chosen) != 2 or len(set(chosen)) != 2 or not set(chosen) <= set(carriers):
+        raise TransformationError(f"say which two links of {chain.joints[joint]} become one")
+    kept, gone = chosen
+    again = next((j for k, j in enumerate(chain.joints) if k != joint and kept in j.links and gone in j.links), None)
+    if again is not None:
+        raise TransformationError(f"{kept} and {gone} cannot become one: they meet in {again} too")
+    joints = []
+    for number, old in enumerate(chain.joints):
+        left = [kept if link == gone else link for link in old.links if number != joint or link != gone]
+        if len(left) > 1:
+            joints.append((old.pair, left))
+    try:
+        new = Chain(joints, links=[link for link in chain.links if link != gone], space=chain.space)
+    except ChainError as error:
+        raise TransformationError(f"with {kept} and {gone} as one link there is no chain left: {error}") from None
+    return Step("contract", {"joint": joint, "links": [kept, gone]}, chain, new)
+
+
+def expand(
+    chain: Chain,
+    link: str,
+    joints: Sequence[int],
+    *,
+    pair: str | Pair | None = None,
+    at: int | None = None,
+    new: str | None = None,
+) -> Step:
+    """Split a link: a new one takes some of its joints and is joined to it; F rises by the joint's freedoms.
+
+    Args:
+        chain: any chain.
+        link: the link to split.
+        joints: the numbers of its joints that go to the new link.
+        pair: the pair of the new joint between the two (revolute if neither this nor `at` is given), or
+        at: the number of a joint of the link that the new link joins too.
+        new: the name of the new link; the lowest free number if left out.
+
+    >>> print(expand(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), "0", [0], new="4").chain)
+    R(4-1) R(1-2) R(2-3) R(3-0) R(0-4)
+    """
+    chain.index(link)
+    strange = next((k for k in joints if link not in links_at(chain, k)), None)
+    if strange is not None:
+        raise TransformationError(
+            f"the joint {chain.joints[strange]} is not one of {link}'s and cannot go to the new link"
+        )
+    if at is not None and (pair is not None or at in joints or link not in links_at(chain, at)):
+        raise TransformationError(
+            "the two parts are joined by a new joint of a given pair, or at a joint of the link that does not move"
+        )
+    (name,) = fresh_names(chain, 1, None if new is None else [new])
+    sketch = Sketch(chain)
+    for number in joints:
+        carriers = sketch.joints[number][1]
+        carriers[carriers.index(link)] = name
+    where: dict[str, object] = {"link": link, "joints": list(joints), "new": name}
+    if at is None:
+        joining = pair if isinstance(pair, Pair) else pairs.pair(pair or "revolute")
+        sketch.add(joining, [link, name])
+        where["pair"] = joining.name
+    else:
+        sketch.attach(at, chain.joints[at].pair, [name])
+        where["at"] = at
+    return Step("expand", where, chain, sketch.done([name]))

@@ -1,0 +1,129 @@
+"""Derivations: a chain and the steps that lead on from it, done again from their record."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from gruebler.chain import Chain
+from gruebler.errors import NotationError, TransformationError
+from gruebler.transformations.contacts import replace_roll_slide, restore_roll_slide
+from gruebler.transformations.contraction import contract, expand
+from gruebler.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
+from gruebler.transformations.groups import insert_group, remove_group
+from gruebler.transformations.steps import Step
+
+__all__ = ["OPERATIONS", "Derivation", "replay"]
+
+OPERATIONS: dict[str, Callable[..., Step]] = {
+    operation.__name__: operation
+    for operation in (
+        insert_dyad,
+        remove_dyad,
+        insert_coupler,
+        remove_coupler,
+        insert_group,
+        remove_group,
+        contract,
+        expand,
+        replace_roll_slide,
+        restore_roll_slide,
+    )
+}
+"""Every transformation by the name under which steps record it."""
+
+
+def replay(chain: Chain, kind: str, where: Mapping[str, Any]) -> Step:
+    """Do a recorded step on a chain.
+
+    Raises `TransformationError` for an unknown kind, for arguments that the kind does not have, and where the step is
+    not possible.
+
+    >>> step = insert_dyad(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), "RRR", ["0", "2"])
+    >>> replay(step.before, step.kind, step.where) == step
+    True
+    """
+    if kind not in OPERATIONS:
+        raise TransformationError(f"there is no transformation {kind!r}; there are {', '.join(OPERATIONS)}")
+    try:
+        return OPERATIONS[kind](chain, **where)
+    except TypeError as error:
+        raise TransformationError(f"{kind}: the record does not fit: {error}") from None
+
+
+@dataclass(frozen=True)
+class Derivation:
+    """A chain to start from and steps, each on the chain that the one before leaves.
+
+    >>> way = Derivation(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"))
+    >>> way = way.then("insert_coupler", between=["1", "4"]).then("insert_dyad", form="RRR", between=["2", "5"])
+    >>> way.chain.n, Derivation.from_json(way.to_json()) == way
+    (8, True)
+    """
+
+    start: Chain
+    steps: tuple[Step, ...] = ()
+
+    def __post_init__(self) -> None:
+        before = self.start
+        for number, step in enumerate(self.steps, 1):
+            if step.before != before:
+                raise TransformationError(
+                    f"step {number} starts from {step.before}, but step {number - 1} leaves {before}"
+                )
+            before = step.chain
+
+    @property
+    def chain(self) -> Chain:
+        """The chain at the end."""
+        return self.steps[-1].chain if self.steps else self.start
+
+    def then(self, kind: str, **where: Any) -> Derivation:
+        """With one more step."""
+        return Derivation(self.start, (*self.steps, replay(self.chain, kind, where)))
+
+    def replayed(self, start: Chain | None = None) -> Derivation:
+        """All steps done again, from the same chain or from another one with the links and joints that they name."""
+        out = Derivation(self.start if start is None else start)
+        for step in self.steps:
+            out = out.then(step.kind, **step.where)
+        return out
+
+    def to_json(self) -> dict[str, Any]:
+        """Plain data for `json.dumps`: the chain to start from, and kind, where and result of each step."""
+        return {"start": self.start.to_json(), "steps": [step.to_json() for step in self.steps]}
+
+    @classmethod
+    def from_json(cls, document: str | Mapping[str, Any]) -> Derivation:
+        """The derivation of a document made by `to_json` (the text, or the object read); every step is done again.
+
+        Raises `NotationError` for another document, `TransformationError` for a step that is impossible or leads to
+        another chain than the document says.
+        """
+        if isinstance(document, str):
+            try:
+                document = json.loads(document)
+            except json.JSONDecodeError as error:
+                raise NotationError(f"not a JSON document: {error}") from None
+        match document:
+            case {"start": start, "steps": [*steps], **rest} if not rest:
+                out = cls(Chain.from_json(start))
+            case _:
+                raise NotationError('a derivation is an object with "start" (a chain) and "steps" (a list)')
+        for number, step in enumerate(steps, 1):
+            match step:
+                case {"kind": str(kind), "where": Mapping() as where, **rest} if rest.keys() <= {"result"}:
+                    out = out.then(kind, **where)
+                case _:
+                    raise NotationError(f'step {number} must be an object with "kind", "where" and perhaps "result"')
+            if "result" in step and str(out.chain) != step["result"]:
+                raise TransformationError(f"step {number} gives {out.chain}, but the document says {step['result']}")
+        return out
+
+    def explain(self, lang: str = "en") -> str:
+        """A line for the start and for each step, in English (``en``) or German (``de``)."""
+        from gruebler.transformations.messages import explain_derivation
+
+        return explain_derivation(self, lang)

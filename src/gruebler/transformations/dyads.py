@@ -1,0 +1,180 @@
+"""Dyads and couplers: put between two places of a chain, or taken out again.
+
+A dyad (two links, three joints of one freedom) keeps F, a coupler (one link, two such joints) lowers it by one.
+docs/theory/transformations.md says when generic mobility follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from gruebler.assur import DYADS
+from gruebler.chain import Chain
+from gruebler.errors import TransformationError
+from gruebler.transformations.places import (
+    Place,
+    Sketch,
+    check_counting,
+    fresh_names,
+    letters_of,
+    pairs_of,
+    spread,
+    without,
+)
+from gruebler.transformations.steps import Step
+
+__all__ = ["Insertion", "coupler_at", "dyad_at", "insert_coupler", "insert_dyad", "remove_coupler", "remove_dyad"]
+
+
+class Insertion(NamedTuple):
+    """What an insertion needs to make again what is there: pairs as letters, places in the rest, names of the links."""
+
+    letters: str
+    between: tuple[Place, Place]
+    links: tuple[str, ...]
+    rest: Chain
+    """The chain without it."""
+
+
+def insert_dyad(chain: Chain, form: str, between: Sequence[Place], links: Sequence[str] | None = None) -> Step:
+    """Put a dyad between two places; F stays.
+
+    Args:
+        chain: a planar or spherical chain.
+        form: RRR, RRP (or PRR), RPR, PRP, RPP (or PPR), read from the first place to the second.
+        between: two places: names of links, or numbers of joints that the dyad's end joins.
+        links: names of the two new links; the lowest free numbers if left out.
+
+    Raises `TransformationError` for another form, and for places on one link.
+
+    >>> watt = insert_dyad(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), "RRR", ["2", "3"])
+    >>> print(watt.chain)
+    R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)
+    """
+    check_counting(chain)
+    first, middle, last = pairs_of(form, 3, "dyad")
+    word = letters_of((first, middle, last))
+    if word not in DYADS and word not in {dyad[::-1] for dyad in DYADS}:
+        raise TransformationError(f"{form!r} is no dyad; the forms are {', '.join(DYADS)}")
+    one, other = _two(between)
+    spread(chain, [one, other], "dyad")
+    x, y = fresh_names(chain, 2, links)
+    sketch = Sketch(chain)
+    sketch.attach(one, first, [x])
+    sketch.add(middle, [x, y])
+    sketch.attach(other, last, [y], last=True)
+    where = {"form": word, "between": [one, other], "links": [x, y]}
+    return Step("insert_dyad", where, chain, sketch.done([x, y]))
+
+
+def remove_dyad(chain: Chain, links: Sequence[str]) -> Step:
+    """Take two links away that are a dyad: binary, joined to one another, their ends on different links.
+
+    Raises `TransformationError` if they are not, or if nothing sound is left.
+
+    >>> print(remove_dyad(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"), ["4", "5"]).chain)
+    R(0-1) R(1-2) R(2-3) R(3-0)
+    """
+    found = dyad_at(chain, links)
+    return Step("remove_dyad", {"links": list(links)}, chain, found.rest)
+
+
+def insert_coupler(chain: Chain, between: Sequence[Place], pairs: str = "RR", link: str | None = None) -> Step:
+    """Put a binary link between two places; F falls by one.
+
+    Args:
+        chain: a planar or spherical chain.
+        between: two places: names of links, or numbers of joints that the coupler's end joins.
+        pairs: its joints, each R, P or W, read from the first place to the second.
+        link: the name of the new link; the lowest free number if left out.
+
+    >>> print(insert_coupler(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"), ["1", "4"]).chain)
+    R(0-1) R(1-2) R(2-3) R(3-4) R(4-0) R(1-5) R(5-4)
+    """
+    check_counting(chain)
+    first, last = pairs_of(pairs, 2, "coupler")
+    one, other = _two(between)
+    spread(chain, [one, other], "coupler")
+    (x,) = fresh_names(chain, 1, None if link is None else [link])
+    sketch = Sketch(chain)
+    sketch.attach(one, first, [x])
+    sketch.attach(other, last, [x], last=True)
+    where = {"between": [one, other], "pairs": letters_of((first, last)), "link": x}
+    return Step("insert_coupler", where, chain, sketch.done([x]))
+
+
+def remove_coupler(chain: Chain, link: str) -> Step:
+    """Take a binary link away whose joints have one freedom each and lead to different links; F rises by one.
+
+    >>> print(remove_coupler(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-2)"), "4").chain)
+    R(0-1) R(1-2) R(2-3) R(3-0)
+    """
+    return Step("remove_coupler", {"link": link}, chain, coupler_at(chain, link).rest)
+
+
+def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
+    """How the dyad of these two links can be inserted again; `TransformationError` if they are not a dyad."""
+    check_counting(chain)
+    if len(links) != 2:
+        raise TransformationError(f"a dyad has two links, not {len(links)}")
+    x, y = links
+    joints = {link: _two_joints(chain, link, "dyad") for link in (x, y)}
+    middle = [k for k in joints[x] if k in joints[y]]
+    if len(middle) != 1 or chain.joints[middle[0]].count != 1:
+        raise TransformationError(
+            f"{x} and {y} are no dyad: they must have just one joint together, and it must be simple"
+        )
+    (first,) = (k for k in joints[x] if k not in middle)
+    (last,) = (k for k in joints[y] if k not in middle)
+    letters = letters_of(chain.joints[k].pair for k in (first, middle[0], last))
+    if letters not in DYADS and (letters or "")[::-1] not in DYADS:
+        kinds = ", ".join(chain.joints[k].pair.name for k in (first, middle[0], last))
+        raise TransformationError(
+            f"{x} and {y} are no dyad: its forms are {', '.join(DYADS)}, these joints are {kinds}"
+        )
+    return _insertion(chain, letters or "", (x, y), (first, last), "dyad")
+
+
+def coupler_at(chain: Chain, link: str) -> Insertion:
+    """How this coupler can be inserted again; `TransformationError` if it is none."""
+    check_counting(chain)
+    first, last = _two_joints(chain, link, "coupler")
+    letters = letters_of(chain.joints[k].pair for k in (first, last))
+    if letters is None:
+        kinds = " and ".join(chain.joints[k].pair.name for k in (first, last))
+        raise TransformationError(f"{link} is no coupler: its joints must have one freedom each, and they are {kinds}")
+    return _insertion(chain, letters, (link,), (first, last), "coupler")
+
+
+def _insertion(chain: Chain, letters: str, links: tuple[str, ...], ends: tuple[int, int], thing: str) -> Insertion:
+    spread_links = [[a for a in chain.joints[k].links if a not in links] for k in ends]
+    both = next((a for a in spread_links[0] if a in spread_links[1]), None)
+    if both is not None:
+        raise TransformationError(
+            f"{' and '.join(links)} {'is' if len(links) == 1 else 'are'} no {thing} between different links: both ends "
+            f"are on {both!r}"
+        )
+    rest, number = without(chain, links)
+    places: list[Place] = [
+        outside[0] if len(outside) == 1 else number[k] for k, outside in zip(ends, spread_links, strict=True)
+    ]
+    return Insertion(letters, (places[0], places[1]), links, rest)
+
+
+def _two_joints(chain: Chain, link: str, thing: str) -> tuple[int, int]:
+    chain.index(link)
+    mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
+    if len(mine) != 2:
+        raise TransformationError(f"{link} cannot belong to a {thing}: it carries {_joints(len(mine))}, not two")
+    return mine[0], mine[1]
+
+
+def _joints(number: int) -> str:
+    return "one joint" if number == 1 else f"{number} joints"
+
+
+def _two(between: Sequence[Place]) -> tuple[Place, Place]:
+    if isinstance(between, str) or len(between) != 2:
+        raise TransformationError("expected two places: names of links or numbers of joints")
+    return between[0], between[1]

@@ -1,0 +1,87 @@
+"""Assur groups of any size: put on a chain, or taken out again; F stays."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from gruebler.assur import AssurGroup
+from gruebler.chain import Chain
+from gruebler.errors import ChainError, TransformationError
+from gruebler.transformations.places import Place, Sketch, check_counting, fresh_names, spread, without
+from gruebler.transformations.steps import Step
+
+__all__ = ["insert_group", "remove_group"]
+
+
+def insert_group(
+    chain: Chain, group: AssurGroup | str, at: Sequence[Place], links: Sequence[str] | None = None
+) -> Step:
+    """Attach an Assur group; F stays.
+
+    Args:
+        chain: a planar chain.
+        group: the group, or its text, code or dyad form.
+        at: for each of the group's places, in their order, a link's name or the number of a joint that it joins.
+        links: names for the group's links, in their order; the lowest free numbers if left out.
+
+    >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
+    >>> triad = AssurGroup.parse("R(a-1) R(1-2) R(2-3) R(3-b) R(2-4) R(4-c)")
+    >>> print(insert_group(four_bar, triad, ["1", "2", "3"]).chain)
+    R(0-1) R(1-2) R(2-3) R(3-0) R(1-4) R(4-5) R(5-6) R(2-6) R(5-7) R(3-7)
+    """
+    check_counting(chain)
+    if isinstance(group, str):
+        group = AssurGroup.parse(group)
+    if len(at) != len(group.places):
+        raise TransformationError(f"the group has {len(group.places)} places outside; {len(at)} were given")
+    spread(chain, at, "group")
+    names = fresh_names(chain, len(group.links), links)
+    new = dict(zip(group.links, names, strict=True))
+    outside = dict(zip(group.places, at, strict=True))
+    sketch = Sketch(chain)
+    for joint in group.chain.joints:
+        mine = [new[link] for link in joint.links if link in new]
+        place = next((outside[link] for link in joint.links if link in outside), None)
+        if place is None:
+            sketch.add(joint.pair, mine)
+        else:
+            sketch.attach(place, joint.pair, mine)
+    where = {"group": str(group), "at": list(at), "links": names}
+    return Step("insert_group", where, chain, sketch.done(names))
+
+
+def remove_group(chain: Chain, links: Sequence[str]) -> Step:
+    """Take links away that are an Assur group in the chain; F stays.
+
+    Raises `AssurError` if they are none, `TransformationError` if all its places are on one link or nothing sound is
+    left.
+    """
+    check_counting(chain)
+    if not links or len(set(links)) < len(links):
+        raise TransformationError("expected the names of the links of a group, each once")
+    for link in links:
+        chain.index(link)
+    mine = set(links)
+    joints, outside = [], []
+    for joint in chain.joints:
+        inner = [link for link in joint.links if link in mine]
+        others = [link for link in joint.links if link not in mine]
+        if inner and others:
+            outside.append(set(others))
+            place = f"place {len(outside)}"
+            while place in mine:
+                place += "'"
+            inner.append(place)
+        if len(inner) > 1:
+            joints.append((joint.pair, inner))
+    if not outside:
+        raise TransformationError(f"{', '.join(links)} are all the links of the chain")
+    try:
+        alone = Chain(joints, space=chain.space)
+    except ChainError as error:
+        raise TransformationError(f"{', '.join(links)} are no Assur group: {error}") from None
+    AssurGroup(alone)
+    shared = set.intersection(*outside)
+    if shared:
+        raise TransformationError(f"the group is attached to the link {min(shared)!r} alone: it is rigid against it")
+    return Step("remove_group", {"links": list(links)}, chain, without(chain, links)[0])

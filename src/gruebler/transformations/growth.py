@@ -1,0 +1,139 @@
+"""How a chain grows by dyads: from a closed loop, or from a core in which there is no dyad left to take.
+
+A dyad of a closed chain is *removable* if every other link keeps two joints or more. Taking one away may spoil another
+(they share a neighbour with three joints), so in general the order matters and all are tried. For a sound chain with
+F = 1 it does not: docs/theory/transformations.md, "Growth".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from gruebler.chain import Chain
+from gruebler.errors import TransformationError
+from gruebler.mobility import counted, generic
+from gruebler.transformations.derivations import Derivation
+from gruebler.transformations.dyads import Insertion, dyad_at
+from gruebler.transformations.places import Place
+
+__all__ = ["Growth", "derive", "is_loop", "removable_dyads"]
+
+_BUDGET = 5_000  # chains looked at
+
+
+@dataclass(frozen=True)
+class Growth:
+    """How a chain grows by dyads."""
+
+    chain: Chain
+    derivation: Derivation
+    """From the loop or the core, dyad by dyad, to the chain."""
+    exact: bool
+    """False if the chain does not grow from a loop as far as was searched, but the search was cut short."""
+
+    @property
+    def core(self) -> Chain:
+        """The loop, or what is left when no dyad can be taken away."""
+        return self.derivation.start
+
+    @property
+    def from_loop(self) -> bool:
+        """Whether the chain grows from a closed loop by dyads alone."""
+        return is_loop(self.core)
+
+    def explain(self, lang: str = "en") -> str:
+        """In words, in English (``en``) or German (``de``)."""
+        from gruebler.transformations.messages import explain_growth
+
+        return explain_growth(self, lang)
+
+
+def is_loop(chain: Chain) -> bool:
+    """Whether the chain is one closed loop of binary links.
+
+    >>> is_loop(Chain.parse("R(0-1) R(1-2) P(2-0)"))
+    True
+    """
+    return not chain.multiple_joints and set(chain.degrees.values()) == {2}
+
+
+def removable_dyads(chain: Chain) -> Iterator[Insertion]:
+    """The dyads that can be taken away such that every link left keeps two joints or more.
+
+    >>> [dyad.links for dyad in removable_dyads(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))]
+    [('0', '1'), ('4', '5')]
+    """
+    if chain.n < 5:
+        return
+    degrees = chain.degrees
+    for joint in chain.joints:
+        if joint.count > 1 or any(degrees[link] != 2 for link in joint.links):
+            continue
+        x, y = joint.links
+        around = [j for link in (x, y) for j in chain.joints_of(link) if j is not joint]
+        if any(degrees[link] < 3 for j in around if j.count == 1 for link in j.links if link not in (x, y)):
+            continue
+        try:
+            yield dyad_at(chain, (x, y))
+        except TransformationError:
+            continue
+
+
+def derive(chain: Chain) -> Growth:
+    """How a chain grows by dyads from a closed loop; if it does not, from the smallest core that was found.
+
+    Exact: the answer that it does not is proved by trying all orders, or by the theorem for sound chains with F = 1.
+    Only for other chains of many dyads is the search cut short, and `Growth.exact` says so. Cost O(dyads · links) where
+    the order does not matter.
+
+    >>> growth = derive(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
+    >>> print(growth.core)
+    R(2-3) R(2-4) R(4-5) R(5-3)
+    """
+    best: list[Insertion] = []
+    seen: set[frozenset[str]] = set()
+    stack: list[tuple[Chain, list[Insertion]]] = [(chain, [])]
+    one_order: bool | None = None
+    complete = True
+    while stack:
+        here, taken = stack.pop()
+        if len(taken) > len(best):
+            best = taken
+        if is_loop(here):
+            best = taken
+            break
+        if len(seen) >= _BUDGET:
+            complete = False
+            break
+        dyads = list(removable_dyads(here))
+        if not dyads:
+            one_order = _order_does_not_matter(chain) if one_order is None else one_order
+            if one_order:
+                break
+        for dyad in reversed(dyads):
+            left = frozenset(dyad.rest.links)
+            if left not in seen:
+                seen.add(left)
+                stack.append((dyad.rest, [*taken, dyad]))
+    way = Derivation(best[-1].rest if best else chain)
+    for dyad in reversed(best):
+        places = [_same_place(dyad.rest, place, way.chain) for place in dyad.between]
+        way = way.then("insert_dyad", form=dyad.letters, between=places, links=list(dyad.links))
+    return Growth(chain, way, complete or is_loop(way.start))
+
+
+def _same_place(chain: Chain, place: Place, other: Chain) -> Place:
+    """The place in an equal chain with its joints in another order."""
+    if isinstance(place, str):
+        return place
+    joint = chain.joints[place]
+    return next(k for k, j in enumerate(other.joints) if j.pair == joint.pair and set(j.links) == set(joint.links))
+
+
+def _order_does_not_matter(chain: Chain) -> bool:
+    """Whether the chain is sound with F = 1: nothing redundant, and no two links rigid against each other."""
+    if chain.space.b != 3 or counted(chain) != 1:
+        return False
+    rank = generic(chain)
+    return rank.redundancy == 0 and len(rank.clusters) == chain.n

@@ -1,0 +1,20 @@
+"""From a chain of revolutes to typed chains and mechanisms that answer requirements, each once."""
+
+from gruebler.type_synthesis.assignment import assignments, every_joint_moves, joint_types
+from gruebler.type_synthesis.contacts import with_contacts
+from gruebler.type_synthesis.estimates import expected_seconds
+from gruebler.type_synthesis.requirements import Place, Requirements, Wanted
+from gruebler.type_synthesis.selection import typed_chains, variants
+
+__all__ = [
+    "Place",
+    "Requirements",
+    "Wanted",
+    "assignments",
+    "every_joint_moves",
+    "expected_seconds",
+    "joint_types",
+    "typed_chains",
+    "variants",
+    "with_contacts",
+]
