@@ -13,15 +13,15 @@ from gruebler import Chain, chains
 from gruebler.drawing.canvas import gallery_html
 from gruebler.drawing.canvas.gallery import Item, Section
 from gruebler.drawing.structure import draw
-from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.layout import Layout, lay_out
 
 Drawing = tuple[np.ndarray, list[tuple[int, ...]]]
 
 
-def bodies(chain: Chain) -> Bodies:
+def bodies(chain: Chain) -> LayoutBodies:
     held = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
-    return Bodies.of([0] * len(chain.joints), held)
+    return LayoutBodies.of([0] * len(chain.joints), held)
 
 
 def ours(chain: Chain) -> Drawing:

@@ -9,7 +9,7 @@ import numpy as np
 
 from benchmarks.motion import LEG, leg
 from gruebler.fourbar import FourBar
-from gruebler.geometry import CouplerCurve, centrodes, cognate_sizes, cognates, coupler_curve, poles, series
+from gruebler.geometry import CouplerCurve, centrodes, cognate_sizes, cognates, coupler_curve, poles, taylor_series
 from gruebler.kinematics import Motion, move
 from gruebler.statics import Loads, statics
 
@@ -98,7 +98,7 @@ def run() -> list[Row]:
             seconds(lambda: statics_row_by_row(simple, 3 - 8j), 2),
         ),
         Row(f"eight-bar, {ROWS:,} poses: statics", seconds(lambda: statics(motion, Loads({"foot": (3.0, -8.0)})), 3)),
-        Row(f"four-bar, {ROWS:,} poses: Taylor series to order 6", seconds(lambda: series(simple, 6), 3)),
+        Row(f"four-bar, {ROWS:,} poses: Taylor series to order 6", seconds(lambda: taylor_series(simple, 6), 3)),
         Row("coupler curve: polygon, length, area", seconds(lambda: _drawn(coupler_curve(four_bar, "K")))),
         Row("coupler curve: all events on it", seconds(lambda: _events(coupler_curve(four_bar, "K")))),
         Row("coupler curve as 10,000 points at equal steps of the crank", seconds(lambda: curve.trail.at(path, 0))),

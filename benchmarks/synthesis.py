@@ -10,7 +10,7 @@ import numpy as np
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import move
 from gruebler.synthesis import PathTask, PositionTask, synthesise_path
-from gruebler.synthesis.alt_burmester import PROBLEMS, generic, parameters, solutions
+from gruebler.synthesis.alt_burmester import PROBLEMS, load_generic_solutions, parameters, solutions
 from gruebler.synthesis.curves import fit_curve
 from gruebler.synthesis.dyads import Displacements, all_dyads
 
@@ -28,7 +28,7 @@ def seconds(run: Callable[[], object], repeat: int = 1) -> float:
 def finite_problems(tasks: int = 5) -> None:
     print(f"{'problem':36}{'by theorem':>11}{'found':>14}{'certified':>11}{'real':>10}{'time':>10}")
     for problem in reversed(PROBLEMS):
-        generic(problem)
+        load_generic_solutions(problem)
         rng = np.random.default_rng(7)
         found, good, real, times = [], [], [], []
         for _ in range(tasks):

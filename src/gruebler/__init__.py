@@ -54,7 +54,7 @@ if TYPE_CHECKING:
         PairError,
         SynthesisError,
     )
-    from gruebler.exercises import exercise, fresh, solve, teaching_table
+    from gruebler.exercises import exercise, generate, solve, teaching_table
     from gruebler.formats import read_linkage, write_linkage
     from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
     from gruebler.gears import GearError, Train, read_train
@@ -78,7 +78,7 @@ if TYPE_CHECKING:
     from gruebler.geometry.meyer_zur_capellen import lambdas_for, symmetric_rocker
     from gruebler.isomorphism import code, decode, find_isomorphism, is_isomorphic, symmetry
     from gruebler.kinematics import Circuit, Motion, circuit, degrees, four_bars, move, move_many
-    from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage, NonCircular, Wheel
+    from gruebler.linkages import CamDisc, Circle, GenevaDriver, GenevaWheel, Linkage, NonCircular, Wheel
     from gruebler.mechanism import Mechanism, check_drives
     from gruebler.mechanism.inversion import driven_mechanisms, inversions
     from gruebler.mobility import counted, generic_mobility, mobility_report
@@ -113,6 +113,7 @@ __all__ = [
     "AccessFeatures",
     "Alphabet",
     "Cam",
+    "CamDisc",
     "CamError",
     "CatalogError",
     "Chain",
@@ -120,11 +121,8 @@ __all__ = [
     "Circle",
     "Circuit",
     "CouplerCurve",
-    "Cross",
     "DeadCentreTask",
     "Demands",
-    "Disc",
-    "Driver",
     "Expression",
     "FourBar",
     "Freedoms",
@@ -132,7 +130,9 @@ __all__ = [
     "FunctionTask",
     "GearError",
     "Geneva",
+    "GenevaDriver",
     "GenevaError",
+    "GenevaWheel",
     "GrueblerError",
     "InvertedSliderCrank",
     "Joint",
@@ -195,9 +195,9 @@ __all__ = [
     "find_isomorphism",
     "four_bars",
     "freedom_report",
-    "fresh",
     "function_task",
     "gallery_html",
+    "generate",
     "generic_mobility",
     "guidance",
     "hodograph",
@@ -319,7 +319,7 @@ _ROOMS = {
     ),
     "exercises": (
         "exercise",
-        "fresh",
+        "generate",
         "solve",
         "teaching_table",
     ),
@@ -382,9 +382,9 @@ _ROOMS = {
     ),
     "linkages": (
         "Circle",
-        "Cross",
-        "Disc",
-        "Driver",
+        "GenevaWheel",
+        "CamDisc",
+        "GenevaDriver",
         "Linkage",
         "NonCircular",
         "Wheel",
@@ -464,7 +464,7 @@ def _picture(thing: Any) -> str:
     return str(getattr(import_module(f"gruebler.drawing.{room}"), name)(thing, **options).svg())
 
 
-notebook.picture = _picture
+notebook.svg_of = _picture
 
 
 def __getattr__(name: str) -> Any:

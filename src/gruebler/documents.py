@@ -14,7 +14,7 @@ from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
-__all__ = ["Failing", "fitted", "infinities_as_words", "load"]
+__all__ = ["Failing", "convert_document", "infinities_as_words", "load_document"]
 
 Failing = Callable[[str], Exception]
 """Makes the exception of a sentence."""
@@ -26,7 +26,7 @@ LARGEST = 1_000_000
 _DOTS = 100  # in one line of TOML: the parts of a dotted key cost the square of their number
 
 
-def load(path: Path, fail: Failing) -> Any:
+def load_document(path: Path, fail: Failing) -> Any:
     """The content of a ``.json`` file, or of any other as TOML; ``fail`` makes the exception for one that cannot be."""
     form = "JSON" if path.suffix.lower() == ".json" else "TOML"
     try:
@@ -80,14 +80,14 @@ def infinities_as_words(data: Any) -> Any:
     return str(data) if isinstance(data, float) and math.isinf(data) else data
 
 
-def fitted(data: object, kind: type[Record], fail: Failing, where: str = "") -> Record:
+def convert_document(data: object, kind: type[Record], fail: Failing, where: str = "") -> Record:
     """The record of plain data; ``fail`` gets the first key that does not fit, with ``where`` in front.
 
     >>> class Size(msgspec.Struct, forbid_unknown_fields=True):
     ...     width: float
-    >>> fitted({"width": 3}, Size, ValueError)
+    >>> convert_document({"width": 3}, Size, ValueError)
     Size(width=3.0)
-    >>> fitted({"widht": 3}, Size, ValueError)
+    >>> convert_document({"widht": 3}, Size, ValueError)
     Traceback (most recent call last):
         ...
     ValueError: unknown key 'widht'; did you mean 'width'?

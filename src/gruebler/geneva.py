@@ -184,7 +184,7 @@ class Geneva:
 
     def _repr_svg_(self) -> str | None:
         """The drive to scale, a pin on the line of centres, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     @property
     def _side(self) -> int:

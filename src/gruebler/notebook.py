@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import fields
 
-__all__ = ["Brief", "picture"]
+__all__ = ["Brief", "svg_of"]
 
-picture: Callable[[object], str] | None = None
+svg_of: Callable[[object], str] | None = None
 """Makes the SVG of a chain, mechanism, linkage or motion; None until the front door has set it."""
 
 

@@ -6,7 +6,7 @@ import re
 
 import msgspec
 
-__all__ = ["Text", "in_language"]
+__all__ = ["Text", "decimal_sign_in"]
 
 
 class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -20,10 +20,10 @@ class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         return self.de if lang == "de" else self.en
 
 
-def in_language(numbers: str, lang: str) -> str:
+def decimal_sign_in(numbers: str, lang: str) -> str:
     """Numbers and their units with the decimal sign of a language.
 
-    >>> in_language("1.5 mm", "de"), in_language("1.5 mm", "en")
+    >>> decimal_sign_in("1.5 mm", "de"), decimal_sign_in("1.5 mm", "en")
     ('1,5 mm', '1.5 mm')
     """
     return re.sub(r"(?<=\d)\.(?=\d)", ",", numbers) if lang == "de" else numbers

@@ -16,7 +16,7 @@ import gruebler
 from gruebler._numeric import compiling, kernel_cache
 from gruebler._numeric.compiling import compiled, for_work, interpreted, njit, on_compiling, price
 from gruebler._numeric.counting.bits import lowest, popcount
-from gruebler._numeric.lanes import choose, dot, give_back, lanes, number, square_root, subtract, taken, tally
+from gruebler._numeric.lanes import choose, complex_number, dot, give_back, lanes, square_root, subtract, taken, tally
 
 NUMERIC = Path(gruebler.__file__).parent / "_numeric"
 
@@ -72,14 +72,14 @@ def test_little_work_is_interpreted_and_much_is_compiled(monkeypatch: pytest.Mon
 
 def test_the_price_falls_when_a_kernel_lies_in_the_cache_or_is_there(monkeypatch: pytest.MonkeyPatch) -> None:
     from gruebler._numeric.layout import closest
-    from gruebler._numeric.motion.path import walk
+    from gruebler._numeric.motion.path import walk_path
 
     monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(compiling, "is_cached", lambda _: False)
     fresh = price(closest)
-    assert price(walk) > 3 * fresh > 1
+    assert price(walk_path) > 3 * fresh > 1
     monkeypatch.setattr(compiling, "is_cached", lambda _: True)
-    assert price(closest) == price(walk) < fresh
+    assert price(closest) == price(walk_path) < fresh
     monkeypatch.undo()
     compiled(_tripled)(1)
     assert price(_tripled) == 0
@@ -135,7 +135,7 @@ def _words(x: np.ndarray, out: np.ndarray) -> tuple[int, int, float]:
     for i in lanes(len(x)):
         root = square_root(x[i])
         count += tally(root >= 0)
-        z = number(x[i], 1.0)
+        z = complex_number(x[i], 1.0)
         out[0, i] = choose(z.real > 2, root, -z.imag)
     rows = taken(out)
     subtract(rows[1], 2.0, rows[0])

@@ -8,14 +8,14 @@ from gruebler._numeric.modular import (
     CoreTooLarge,
     P,
     echelon,
-    inverse,
     left_null_space,
     left_null_spaces,
+    modular_inverse,
+    modular_product,
     null_space,
     null_space_by_column,
-    product,
     random_solutions,
-    reduced,
+    reduced_echelon,
     transposed,
 )
 
@@ -29,7 +29,7 @@ def matrices(draw, largest=60):
     random = np.random.default_rng(draw(st.integers(0, 2**32)))
     left = random.integers(0, P, (m, rank)) * (random.random((m, rank)) < share)
     right = random.integers(0, P, (rank, n)) * (random.random((rank, n)) < share)
-    return product(left, right)
+    return modular_product(left, right)
 
 
 def sparse(matrix):
@@ -44,7 +44,7 @@ def plain_rank(matrix):
         if pivot is None:
             continue
         rows[done], rows[pivot] = rows[pivot], rows[done]
-        scale = inverse(rows[done][column])
+        scale = modular_inverse(rows[done][column])
         for i in range(done + 1, len(rows)):
             factor = rows[i][column] * scale % P
             if factor:
@@ -58,20 +58,20 @@ def plain_rank(matrix):
 def test_rank_null_spaces_and_reduced_form(matrix):
     m, n = matrix.shape
     form = echelon(sparse(matrix), n)
-    assert form.rank == plain_rank(matrix) == len(reduced(matrix))
+    assert form.rank == plain_rank(matrix) == len(reduced_echelon(matrix))
     basis = null_space(form)
     assert basis.shape == (n - form.rank, n)
-    assert not product(matrix, basis.T).any()
-    assert len(reduced(basis)) == len(basis)
+    assert not modular_product(matrix, basis.T).any()
+    assert len(reduced_echelon(basis)) == len(basis)
     turned = null_space(echelon(transposed(sparse(matrix), n), m))
     left = left_null_space(matrix)
-    assert not product(left, matrix).any()
-    assert np.array_equal(reduced(turned), reduced(left))
+    assert not modular_product(left, matrix).any()
+    assert np.array_equal(reduced_echelon(turned), reduced_echelon(left))
 
 
 @given(st.integers(1, P - 1))
 def test_inverse(a):
-    assert a * inverse(a) % P == 1
+    assert a * modular_inverse(a) % P == 1
 
 
 @pytest.mark.parametrize("size", [1, 7, 300])
@@ -79,17 +79,17 @@ def test_product_against_python_integers(size):
     random = np.random.default_rng(size)
     a, b = random.integers(0, P, (3, size)), random.integers(0, P, (size, 2))
     want = [[sum(int(x) * int(y) for x, y in zip(row, column, strict=True)) % P for column in b.T] for row in a]
-    assert product(a, b).tolist() == want
+    assert modular_product(a, b).tolist() == want
 
 
 def test_a_large_product_of_the_largest_residues():
     """Sums of products of doubles stay exact: every entry is n (P - 1)^2 = n modulo P."""
     n = 5000
     a = np.full((150, n), P - 1)
-    assert (product(a, a.T) == n).all()
+    assert (modular_product(a, a.T) == n).all()
     random = np.random.default_rng(4)
     a, b = random.integers(0, P, (90, 200)), random.integers(0, P, (200, 60))
-    assert (product(a, b) == (a.astype(object) @ b.astype(object) % P).astype(np.int64)).all()
+    assert (modular_product(a, b) == (a.astype(object) @ b.astype(object) % P).astype(np.int64)).all()
 
 
 @pytest.mark.parametrize(
@@ -100,12 +100,12 @@ def test_a_core_of_several_panels(m, n, rank):
     random = np.random.default_rng(m + n)
     left, right = random.integers(0, P, (m, rank)), random.integers(0, P, (rank, n))
     right[:, 3:110] *= random.random(right[:, 3:110].shape) < 0.02
-    matrix = product(left, right)
+    matrix = modular_product(left, right)
     form = echelon(sparse(matrix), n)
     assert form.rank == plain_rank(matrix)
     basis = null_space(form)
     assert len(basis) == n - form.rank
-    assert not product(matrix, basis.T).any()
+    assert not modular_product(matrix, basis.T).any()
 
 
 @pytest.mark.parametrize("dense", [True, False])
@@ -123,9 +123,9 @@ def test_null_spaces_by_column_and_random_solutions(monkeypatch, dense, matrix):
         written[members, column] = values
     assert np.array_equal(written, basis)
     some = random_solutions(form, 3)
-    assert not product(matrix, some).any()
+    assert not modular_product(matrix, some).any()
     assert np.array_equal(some.any(axis=1), basis.any(axis=0))
-    assert len(reduced(some.T)) == min(3, len(basis))
+    assert len(reduced_echelon(some.T)) == min(3, len(basis))
 
 
 def test_a_basis_with_too_many_entries_is_not_written_down(monkeypatch):
@@ -142,7 +142,7 @@ def test_left_null_spaces_side_by_side(height, many, seed):
     random = np.random.default_rng(seed)
     widths = random.integers(1, 6, many)
     stack = [random.integers(0, P, (height, w)) * (random.random((height, w)) < 0.5) for w in widths]
-    stack += [product(m[:, :1], random.integers(0, P, (1, 3))) for m in stack]
+    stack += [modular_product(m[:, :1], random.integers(0, P, (1, 3))) for m in stack]
     for found, matrix in zip(left_null_spaces(stack), stack, strict=True):
         assert np.array_equal(found, left_null_space(matrix))
 

@@ -16,7 +16,7 @@ import gruebler as gr
 from gruebler import _numeric
 from gruebler._numeric import compiling
 from gruebler._numeric.labelling.canonical import canonical_bulk, canonical_form
-from gruebler._numeric.motion.tracing import Scratch
+from gruebler._numeric.motion.tracing import TraceScratch
 from gruebler.analysis.rotatability import rotatability
 from gruebler.catalog import entry
 from gruebler.chain import Chain
@@ -29,16 +29,16 @@ from gruebler.kinematics.circuits import circuit
 from gruebler.kinematics.triads import assembly_modes
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
-from gruebler.synthesis.alt_burmester import PROBLEMS, follow, generic
+from gruebler.synthesis.alt_burmester import PROBLEMS, follow_from_generic, load_generic_solutions
 from tests.samples import CLASS_III, parallel_legs
 
 # Integers are equal. Numbers may differ in the last digits by powers, by divisions of complex numbers and by sums taken
 # in pairs: some units of 2e-16 for each operation, more where a root is near zero.
 CLOSE = 1e-11
 DOORS = {
-    "walk", "_designs", "closing", "newton", "settle", "trace", "evaluate", "jacobian", "label_graph", "adjacency",
-    "_label_all", "grow", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
-    "refine",
+    "walk_path", "_designs", "closing", "newton", "close_near_singular", "settle_on_curve", "trace_curve", "evaluate_pose", "evaluate_system", "jacobian", "label_graph", "adjacency",
+    "_label_all", "add_loop", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
+    "refine", "refine_solutions",
 }  # fmt: skip
 PARTS = {
     "_goes_on",
@@ -120,8 +120,8 @@ def work() -> None:
     assembly_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
     move_many(four_bars([25, 30], 70, 40, 70), gr.degrees(0, 60, 5), speed=1.0)
     for problem in PROBLEMS[2:]:  # four-bars through positions and points: a short way from known solutions
-        begin, z = generic(problem)
-        follow(problem, z[:2], begin, begin * (1.01 + 0.005j), 1e-3)
+        begin, z = load_generic_solutions(problem)
+        follow_from_generic(problem, z[:2], begin, begin * (1.01 + 0.005j), 1e-3)
 
 
 @cache
@@ -171,7 +171,7 @@ ROOM = {"work", "free", "lengths"}
 
 
 def agree(one: Any, other: Any) -> None:
-    if isinstance(one, Scratch):
+    if isinstance(one, TraceScratch):
         for name in set(one._fields) - ROOM:
             agree(getattr(one, name), getattr(other, name))
     elif isinstance(one, tuple):

@@ -10,13 +10,13 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.analysis import measures
-from gruebler.analysis.drive_cycle import Course, follow
+from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle
 from gruebler.analysis.events import change_points, crossings, dead_centres, transfer_function
 from gruebler.analysis.outputs import find_output
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.root_finding import bracketed, zeros
+from gruebler.kinematics.root_finding import bracketed_root, find_zeros
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from tests.samples import CLASS_III, CYLINDER, parallel_legs
@@ -92,7 +92,7 @@ def locked_rows(motion: Motion, row: int, links: tuple[str, str], joint: int | N
     return np.vstack(rows)
 
 
-def least_singular(course: Course, drive: float, links: tuple[str, str], joint: int | None = None) -> float:
+def least_singular(course: DriveCycle, drive: float, links: tuple[str, str], joint: int | None = None) -> float:
     values = np.linalg.svd(locked_rows(course.at(np.array([drive]), 1), 0, links, joint), compute_uv=False)
     return float(values[-1] / values[0])
 
@@ -102,7 +102,7 @@ def least_singular(course: Course, drive: float, links: tuple[str, str], joint: 
 
 def test_brackets_are_closed_to_rounding() -> None:
     roots = np.linspace(0.1, 5, 50)
-    found = bracketed(lambda x: np.expm1(x - roots) * (1 + x**2), roots - 0.7, roots + 1.9)
+    found = bracketed_root(lambda x: np.expm1(x - roots) * (1 + x**2), roots - 0.7, roots + 1.9)
     assert np.abs(found - roots).max() < 4e-15
 
 
@@ -111,15 +111,15 @@ def test_zeros_know_how_often_they_are_zeros() -> None:
         p = np.polynomial.Polynomial.fromroots([-1.5, 0.3, 0.3, 1.1, 1.1, 1.1, 2.0, 2.001])
         return np.stack([p(x), p.deriv()(x), p.deriv(2)(x)])
 
-    found = zeros(jet, np.linspace(-2, 3, 101) + 0.0123)
+    found = find_zeros(jet, np.linspace(-2, 3, 101) + 0.0123)
     assert [zero.multiplicity for zero in found] == [1, 2, 3, 1, 1]
     assert [zero.at for zero in found] == pytest.approx([-1.5, 0.3, 1.1, 2.0, 2.001], abs=1e-9)
     assert [zero.rises for zero in found if zero.multiplicity != 2] == [False, True, False, True]
 
 
 def test_a_jump_is_no_zero() -> None:
-    assert zeros(lambda x: np.sign(x - 0.501)[None] + 0.1, np.linspace(0, 1, 20)) == ()
-    assert zeros(lambda x: np.zeros((1, len(x))), np.linspace(0, 1, 20)) == ()
+    assert find_zeros(lambda x: np.sign(x - 0.501)[None] + 0.1, np.linspace(0, 1, 20)) == ()
+    assert find_zeros(lambda x: np.zeros((1, len(x))), np.linspace(0, 1, 20)) == ()
 
 
 # --- against closed forms ----------------------------------------------------------------------------
@@ -129,7 +129,7 @@ length = st.floats(0.2, 5)
 
 def check_centres(size: object, closed: object, branch: str) -> None:
     """Both dead centres of the general path against a closed form of branch +1; the other is its mirror image."""
-    course = follow(size.linkage(), branch)
+    course = drive_cycle(size.linkage(), branch)
     found = dead_centres(course, find_output(course.linkage))
     assert sorted(centre.side for centre in found) == ["inner", "outer"]
     for side in ("inner", "outer"):
@@ -168,7 +168,7 @@ def test_dead_centres_of_inverted_slider_cranks(d: float, share: float) -> None:
 
 def test_the_left_branch_of_a_slider_crank() -> None:
     size = SliderCrank(1.7, 6, 1.5)
-    course = follow(size.linkage(), "-")
+    course = drive_cycle(size.linkage(), "-")
     found = dead_centres(course, find_output(course.linkage))
     # turned by half a turn: s(phi, e) on branch - is -s(pi - phi, e) on branch +
     for centre in found:
@@ -179,7 +179,7 @@ def test_the_left_branch_of_a_slider_crank() -> None:
 
 @pytest.mark.parametrize("size", [FourBar(40, 70, 25, 70), FourBar(5, 4, 6, 7), SliderCrank(7, 5, 1)])
 def test_limits_of_the_drive(size: FourBar | SliderCrank) -> None:
-    course = follow(size.linkage())
+    course = drive_cycle(size.linkage())
     middle = (course.span.low + course.span.high) / 2
     arc = next(arc for arc in size.limits if middle in arc)
     assert [np.exp(1j * course.span.low), np.exp(1j * course.span.high)] == pytest.approx(
@@ -189,7 +189,7 @@ def test_limits_of_the_drive(size: FourBar | SliderCrank) -> None:
 
 
 def test_outputs_at_the_limits() -> None:
-    course = follow(FourBar(40, 70, 25, 70).linkage())
+    course = drive_cycle(FourBar(40, 70, 25, 70).linkage())
     output = find_output(course.linkage)
     for upper, sign in ((False, -1), (True, 1)):  # overlapping below, stretched above
         drive = course.span.high if upper else course.span.low
@@ -210,7 +210,7 @@ def test_outputs_at_the_limits() -> None:
     ],
 )
 def test_the_rank_falls_at_the_limits(linkage: Linkage, links: tuple[str, str], joint: int | None) -> None:
-    course = follow(linkage)
+    course = drive_cycle(linkage)
     low, width = course.span.low, course.span.width
     usual = least_singular(course, low + width / 2, links, joint)
     near = [least_singular(course, course.span.low + width * x, links, joint) for x in (1e-6, 1e-10)]
@@ -225,7 +225,7 @@ def test_the_rank_falls_at_the_limits(linkage: Linkage, links: tuple[str, str], 
     [(FourBar(2, 7, 4.5, 5.5).linkage(), "frame", "rocker"), (CLASS_III, "0", "4"), (CLASS_III, "0", "3")],
 )
 def test_the_rank_with_the_output_locked_falls_at_dead_centres(linkage: Linkage, frame: str, link: str) -> None:
-    course = follow(linkage)
+    course = drive_cycle(linkage)
     found = dead_centres(course, find_output(linkage, link))
     assert found
     for centre in found:
@@ -240,7 +240,7 @@ def test_the_rank_with_the_output_locked_falls_at_dead_centres(linkage: Linkage,
 
 @pytest.mark.parametrize("link", ["2", "h", "3", "4"])
 def test_a_class_three_linkage_against_sampling(link: str) -> None:
-    course = follow(CLASS_III)
+    course = drive_cycle(CLASS_III)
     margin = 1e-4 * course.span.width
     drives = np.linspace(course.span.low + margin, course.span.high - margin, 20_001)
     motion = move(CLASS_III, np.concatenate([[course.start.drives[0, 0]], drives]), order=2)
@@ -259,7 +259,7 @@ def test_a_class_three_linkage_against_sampling(link: str) -> None:
 
 def test_a_six_bar_that_dwells() -> None:
     linkage, phi = dwell_six_bar()
-    course = follow(linkage)
+    course = drive_cycle(linkage)
     output = find_output(linkage)
     found = dead_centres(course, output)
     flat = [centre for centre in found if centre.flat]
@@ -276,13 +276,13 @@ def test_a_six_bar_that_dwells() -> None:
 
 @pytest.mark.parametrize("branch", ["+", "-"])
 def test_change_points_of_a_parallelogram(branch: str) -> None:
-    course = follow(FourBar(25, 70, 25, 70).linkage(), branch)
+    course = drive_cycle(FourBar(25, 70, 25, 70).linkage(), branch)
     assert [np.exp(1j * point.drive) for point in change_points(course)] == pytest.approx([1, -1], abs=1e-10)
-    assert change_points(follow(FourBar(25, 70, 40, 70).linkage())) == ()
+    assert change_points(drive_cycle(FourBar(25, 70, 40, 70).linkage())) == ()
 
 
 def test_extremes_of_velocity_and_acceleration() -> None:
-    course = follow(FourBar(25, 70, 40, 70).linkage())
+    course = drive_cycle(FourBar(25, 70, 40, 70).linkage())
     output = find_output(course.linkage)
     phi = np.linspace(0, TURN, 100_001)
     closed = FourBar(25, 70, 40, 70).motion(phi).output
@@ -299,13 +299,13 @@ def test_zeros_after_a_full_turn_rise_too(start: float) -> None:
     """The rocker of a parallelogram turns with its crank: it rises through every multiple of a full turn."""
     size = FourBar(25, 70, 25, 70)
     linkage = size.linkage().with_home(move(size.linkage(), [start]).home())
-    found = crossings(follow(linkage), find_output(linkage), 0)
+    found = crossings(drive_cycle(linkage), find_output(linkage), 0)
     assert [(one.kind, round(one.value, 9)) for one in found] == [("rising", 1.0)]
 
 
 def test_zeros_of_the_output() -> None:
     size = InvertedSliderCrank(30, 50)
-    course = follow(size.linkage())
+    course = drive_cycle(size.linkage())
     found = crossings(course, find_output(course.linkage), 0)
     assert [np.exp(1j * c.drive) for c in found] == pytest.approx([1, -1], abs=1e-12)
     assert {c.kind for c in found} == {"rising", "falling"}
@@ -318,9 +318,9 @@ def test_what_has_no_course() -> None:
     five = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
     drawn = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (3, 4), "R(3-4)": (6, 2), "R(0-4)": (6, 0)}
     with pytest.raises(LinkageError, match="one drive"):
-        follow(Linkage.drawn(five, drawn))
+        drive_cycle(Linkage.drawn(five, drawn))
     with pytest.raises(LinkageError, match="cannot be assembled"):
-        follow(FourBar(1, 1, 1, 9).linkage())
+        drive_cycle(FourBar(1, 1, 1, 9).linkage())
     with pytest.raises(LinkageError, match="did you mean 'rocker'"):
         find_output(FourBar(2, 7, 4.5, 5.5).linkage(), "rockr")
 

@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.events import transfer_function
 from gruebler.analysis.measures import measures
 from gruebler.analysis.outputs import find_output
@@ -89,7 +89,7 @@ def test_transfer_functions_of_the_worked_example() -> None:
         ("+", 0.4785205278035138, 0.45135747093926994),
         ("-", -0.6938783961347902, 0.53925729838085616),
     ):
-        course = follow(FourBar(25, 70, 40, 70).linkage(), branch)
+        course = drive_cycle(FourBar(25, 70, 40, 70).linkage(), branch)
         output, at = find_output(course.linkage), np.array([55 * DEGREE])
         assert transfer_function(course, output, at, 1)[0] == pytest.approx(first, rel=1e-8)
         assert transfer_function(course, output, at, 2)[0] == pytest.approx(second, rel=1e-8)
@@ -97,15 +97,15 @@ def test_transfer_functions_of_the_worked_example() -> None:
 
 
 def test_transfer_functions_of_slider_cranks() -> None:
-    course = follow(SliderCrank(25, 70).linkage())
+    course = drive_cycle(SliderCrank(25, 70).linkage())
     output, at = find_output(course.linkage), np.array([55 * DEGREE])
     assert transfer_function(course, output, at, 1)[0] == pytest.approx(-24.865793126300107, rel=1e-8)
     assert transfer_function(course, output, at, 2)[0] == pytest.approx(-11.433459655269419, rel=1e-8)
     assert transmission_angle(course.at(at))[0] == pytest.approx(72.9890596257168 * DEGREE, rel=1e-8)
-    half = follow(SliderCrank(20, 50).linkage()).at(np.array([78.46304096718453 * DEGREE]))
+    half = drive_cycle(SliderCrank(20, 50).linkage()).at(np.array([78.46304096718453 * DEGREE]))
     assert half.slide("P(frame-slider)")[0] == pytest.approx(50, rel=1e-8)
     assert transmission_angle(half)[0] == pytest.approx(66.92608193436902 * DEGREE, rel=1e-8)
-    third = follow(SliderCrank(2, 5).linkage()).at(np.array([math.pi / 2]))
+    third = drive_cycle(SliderCrank(2, 5).linkage()).at(np.array([math.pi / 2]))
     assert third.slide("P(frame-slider)")[0] == pytest.approx(4.58257569495584, rel=1e-8)
 
 

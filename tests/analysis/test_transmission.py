@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.outputs import find_output
 from gruebler.analysis.transmission import deviation_angle, measure_transmission, transmission_angle
 from gruebler.errors import LinkageError
@@ -42,7 +42,7 @@ def test_along_the_motion(size: FourBar | SliderCrank | InvertedSliderCrank, bra
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("branch", "+-")
 def test_extremes(size: FourBar | SliderCrank | InvertedSliderCrank, branch: str) -> None:
-    course = follow(size.linkage(), branch)
+    course = drive_cycle(size.linkage(), branch)
     found = measure_transmission(course, find_output(course.linkage))
     assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest, abs=1e-12)
     dense = size.motion(np.linspace(0, 2 * math.pi, 100_001)).transmission_angle
@@ -58,14 +58,14 @@ def test_extremes_of_any_four_bar(a: float, b: float, c: float, d: float) -> Non
     sums = [a + b - c - d, a + c - b - d, a + d - b - c]
     assume(min(map(abs, sums)) > 0.05 and size.limits)
     assume(size.limits[0].width > 0.2)
-    course = follow(size.linkage())
+    course = drive_cycle(size.linkage())
     found = measure_transmission(course, find_output(course.linkage))
     # the closed form at a limit is 0 to the root of a rounding
     assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest, abs=1e-7)
 
 
 def test_a_cylinder_pushes_along_its_line() -> None:
-    course = follow(CYLINDER)
+    course = drive_cycle(CYLINDER)
     motion = course.at(np.linspace(2.0, 6.0, 41), 2)
     point = motion.complex_point("R(4-2)")
     lever, line = point - 4, point
@@ -89,7 +89,7 @@ def test_a_scotch_yoke_is_driven_at_right_angles() -> None:
 
 
 def test_larger_groups_are_measured_at_the_leg_on_the_moving_side() -> None:
-    course = follow(CLASS_III)
+    course = drive_cycle(CLASS_III)
     motion = course.at(np.linspace(course.span.low + 0.01, course.span.high - 0.01, 2001), 2)
     mu = transmission_angle(motion, "4")
     force = motion.complex_point("R(2-h)") - motion.complex_point("R(1-2)")
@@ -118,7 +118,7 @@ def test_virtual_work_at_the_driving_leg() -> None:
 
 
 def test_where_there_is_none() -> None:
-    course = follow(FourBar(2, 7, 4.5, 5.5).linkage())
+    course = drive_cycle(FourBar(2, 7, 4.5, 5.5).linkage())
     with pytest.raises(LinkageError, match="moved by the drive itself"):
         measure_transmission(course, find_output(course.linkage, "crank"))
     with pytest.raises(LinkageError, match="order=2"):

@@ -11,7 +11,7 @@ from gruebler.assur import AssurError, AssurGroup, assur_groups, decompose, driv
 from gruebler.isomorphism import find_isomorphism
 from gruebler.mechanism import Drive, Mechanism, check_drives
 from gruebler.mobility import generic
-from gruebler.mobility.placement import Lock
+from gruebler.mobility.placement import LockedFreedom
 from gruebler.transformations import insert_group
 from tests.assur.oracles import blocks_by_subsets, closed_chains
 from tests.strategies import PLANAR, built_mechanisms, chains, renumbered
@@ -112,7 +112,7 @@ def test_complete_exactly_if_the_drives_fix_the_motion_and_nothing_is_redundant(
     ]
     mechanism = Mechanism(chain, frame, drives)
     found = decompose(mechanism)
-    rank = generic(chain, [Lock(d.joint, d.direction, d.between) for d in drives])
+    rank = generic(chain, [LockedFreedom(d.joint, d.direction, d.between) for d in drives])
     assert found.complete == (rank.mobility == 0 and rank.redundancy == 0)
     assert found.overconstrained == (rank.redundancy > 0)
     if found.overconstrained:

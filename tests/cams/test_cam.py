@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler.cams import Cam, CamError, Flat, Lift, Roller, SmoothContour, dwell, follow, motion, read_lift
+from gruebler.cams import Cam, CamError, Flat, Lift, Roller, SmoothContour, dwell, follower_motion, motion, read_lift
 
 LENGTHS = read_lift("rise 20 80 3-4-5; dwell 40; fall 20 100 cycloidal; dwell")
 ANGLES = read_lift("rise 0.1 80 4-5-6-7; dwell 40; fall 0.1 100 modified-sine; dwell")
@@ -28,7 +28,7 @@ TURN = np.radians(np.arange(0.5, 360, 1.0))
 @everywhere
 def test_the_profile_gives_the_lift_back(cam):
     """The contact is sought on the profile as on any contour, without knowing the lift."""
-    found = follow(SmoothContour.of(cam.profile), cam.follower, TURN)
+    found = follower_motion(SmoothContour.of(cam.profile), cam.follower, TURN)
     wanted = [cam.lift.at(TURN, order) for order in range(3)]
     wanted[0] = wanted[0] + cam.start
     for got, want, most, usual in zip(found, wanted, (1e-8, 1e-4, 1e-2), (1e-10, 1e-7, 1e-4), strict=True):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler.cams import Arc, ArcContour, CamError, Flat, Roller, SmoothContour, follow, tangent_cam
+from gruebler.cams import ArcContour, CamError, ContourArc, Flat, Roller, SmoothContour, follower_motion, tangent_cam
 
 FOLLOWERS = [
     Flat(),
@@ -29,9 +29,9 @@ def circle(samples=1440):
 
 @given(st.floats(0, 20), st.floats(31, 60), st.floats(0, 15), st.floats(-8, 8), st.floats(0, 6))
 def test_the_eccentric_in_closed_form(eccentricity, radius, roller, offset, phi):
-    contour = ArcContour([Arc(0.0, complex(eccentricity), radius)])
+    contour = ArcContour([ContourArc(0.0, complex(eccentricity), radius)])
     x, y, reach = eccentricity * math.cos(phi), eccentricity * math.sin(phi), radius + roller
-    flat, guided = follow(contour, Flat(), phi), follow(contour, Roller(roller, offset=offset), phi)
+    flat, guided = follower_motion(contour, Flat(), phi), follower_motion(contour, Roller(roller, offset=offset), phi)
     assert [float(one) for one in flat] == pytest.approx([radius + y, x, -y], abs=1e-9)
     # s = y + w with w^2 = reach^2 - (offset - x)^2, x' = -y, y' = x
     u = offset - x
@@ -49,7 +49,7 @@ def test_a_tangent_cam_of_the_books():
     # The nose is up when the cam has turned by 90 degrees; theta from there.
     flank_end = half - math.atan2(math.sqrt(distance**2 - (base - nose) ** 2), base + roller)
     theta = np.linspace(0, half, 400)[1:-1]
-    found = follow(contour, Roller(roller), math.pi / 2 - theta)
+    found = follower_motion(contour, Roller(roller), math.pi / 2 - theta)
     flank = half - theta
     on_flank = flank < half - flank_end - 1e-9
     lift = (base + roller) / np.cos(flank)
@@ -68,7 +68,7 @@ def test_a_tangent_cam_of_the_books():
 def test_rates_are_derivatives(contour, follower):
     """Away from the jumps of curvature; there the median counts."""
     h = 1e-5
-    before, here, after = (follow(contour, follower, TURN + k * h) for k in (-1, 0, 1))
+    before, here, after = (follower_motion(contour, follower, TURN + k * h) for k in (-1, 0, 1))
     for order in (0, 1):
         slope = (after[order] - before[order]) / (2 * h)
         scale = np.abs(here[order + 1]).max()
@@ -79,8 +79,8 @@ def test_rates_are_derivatives(contour, follower):
 
 @each
 def test_arcs_and_splines_are_rivals(follower):
-    exact = follow(ArcContour([Arc(0.0, 10 + 4j, 30.0)]), follower, TURN)
-    for got, want, slack in zip(follow(circle(), follower, TURN), exact, (1e-9, 1e-7, 1e-5), strict=True):
+    exact = follower_motion(ArcContour([ContourArc(0.0, 10 + 4j, 30.0)]), follower, TURN)
+    for got, want, slack in zip(follower_motion(circle(), follower, TURN), exact, (1e-9, 1e-7, 1e-5), strict=True):
         assert np.abs(got - want).max() < slack * max(1.0, np.abs(want).max())
 
 
@@ -93,7 +93,7 @@ def test_the_follower_touches_and_does_not_cut(follower):
         parts.append(arc.centre + arc.radius * np.exp(1j * np.linspace(arc.start, arc.start + span, 4000)))
     points = np.concatenate(parts)
     phi = TURN[::5]
-    s = follow(EGG, follower, phi).coordinate
+    s = follower_motion(EGG, follower, phi).coordinate
     turned = points[None, :] * np.exp(1j * phi)[:, None]
     if isinstance(follower, Roller):
         room = np.abs(turned - follower.path(s).at[:, None]) - follower.radius
@@ -111,7 +111,7 @@ def test_a_hollow_contour_is_bridged_by_a_flat_face():
     hollow = SmoothContour.of(lambda u: (30 + 4 * np.cos(2 * u))[:, None] * np.stack([np.cos(u), np.sin(u)], axis=-1))
     r = 30 + 4 * np.cos(2 * np.linspace(0, math.tau, 20001))
     points = r * np.exp(1j * np.linspace(0, math.tau, 20001))
-    found = follow(hollow, Flat(), TURN).coordinate
+    found = follower_motion(hollow, Flat(), TURN).coordinate
     highest = np.imag(points[None, :] * np.exp(1j * TURN)[:, None]).max(axis=1)
     assert found == pytest.approx(highest, abs=1e-5)
 
@@ -120,7 +120,7 @@ def test_points_in_either_sense_and_closed_or_not():
     u = np.linspace(0, math.tau, 241)
     table = np.stack([10 + 30 * np.cos(u), 30 * np.sin(u)], axis=1)
     table[-1] = table[0]
-    results = [follow(SmoothContour.through(t), Flat(), TURN) for t in (table, table[:-1], table[::-1])]
+    results = [follower_motion(SmoothContour.through(t), Flat(), TURN) for t in (table, table[:-1], table[::-1])]
     for one in results:
         assert one.coordinate == pytest.approx(30 + 10 * np.sin(TURN), abs=1e-5)
         assert one.acceleration == pytest.approx(-10 * np.sin(TURN), abs=0.05)
@@ -130,23 +130,26 @@ def test_points_in_either_sense_and_closed_or_not():
     ("make", "words"),
     [
         (lambda: ArcContour([]), "at least one arc"),
-        (lambda: ArcContour([Arc(0, 0j, -1)]), "no negative radius"),
-        (lambda: ArcContour([Arc(0, 0j, math.nan)]), "finite"),
-        (lambda: ArcContour([Arc(1, 0j, 5), Arc(0, 1 + 0j, 5)]), "counter-clockwise"),
-        (lambda: ArcContour([Arc(0, 0j, 5), Arc(1, 9 + 0j, 5)]), "no common tangent"),
+        (lambda: ArcContour([ContourArc(0, 0j, -1)]), "no negative radius"),
+        (lambda: ArcContour([ContourArc(0, 0j, math.nan)]), "finite"),
+        (lambda: ArcContour([ContourArc(1, 0j, 5), ContourArc(0, 1 + 0j, 5)]), "counter-clockwise"),
+        (lambda: ArcContour([ContourArc(0, 0j, 5), ContourArc(1, 9 + 0j, 5)]), "no common tangent"),
         (lambda: SmoothContour.through([[0, 1], [1, 0]]), "at least four points"),
         (lambda: SmoothContour.through([[1, 2, 3]] * 5), "two finite numbers"),
         (lambda: SmoothContour.through([[1, 2]] * 5), "neighbours different"),
         (lambda: SmoothContour.through([[5, 5], [6, 5], [6, 6], [5, 6]]), "once around the cam's axis"),
         (lambda: SmoothContour.of(lambda u: u), "points x, y for 1440 angles"),
-        (lambda: follow(EGG, Roller(2, offset=200), 0.0), "does not meet the contour at 0 degrees"),
-        (lambda: follow(circle(), Roller(2, offset=200), 0.0), "does not meet the contour"),
-        (lambda: follow(EGG, Flat(), math.nan), "expected finite numbers, not nan"),
-        (lambda: follow(EGG, Flat(), "now"), "expected finite numbers, not 'now'"),
+        (lambda: follower_motion(EGG, Roller(2, offset=200), 0.0), "does not meet the contour at 0 degrees"),
+        (lambda: follower_motion(circle(), Roller(2, offset=200), 0.0), "does not meet the contour"),
+        (lambda: follower_motion(EGG, Flat(), math.nan), "expected finite numbers, not nan"),
+        (lambda: follower_motion(EGG, Flat(), "now"), "expected finite numbers, not 'now'"),
         (lambda: ArcContour.hull([]), "at least one circle"),
         (lambda: ArcContour.hull([(0j, math.inf)]), "finite"),
         (lambda: tangent_cam(20, -3, 30), "no negative radius"),
-        (lambda: follow(ArcContour([Arc(0.0, 19 + 0j, 21.0)]), Roller(offset=-2), 0.0), "jams at 0 degrees"),
+        (
+            lambda: follower_motion(ArcContour([ContourArc(0.0, 19 + 0j, 21.0)]), Roller(offset=-2), 0.0),
+            "jams at 0 degrees",
+        ),
     ],
 )
 def test_absurd_contours_are_refused(make, words):

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from gruebler.cams import LAWS, Cam, CamError, Roller, boundary_law, law, polynomial_law, read_lift
+from gruebler.cams import LAWS, Cam, CamError, Roller, boundary_law, motion_law, polynomial_law, read_lift
 from gruebler.cams.extremes import extremes, roots
 
 RESTING = ["3-4-5", "4-5-6-7", "5-6-7-8-9", "cycloidal", "modified-sine", "modified-trapezoid", "harmonic", "parabolic"]
@@ -27,7 +27,7 @@ RESTING = ["3-4-5", "4-5-6-7", "5-6-7-8-9", "cycloidal", "modified-sine", "modif
 )
 def test_printed_peaks(name, velocity, acceleration, jerk, torque):
     """VDI 2143 part 1, table of the normalised laws; Norton, Design of Machinery, table 8-2 and 8-3."""
-    peaks = law(name).peaks()
+    peaks = motion_law(name).peaks()
     assert peaks.velocity == pytest.approx(velocity, abs=5e-5)
     assert peaks.acceleration == pytest.approx(acceleration, abs=5e-5)
     assert peaks.jerk == pytest.approx(jerk, abs=5e-3)
@@ -36,16 +36,18 @@ def test_printed_peaks(name, velocity, acceleration, jerk, torque):
 
 def test_peaks_in_closed_form():
     pi = math.pi
-    assert law("3-4-5").peaks()[:3] == pytest.approx((15 / 8, 10 / math.sqrt(3), 60), rel=1e-12)
-    assert law("cycloidal").peaks()[:3] == pytest.approx((2, 2 * pi, 4 * pi**2), rel=1e-12)
-    assert law("modified-sine").peaks()[1:3] == pytest.approx((4 * pi**2 / (pi + 4), 16 * pi**3 / (pi + 4)), rel=1e-12)
-    trapezoid = law("modified-trapezoid").peaks()
+    assert motion_law("3-4-5").peaks()[:3] == pytest.approx((15 / 8, 10 / math.sqrt(3), 60), rel=1e-12)
+    assert motion_law("cycloidal").peaks()[:3] == pytest.approx((2, 2 * pi, 4 * pi**2), rel=1e-12)
+    assert motion_law("modified-sine").peaks()[1:3] == pytest.approx(
+        (4 * pi**2 / (pi + 4), 16 * pi**3 / (pi + 4)), rel=1e-12
+    )
+    trapezoid = motion_law("modified-trapezoid").peaks()
     assert trapezoid[1:3] == pytest.approx((8 * pi / (pi + 2), 32 * pi**2 / (pi + 2)), rel=1e-12)
 
 
 @pytest.mark.parametrize("name", RESTING)
 def test_from_rest_to_rest(name):
-    one = law(name)
+    one = motion_law(name)
     assert one.at([0.0, 1.0]) == pytest.approx([0, 1], abs=1e-12)
     assert one.at([0.0, 1.0], 1) == pytest.approx([0, 0], abs=1e-12)
     x = np.linspace(0, 1, 501)
@@ -56,7 +58,7 @@ def test_from_rest_to_rest(name):
 @pytest.mark.parametrize("name", RESTING)
 def test_pieces_join(name):
     """Lift and velocity never jump; the acceleration only where the parabola changes its sign."""
-    one = law(name)
+    one = motion_law(name)
     for before, after in zip(one.pieces, one.pieces[1:], strict=False):
         at = np.array(after.start)
         for order in range(2 if name == "parabolic" else 3):
@@ -65,7 +67,7 @@ def test_pieces_join(name):
 
 @given(st.sampled_from(RESTING), st.floats(0.001, 0.999), st.integers(0, 2))
 def test_derivatives(name, x, order):
-    one, h = law(name), 1e-6
+    one, h = motion_law(name), 1e-6
     assume(min(abs(x - joint) for joint in one.joints) > 2 * h)
     slope = (one.at(x + h, order) - one.at(x - h, order)) / (2 * h)
     assert slope == pytest.approx(float(one.at(x, order + 1)), abs=1e-6 * 10 ** (order + 1))
@@ -91,9 +93,9 @@ def test_two_ways_to_a_polynomial(powers):
 
 
 def test_names():
-    assert all(law(name) == law(target) for name, target in LAWS.items())
-    assert law("2-3").peaks()[:2] == pytest.approx((1.5, 6))
-    assert law("Cycloidal") == law("sine")
+    assert all(motion_law(name) == motion_law(target) for name, target in LAWS.items())
+    assert motion_law("2-3").peaks()[:2] == pytest.approx((1.5, 6))
+    assert motion_law("Cycloidal") == motion_law("sine")
 
 
 @given(st.lists(st.tuples(st.floats(0.1, 3), st.integers(1, 9), st.floats(0, 6)), min_size=1, max_size=4))
@@ -119,11 +121,11 @@ def test_roots_and_poles():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: law("cycloid"), "did you mean 'cycloidal'"),
-        (lambda: law(""), "no law is called ''"),
-        (lambda: law("3-3-5"), "different"),
-        (lambda: law("0-4"), "whole powers from 1 to 15"),
-        (lambda: law("99"), "whole powers"),
+        (lambda: motion_law("cycloid"), "did you mean 'cycloidal'"),
+        (lambda: motion_law(""), "no law is called ''"),
+        (lambda: motion_law("3-3-5"), "different"),
+        (lambda: motion_law("0-4"), "whole powers from 1 to 15"),
+        (lambda: motion_law("99"), "whole powers"),
         (polynomial_law, "whole powers"),
         (lambda: polynomial_law(2.5), "whole powers"),
         (lambda: boundary_law((), (1,)), "boundary values"),

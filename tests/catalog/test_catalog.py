@@ -7,9 +7,19 @@ import numpy as np
 import pytest
 
 from gruebler import CatalogError, Chain
-from gruebler.catalog import Query, catalog_folder, check, check_all, check_entry, entries, entry, exercises, search
+from gruebler.catalog import (
+    Query,
+    catalog_folder,
+    check_all,
+    check_claims,
+    check_entry,
+    entries,
+    entry,
+    exercises,
+    search,
+)
 from gruebler.formats import Claims, read_entry
-from gruebler.formats.linkages import linkage_from_json, to_json
+from gruebler.formats.linkages import linkage_from_json, linkage_to_json
 from gruebler.isomorphism import is_isomorphic
 from gruebler.kinematics import move
 from gruebler.mobility import pebble_mobility, theorem
@@ -146,7 +156,7 @@ def test_a_wrong_claim_names_key_printed_and_derived(tmp_path):
         "claims.counted: printed 2, derived 1",
         "claims.reason: printed none, derived a mobility other than the generic one needs a reason",
     ]
-    low = check(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), Claims(mobility=0), id="x")
+    low = check_claims(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), Claims(mobility=0), id="x")
     assert str(low.wrong[0]) == "claims.mobility: printed 0, derived at least 1"
 
 
@@ -202,7 +212,7 @@ def test_every_machine_with_dimensions_moves(record):
         abs(motion.places[0, :, k] - motion.places[0, 0, k]).max() + abs(motion.turns[:, k] - motion.turns[0, k]).max()
         > 0.1
     )
-    assert linkage_from_json(to_json(motion.linkage)) == motion.linkage
+    assert linkage_from_json(linkage_to_json(motion.linkage)) == motion.linkage
 
 
 def test_dimensions_say_where_they_come_from():

@@ -18,9 +18,9 @@ from gruebler.catalog.feature_query import (
 )
 from gruebler.catalog.features import access_features
 from gruebler.chain.pairs import pair
-from gruebler.enumeration import count
+from gruebler.enumeration import count_request
 from gruebler.mechanism.inversion import inversions
-from gruebler.type_synthesis import Requirements, Wanted, typed_chains, variants
+from gruebler.type_synthesis import JointRequirement, Requirements, typed_chains, variants
 
 
 def number(**features):
@@ -49,7 +49,7 @@ def test_the_collection_sheet_001():
 @pytest.mark.parametrize(("links", "chains", "frames"), [(4, 1, 1), (6, 2, 5), (8, 16, 71), (10, 230, 1834)])
 def test_known_counts(links, chains, frames):
     assert number(links=links) == frames
-    found = count(links, orbits=True)
+    found = count_request(links, orbits=True)
     assert (found.chains, found.inversions) == (chains, frames)
     if links < 10:
         assert number(links=links, drive_joints=1, drive_joints_at_frame=1) == found.drives
@@ -57,11 +57,11 @@ def test_known_counts(links, chains, frames):
 
 def test_against_the_variants():
     """Two roads to one number, with slides, contacts, outputs."""
-    drive = (Wanted.parse("@frame"),)
+    drive = (JointRequirement.parse("@frame"),)
     for features, wanted in (
         ({"pairs": read_pairs("S:1")}, Requirements(6, prismatic=1, drives=drive)),
         ({"pairs": read_pairs("P:2"), "output_links_at_frame": 0},
-         Requirements(6, prismatic=2, drives=drive, output=Wanted.parse("@moving"))),
+         Requirements(6, prismatic=2, drives=drive, output=JointRequirement.parse("@moving"))),
         ({"links": 5, "pairs": read_pairs("G:1")}, Requirements(5, roll_slide=1, drives=drive)),
         ({"multiple_joints": 1}, Requirements(6, multiple_joints=1, drives=drive)),
     ):  # fmt: skip

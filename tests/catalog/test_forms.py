@@ -7,7 +7,7 @@ import pytest
 
 from gruebler.catalog import entries, entry
 from gruebler.kinematics.noncircular import transfer_of
-from gruebler.linkages.elements import Cross, Driver, NonCircular, Pin, Wheel
+from gruebler.linkages.elements import GenevaDriver, GenevaWheel, NonCircular, Pin, Wheel
 
 BOTH = [id for id, record in entries().items() if record.dimensions is not None and record.screws is not None]
 
@@ -16,7 +16,7 @@ def of_dimensions(linkage):
     """Link -> joint -> centre on the link; joint -> radius for each link."""
     centres, radii = {}, {}
     for (number, link), element in linkage.elements.items():
-        assert isinstance(element, Pin | Wheel | Driver | Cross | NonCircular), element
+        assert isinstance(element, Pin | Wheel | GenevaDriver | GenevaWheel | NonCircular), element
         centres.setdefault(link, {})[number] = np.array([element.x, element.y])
         if isinstance(element, NonCircular):
             beyond, radii[number, link] = of_ellipse(linkage, number, link)
@@ -67,7 +67,7 @@ def test_dimensions_and_screws_agree(id):
     linkage, spatial = record.linkage(), record.placed()
     (centres, radii), (there, measured) = of_dimensions(linkage), of_screws(spatial)
     assert measured == pytest.approx(radii, rel=1e-12)
-    slots = {number: e.slots for (number, _), e in linkage.elements.items() if isinstance(e, Cross)}
+    slots = {number: e.slots for (number, _), e in linkage.elements.items() if isinstance(e, GenevaWheel)}
     for number, many in slots.items():  # the pin: on the circle about the driver's axis, and in the slot
         driver, cross = linkage.mechanism.chain.joints[number].links
         axes = [

@@ -7,7 +7,7 @@ from gruebler.cli.geometry_columns import curvature_columns
 from gruebler.formats.linkages import write_linkage
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
 from tests.cli.test_analyse import CRANK_ROCKER, run, table
 
@@ -56,7 +56,7 @@ def test_inflection_circles_of_all_floating_links(capsys):
     _, found = table(capsys, CRANK_ROCKER, "--at", "55", "--curvature")
     assert [name for name in found if "inflection" in name] == ["inflection circle coupler mm"]
     motion = move(FourBar(25, 70, 40, 70).linkage(), np.radians([55.0]), order=2)
-    made = curvature_columns(motion, [Named("coupler", 45.0, 40.0)])
+    made = curvature_columns(motion, [LinkPoint("coupler", 45.0, 40.0)])
     assert made[0].name == "coupler:45,40 radius of curvature"
     assert made[-1].values == pytest.approx(found["inflection circle coupler mm"])
 

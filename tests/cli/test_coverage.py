@@ -46,16 +46,16 @@ def test_no_row_is_missing_and_none_is_empty():
     assert len(CONCEPTS) == 60
     for wanted in CONCEPTS:
         where, word = wanted.split(" ", 1) if not wanted.startswith("Bild") else (wanted[:8], wanted[9:])
-        assert any(row.where.startswith(where) and word in row.de for row in coverage.rows()), wanted
-    machines = {row.where: row for row in coverage.rows()}
+        assert any(row.where.startswith(where) and word in row.de for row in coverage.coverage_rows()), wanted
+    machines = {row.where: row for row in coverage.coverage_rows()}
     assert set(entries()) <= set(machines)
-    assert [row.where for row in coverage.rows() if not row.commands and not row.functions] == []
+    assert [row.where for row in coverage.coverage_rows() if not row.commands and not row.functions] == []
     for id in entries():
         assert (f"catalog show {id} --full", 0) in machines[id].commands
 
 
 def test_every_function_is_there():
-    names = {name for row in coverage.rows() for name in row.functions}
+    names = {name for row in coverage.coverage_rows() for name in row.functions}
     assert [name for name in sorted(names) if coverage.find_function(name) is None] == []
     assert coverage.find_function("gruebler.Chain.parse") is not None
     assert coverage.find_function("gruebler.Chain.no_such_thing") is None
@@ -65,7 +65,7 @@ def test_every_function_is_there():
 def test_every_command_is_understood():
     """Parsed without being run, so that a word that no parser knows fails in the fast tests."""
     parser = build_parser()
-    for row in coverage.rows():
+    for row in coverage.coverage_rows():
         for command, wanted in row.commands:
             if wanted != 2:
                 parser.parse_args(shlex.split(command))
@@ -73,7 +73,7 @@ def test_every_command_is_understood():
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("command", "wanted"), sorted({one for row in coverage.rows() for one in row.commands}), ids=str
+    ("command", "wanted"), sorted({one for row in coverage.coverage_rows() for one in row.commands}), ids=str
 )
 def test_every_command_does_it(command, wanted):
     outcome = coverage.execute(command, wanted)
@@ -104,7 +104,7 @@ def test_what_is_missing_is_said(run, monkeypatch):
         coverage.Row("x", "empty", "leer", (), ()),
         coverage.Row("y", "wrong", "falsch", (("check no-such-machine", 0),), ("gruebler.no_such_thing",)),
     )
-    monkeypatch.setattr(coverage, "rows", lambda: rows)
+    monkeypatch.setattr(coverage, "coverage_rows", lambda: rows)
     status, out = run()
     assert status == 1
     assert "NOTHING DOES IT" in out
@@ -118,7 +118,7 @@ def test_a_strange_machine_is_refused(monkeypatch, tmp_path):
     text = '[[concepts]]\nwhere = "1"\nde = "x"\nen = "x"\n[[machines]]\nid = "unicorn"\n'
     (tmp_path / "coverage.toml").write_text(text, encoding="utf-8")
     monkeypatch.setattr(coverage, "catalog_folder", lambda: tmp_path)
-    coverage.rows.cache_clear()
+    coverage.coverage_rows.cache_clear()
     with pytest.raises(CatalogError, match="no entry 'unicorn'"):
-        coverage.rows()
-    coverage.rows.cache_clear()
+        coverage.coverage_rows()
+    coverage.coverage_rows.cache_clear()

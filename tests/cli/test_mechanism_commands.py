@@ -8,7 +8,7 @@ import pytest
 from gruebler.cli import main
 from gruebler.formats.linkages import read_linkage
 from gruebler.mechanism import Mechanism
-from gruebler.mechanism.inversion import Driven
+from gruebler.mechanism.inversion import DrivenMechanism
 
 
 def run(capsys, *arguments):
@@ -84,7 +84,7 @@ def test_printed_lines_are_read_again(capsys, monkeypatch, tmp_path, arguments, 
     lines = printed.splitlines()
     assert (status, len(lines)) == (0, number)
     if ";" in lines[0]:
-        assert [Driven.parse(line).text() for line in lines] == lines
+        assert [DrivenMechanism.parse(line).text() for line in lines] == lines
     monkeypatch.setattr("sys.stdin", io.StringIO(printed))
     status, out, _ = run(capsys, "check", "-", "--json")
     assert (status, [one["name"] for one in json.loads(out)]) == (0, lines)

@@ -15,7 +15,7 @@ from gruebler.catalog import entry
 from gruebler.cli import animate
 from gruebler.drawing.linkage.animation import animated_svg, scene
 from gruebler.drawing.linkage.animation_page import animated_page
-from gruebler.drawing.linkage.posed_linkage import staged
+from gruebler.drawing.linkage.posed_linkage import posed_linkage
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.linkages import Linkage
@@ -51,7 +51,7 @@ def between(values):
     ],
 )
 def test_joints_are_where_the_kinematics_put_them(linkage, joints):
-    stage = staged(linkage)
+    stage = posed_linkage(linkage)
     wanted = [stage.path.complex_point(name) * stage.scale for name in joints]
     found = []
     for shifts, turns, circles in groups(animated_svg(linkage)):
@@ -61,7 +61,7 @@ def test_joints_are_where_the_kinematics_put_them(linkage, joints):
 
 
 def test_pins_hardly_move_in_the_links_between_two_keys():
-    stage = staged(CRANK_ROCKER)
+    stage = posed_linkage(CRANK_ROCKER)
     moved = {}
     for link, length in {"crank": 25, "coupler": 70, "rocker": 40}.items():
         origin = stage.scale * stage.path.places[0, :, stage.lower.mechanism.chain.index(link)]

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler.drawing.canvas.axes import angles, decades, decimals, said
+from gruebler.drawing.canvas.axes import angles, decades, decimals, tick_labels
 
 values = st.floats(-1e6, 1e6, allow_subnormal=False)
 
@@ -47,6 +47,6 @@ def test_decades_go_from_power_to_power(low, factor):
 
 
 def test_numbers_are_told_with_the_places_of_their_step():
-    assert said((0.0, 0.5, 1.0), 0.5) == ("0.0", "0.5", "1.0")
-    assert said((-20.0, 0.0), 20.0) == ("−20", "0")
-    assert said((0.0, 5e-6), 5e-6) == ("0", "5×10⁻⁶")
+    assert tick_labels((0.0, 0.5, 1.0), 0.5) == ("0.0", "0.5", "1.0")
+    assert tick_labels((-20.0, 0.0), 20.0) == ("−20", "0")
+    assert tick_labels((0.0, 5e-6), 5e-6) == ("0", "5×10⁻⁶")

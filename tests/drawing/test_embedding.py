@@ -7,8 +7,8 @@ import networkx as nx
 import pytest
 
 from gruebler.drawing.structure.embedding import an_embedding, ears, embeddings, faces, is_planar
-from gruebler.drawing.structure.initial_layouts import starts
-from gruebler.drawing.structure.planarisation import planarised
+from gruebler.drawing.structure.initial_layouts import initial_layouts
+from gruebler.drawing.structure.planarisation import planarised_graph
 
 
 def lists(graph):
@@ -80,7 +80,7 @@ def test_one_embedding_of_a_large_graph():
 def test_crossing_numbers_of_the_literature(graph, crossings):
     """K(3,3) and K5 need one crossing (Kuratowski 1930), Petersen's graph two (Guy 1972)."""
     edges = [tuple(sorted(edge)) for edge in graph.edges]
-    found = planarised(lists(graph), edges)
+    found = planarised_graph(lists(graph), edges)
     assert {len(one.graph) - one.first for one in found} == {crossings}
     assert all(is_planar(one.graph) for one in found)
     assert any(one.is_crossing(rotation) for one in found for rotation in embeddings(one.graph))
@@ -88,7 +88,7 @@ def test_crossing_numbers_of_the_literature(graph, crossings):
 
 def test_many_crossings_are_led_through_faces():
     edges = list(combinations(range(7), 2))
-    (found,) = planarised(lists(nx.complete_graph(7)), edges)
+    (found,) = planarised_graph(lists(nx.complete_graph(7)), edges)
     assert is_planar(found.graph)
     assert len(found.graph) - found.first >= 9  # the crossing number of K7
     assert all(len(found.graph[v]) == 4 for v in range(found.first, len(found.graph)))
@@ -96,7 +96,7 @@ def test_many_crossings_are_led_through_faces():
 
 def test_starts_know_their_symmetry():
     cube = lists(nx.hypercube_graph(3))
-    (found,) = starts(embeddings(cube), [0] * 8)
+    (found,) = initial_layouts(embeddings(cube), [0] * 8)
     assert len(found.images) == 8
     for image in found.images:
         assert all(sorted(image[w] for w in cube[v]) == cube[image[v]] for v in range(8))

@@ -12,18 +12,18 @@ from hypothesis import strategies as st
 from gruebler import chains
 from gruebler.analysis.outputs import find_output
 from gruebler.catalog import entries, entry
-from gruebler.cli.draw import sized
-from gruebler.drawing.canvas.axes import figures
+from gruebler.cli.draw import linkage_and_range
+from gruebler.drawing.canvas.axes import as_text
 from gruebler.drawing.canvas.figure import Figure, svg
-from gruebler.drawing.canvas.free_space import Room, apart, complexes, from_segment, inside
-from gruebler.drawing.canvas.shapes import Point, Text, bounds, lowered
+from gruebler.drawing.canvas.free_space import Obstacles, complexes, distance_between, from_segment, is_inside
+from gruebler.drawing.canvas.shapes import Point, TextShape, bounds, split_subscripts
 from gruebler.drawing.linkage.animation import animated_svg
-from gruebler.drawing.linkage.bodies import hull, parts
+from gruebler.drawing.linkage.bodies import body_parts, hull
 from gruebler.drawing.linkage.curve_plots import hodograph
 from gruebler.drawing.linkage.motion_plots import transfer_plot
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.linkage.posed_linkage import staged
-from gruebler.drawing.structure import draw, place
+from gruebler.drawing.linkage.posed_linkage import posed_linkage
+from gruebler.drawing.structure import draw, place_joints
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.linkages import Linkage
@@ -34,14 +34,14 @@ NUMBERED = ("excavator", "pumpjack", "e3_watt")
 
 
 def texts(figure, style="name"):
-    return [shape for shape in figure.shapes if isinstance(shape, Text) and shape.style == style]
+    return [shape for shape in figure.shapes if isinstance(shape, TextShape) and shape.style == style]
 
 
 def overlapping(found):
     """Pairs of texts that touch."""
     for one, other in combinations(found, 2):
-        room = Room([one])
-        wide = Room([other]).texts
+        room = Obstacles([one])
+        wide = Obstacles([other]).texts
         if room.texts.gaps(wide.a, wide.b)[0, 0] - 7.0 < 0:
             yield one.words, other.words
 
@@ -54,7 +54,7 @@ def overlapping(found):
 def test_the_distance_of_segments_is_the_least_between_their_points(a, b, c, d):
     part = np.linspace(0, 1, 301)
     slow = np.abs((a + part * (b - a))[:, None] - (c + part * (d - c))[None, :]).min()
-    fast = float(apart(*(np.array([z]) for z in (a, b, c, d)))[0])
+    fast = float(distance_between(*(np.array([z]) for z in (a, b, c, d)))[0])
     assert fast <= slow + 1e-9
     assert slow - fast <= (abs(b - a) + abs(d - c)) / 300 + 1e-9
 
@@ -65,7 +65,7 @@ def test_a_place_is_inside_a_regular_polygon_where_all_its_sides_say_so(z, corne
     rim = radius * np.exp(2j * np.pi * np.arange(corners) / corners)
     sides = [((np.roll(rim, -1)[k] - rim[k]).conjugate() * (z - rim[k])).imag for k in range(corners)]
     if min(abs(side) for side in sides) > 1e-6:
-        assert bool(inside(np.array([z]), rim)[0]) == (min(sides) > 0)
+        assert bool(is_inside(np.array([z]), rim)[0]) == (min(sides) > 0)
     assert from_segment(np.array([z]), rim[:1], rim[:1])[0] == pytest.approx(abs(z - rim[0]))
 
 
@@ -75,14 +75,14 @@ def test_a_place_is_inside_a_regular_polygon_where_all_its_sides_say_so(z, corne
 @pytest.mark.parametrize("links", [6, 8])
 def test_what_has_a_side_at_the_rim_is_named_outside(links):
     for chain in chains(links):
-        figure, placed = draw(chain, labels=True), place(chain)
+        figure, placed = draw(chain, labels=True), place_joints(chain)
         rim = complexes(hull(placed.joints, 1e-6))
         circles = [shape.at for shape in figure.shapes if shape.style == "joint"]
         shift = min(circles).minus(min(placed.joints))
         outer = {link for link in chain.links if chain.degrees[link] > 1 and _sides(placed.outlines[link], rim)}
         for text in texts(figure):
             at = complex(*text.at.minus(shift))
-            assert not (text.words in outer and inside(np.array([at]), rim)[0]), (text.words, chain.text())
+            assert not (text.words in outer and is_inside(np.array([at]), rim)[0]), (text.words, chain.text())
 
 
 def _sides(outline, rim):
@@ -94,10 +94,10 @@ def _sides(outline, rim):
 
 @pytest.mark.parametrize("name", NUMBERED)
 def test_numbers_are_on_no_body_and_off_each_other(name):
-    linkage, between = sized(name)
+    linkage, between = linkage_and_range(name)
     figure = draw_linkage(linkage, between=between, labels=True)
     numbers = [text for text in texts(figure) if text.anchor == "middle"]
-    bare = Room([shape for shape in figure.shapes if not isinstance(shape, Text)])
+    bare = Obstacles([shape for shape in figure.shapes if not isinstance(shape, TextShape)])
     assert not bare.covered(complexes([text.at for text in numbers])).any()
     assert not list(overlapping(texts(figure)))
 
@@ -120,7 +120,7 @@ def test_short_names_are_not_listed_as_themselves():
 
 @pytest.mark.parametrize("name", ["excavator", "e3_watt", "scissor2", "hubpodium", "wiper"])
 def test_dimensions_and_names_do_not_touch(name):
-    linkage, between = sized(name)
+    linkage, between = linkage_and_range(name)
     figure = draw_linkage(linkage, between=between, labels=True, show=["dimensions"])
     found = texts(figure, "value") + texts(figure)
     assert len(list(overlapping(found))) <= (1 if name == "excavator" else 0)
@@ -129,7 +129,7 @@ def test_dimensions_and_names_do_not_touch(name):
 def test_pins_within_a_body_and_cylinders_have_dimensions():
     boom = [text.words for text in texts(draw_linkage(entry("excavator").linkage(), show=["dimensions"]), "value")]
     assert len(boom) > 16
-    linkage, between = sized("crane_cyl")
+    linkage, between = linkage_and_range("crane_cyl")
     figure = draw_linkage(linkage, 40.0, between=between, show=["dimensions"])
     assert "40 mm" in [text.words for text in texts(figure, "value")]
     corners = {"R(0-1)": (0, 0), "R(1-2)": (3, 4), "R(2-3)": (9, 4), "R(0-3)": (9, 0)}
@@ -148,7 +148,7 @@ def test_sizes_are_written_with_powers_of_ten(factor, word):
 
 
 def test_german_sizes_have_commas():
-    assert figures(1.25, "cm", "de") == "1,25 cm"
+    assert as_text(1.25, "cm", "de") == "1,25 cm"
     figure = draw_linkage(FourBar(2.5, 7, 4, 7).linkage(), 1.0, show=["dimensions", "transmission"], lang="de")
     assert not [text.words for text in texts(figure, "value") if "." in text.words]
 
@@ -168,8 +168,8 @@ def test_bars_and_lists_begin_at_one_edge_close_below():
 
 
 def test_a_bent_coupler_has_no_knob():
-    stage = staged(InvertedSliderCrank(30, 60, 10).linkage())
-    (coupler,) = [part for part in parts(stage) if part.link == "coupler" and part.layer == 1]
+    stage = posed_linkage(InvertedSliderCrank(30, 60, 10).linkage())
+    (coupler,) = [part for part in body_parts(stage) if part.link == "coupler" and part.layer == 1]
     lines = [shape.parts[0] for shape in coupler.shapes if shape.style == "body-bar"]
     assert len(lines) == 2
     assert min(a.minus(b).length for a in lines[0] for b in lines[1]) < 1e-3
@@ -177,12 +177,12 @@ def test_a_bent_coupler_has_no_knob():
 
 @pytest.mark.parametrize("name", ["crane_cyl", "loader", "hubpodium_blocks"])
 def test_sliding_drives_are_marked_while_they_move(name):
-    linkage, between = sized(name)
+    linkage, between = linkage_and_range(name)
     assert "gr-drive" in animated_svg(linkage, between=between)
 
 
 def test_hodographs_tell_round_values_and_keep_their_dots():
-    linkage, between = sized("crane_cyl")
+    linkage, between = linkage_and_range("crane_cyl")
     figure = hodograph(linkage, ["C"], between=between)
     told = [text.words for text in texts(figure, "value") if text.words.endswith(" mm")]
     assert told
@@ -192,7 +192,7 @@ def test_hodographs_tell_round_values_and_keep_their_dots():
 
 
 def test_rounding_noise_is_no_curve():
-    linkage, between = sized("wiper")
+    linkage, between = linkage_and_range("wiper")
     with pytest.raises(LinkageError, match="blade moves without turning"):
         transfer_plot(linkage, between=between)
     figure = transfer_plot(linkage, "blade", between=between)
@@ -202,6 +202,6 @@ def test_rounding_noise_is_no_curve():
 
 
 def test_letters_stand_lower_only_after_one_letter():
-    assert lowered("left_arm R(a-b)") == [("left_arm R(a-b)", False)]
-    figure = Figure((Text(Point(5.0, 5.0), "μ_min <", "value"),), 10.0, 10.0, "", "")
+    assert split_subscripts("left_arm R(a-b)") == [("left_arm R(a-b)", False)]
+    figure = Figure((TextShape(Point(5.0, 5.0), "μ_min <", "value"),), 10.0, 10.0, "", "")
     assert '>μ<tspan dy="3" font-size="9">min</tspan><tspan dy="-3"> &lt;</tspan></text>' in svg(figure, styled=False)

@@ -9,19 +9,19 @@ import pytest
 
 from gruebler import FourBar, SliderCrank
 from gruebler.catalog import entry
-from gruebler.drawing.canvas.shapes import Circle, Lines, Text
+from gruebler.drawing.canvas.shapes import CircleShape, Polylines, TextShape
 from gruebler.drawing.linkage.instant_centres import instant_centres, pole_marks
-from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.layer_context import LayerContext
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.linkage.posed_linkage import staged
+from gruebler.drawing.linkage.posed_linkage import posed_linkage
 from gruebler.geometry import poles
-from gruebler.linkages import Named
+from gruebler.linkages import LinkPoint
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70)
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, Text)]
+    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def named(figure):
@@ -47,20 +47,22 @@ def pins(stage):
         ("coupler", CRANK_ROCKER.b, 0),
         ("frame", CRANK_ROCKER.d, 0),
     )
-    return [complex(stage.pose.complex_point(Named(*name))[0]) for name in names]
+    return [complex(stage.pose.complex_point(LinkPoint(*name))[0]) for name in names]
 
 
 @pytest.mark.parametrize("angle", range(0, 360, 10))
 def test_all_poles_of_a_four_bar_in_every_pose(angle):
     """The six poles are named; the two that are no pins lie where crank and rocker, and frame and coupler, meet."""
     linkage, drive = CRANK_ROCKER.linkage(), math.radians(angle)
-    figure, stage = draw_linkage(linkage, drive, show=["poles"]), staged(linkage, drive)
+    figure, stage = draw_linkage(linkage, drive, show=["poles"]), posed_linkage(linkage, drive)
     assert set(named(figure)) == {"₁₂", "₁₃", "₁₄", "₂₃", "₂₄", "₃₄"}
     assert {"1  frame", "2  crank", "3  coupler", "4  rocker"} <= set(words(figure))
     a0, a, b, b0 = pins(stage)
-    marks = pole_marks(Sheet(stage, None, []))
-    crosses = [np.mean(shape.parts[0], axis=0) for shape in marks if isinstance(shape, Lines) and shape.style == "edge"]
-    crosses += [shape.at for shape in marks if isinstance(shape, Circle)]
+    marks = pole_marks(LayerContext(stage, None, []))
+    crosses = [
+        np.mean(shape.parts[0], axis=0) for shape in marks if isinstance(shape, Polylines) and shape.style == "edge"
+    ]
+    crosses += [shape.at for shape in marks if isinstance(shape, CircleShape)]
     for name, pole, ends in (
         ("₁₃", meeting(a0, a, b0, b), (a0, a, b0, b)),
         ("₂₄", meeting(a0, b0, a, b), (a0, b0, a, b)),
@@ -79,7 +81,7 @@ def test_all_poles_of_a_four_bar_in_every_pose(angle):
 @pytest.mark.parametrize("drive", [0.3, 1.4, 2.9, 5.0])
 def test_against_the_poles_of_the_motion(linkage, drive):
     """Those of `gruebler.geometry`, which knows nothing of joints; and three poles of three links on one line."""
-    stage = staged(linkage, drive)
+    stage = posed_linkage(linkage, drive)
     found, other = instant_centres(stage), poles(stage.pose, linkage.mechanism.chain.links)
     for pole in found:
         if pole.direction:

@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 
 from gruebler import Chain, chains, symmetry
-from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.layout import lay_out
 from tests import strategies
 
 
 def bodies(chain):
     held = [[k for k, joint in enumerate(chain.joints) if link in joint.links] for link in chain.links]
-    return Bodies.of([0] * len(chain.joints), held)
+    return LayoutBodies.of([0] * len(chain.joints), held)
 
 
 def is_planar(chain):

@@ -15,14 +15,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler.analysis import follow
+from gruebler.analysis import drive_cycle
 from gruebler.catalog import entry
-from gruebler.drawing.canvas.shapes import Circle, Point, Text
+from gruebler.drawing.canvas.shapes import CircleShape, Point, TextShape
 from gruebler.drawing.linkage.curve_plots import coupler_plot, hodograph
 from gruebler.drawing.linkage.motion_picture import draw_motion
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.linkage.posed_linkage import stage_of, staged
+from gruebler.drawing.linkage.posed_linkage import posed_along_motion, posed_linkage
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import centrodes, inflection_circle
@@ -38,7 +38,7 @@ CARDAN = SliderCrank(25, 25).linkage()
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, Text)]
+    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def styled(figure, style):
@@ -73,7 +73,7 @@ def test_every_length_is_told_once(linkage, lengths):
 @given(st.floats(0.3, 0.9), st.floats(2.0, 4.0), st.floats(0, 6.28))
 def test_heads_are_as_far_apart_as_what_they_measure(a, b, phi):
     linkage = FourBar(a, b, 2.0, b).linkage()
-    stage = staged(linkage, phi)
+    stage = posed_linkage(linkage, phi)
     figure = draw_linkage(linkage, phi, show=["dimensions"])
     tips = [head.parts[0][0] for head in styled(figure, "dimension-head")]
     found = sorted(one.minus(other).length for one, other in zip(tips[::2], tips[1::2], strict=True))
@@ -84,7 +84,7 @@ def test_heads_are_as_far_apart_as_what_they_measure(a, b, phi):
 def test_dimension_lines_are_clear_of_other_joints(name):
     linkage = entry(name).linkage()
     figure = draw_linkage(linkage, show=["dimensions"])
-    joints = [shape.at for shape in figure.shapes if isinstance(shape, Circle) and shape.style == "joint"]
+    joints = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
     for shape in styled(figure, "dimension"):
         for a, b in shape.parts[2:]:  # after the two extension lines
             assert min(_from(at, a, b) for at in joints) > 6.0
@@ -127,7 +127,7 @@ def test_the_scale_of_accelerations():
 
 def test_cardan_circles():
     figure = draw_linkage(CARDAN, 1.0, show=["centrodes", "inflection"])
-    scale = staged(CARDAN, 1.0).scale
+    scale = posed_linkage(CARDAN, 1.0).scale
     middle = complex(*next(shape.at for shape in figure.shapes if shape.style == "joint"))
     assert np.allclose(abs(points(figure, "centrode-fixed") - middle), 50 * scale, atol=0.2)
     crank_end = middle + 25 * scale * np.exp(-1j)
@@ -140,8 +140,8 @@ def test_cardan_circles():
 @given(st.floats(0, 6.28))
 def test_centrodes_are_those_of_the_geometry(phi):
     figure = draw_linkage(WITH_POINT, phi, show=["centrodes"])
-    stage = staged(WITH_POINT, phi)
-    motion = follow(WITH_POINT).at(np.linspace(0, 2 * np.pi, 20000), 1)
+    stage = posed_linkage(WITH_POINT, phi)
+    motion = drive_cycle(WITH_POINT).at(np.linspace(0, 2 * np.pi, 20000), 1)
     fixed = centrodes(motion, "coupler").fixed
     joint = next(shape.at for shape in figure.shapes if shape.style == "joint")
     shift = complex(*joint) - complex(*stage.local(complex(stage.pose.complex_point("R(frame-crank)")[0])))
@@ -153,7 +153,7 @@ def test_centrodes_are_those_of_the_geometry(phi):
 def test_the_inflection_circle_is_that_of_the_geometry_and_passes_through_the_slider():
     linkage = SliderCrank(25, 60).linkage()
     figure = draw_linkage(linkage, 2.5, show=["inflection"])
-    stage = staged(linkage, 2.5)
+    stage = posed_linkage(linkage, 2.5)
     circle = inflection_circle(move(linkage, [2.5], speed=1.0, order=2), "coupler")
     at = next(shape.at for shape in figure.shapes if shape.style == "joint")
     middle = complex(*at) + np.conj(stage.scale * (circle.pole[0] + circle.inflection_pole[0]) / 2)
@@ -200,7 +200,7 @@ def test_a_motion_has_a_picture():
     motion = move(WITH_POINT, degrees(0, 90, 5))
     figure = draw_motion(motion)
     assert figure.description.endswith("A motion of 19 poses; 5 of them thinly.")
-    path = np.conj(stage_of(motion).scale * motion.complex_point("K"))
+    path = np.conj(posed_along_motion(motion).scale * motion.complex_point("K"))
     found = points(figure, "curve")
     assert abs(found[-1] - found[0]) == pytest.approx(abs(path[-1] - path[0]))
     assert len(draw_motion(move(WITH_POINT, [0.3])).svg()) < len(figure.svg())
@@ -267,11 +267,11 @@ def test_pictures_are_small_and_lie_on_their_page():
 
 def test_a_bearing_that_a_body_would_hide_stands_before_it():
     """A frame pin below the plate of a coupler: its pedestal is drawn after the plate, the others before all bodies."""
-    from gruebler.drawing.linkage.bodies import BODIES, FRAME, parts
+    from gruebler.drawing.linkage.bodies import BODIES, FRAME, body_parts
 
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(2-4) R(4-5) R(0-5); frame=0; drive=R(0-1)")
     places = {0: (0, 0), 1: (2, 1), 2: (9, 6), 3: (12, 0), 4: (10, -6), 5: (12, -9), 6: (7, 0)}
-    found = parts(staged(Linkage.drawn(mechanism, places)))
+    found = body_parts(posed_linkage(Linkage.drawn(mechanism, places)))
     layers = [part.layer for part in found if part.link == "0" and part.layer in (FRAME, BODIES)]
     assert layers == [FRAME, BODIES]
 

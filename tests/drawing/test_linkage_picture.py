@@ -14,19 +14,19 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler import GrueblerError
-from gruebler.analysis import follow, transmission_angle
+from gruebler.analysis import drive_cycle, transmission_angle
 from gruebler.catalog import entry
 from gruebler.cli import draw
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Text
-from gruebler.drawing.canvas.simplification import thinned
-from gruebler.drawing.linkage.bodies import corners_of, parts, slides
-from gruebler.drawing.linkage.layers import coupler_curve
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, TextShape
+from gruebler.drawing.canvas.simplification import simplified
+from gruebler.drawing.linkage.bodies import body_parts, corners_of, slides
+from gruebler.drawing.linkage.layers import coupler_curve_lines
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.linkage.posed_linkage import staged
+from gruebler.drawing.linkage.posed_linkage import posed_linkage
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage, Named, Pin
+from gruebler.linkages import Linkage, LinkPoint, Pin
 from gruebler.mechanism import Mechanism
 from tests.samples import CLASS_III, CYLINDER
 
@@ -43,7 +43,7 @@ DRAW = {"output": None, "space": None, "frame": None, "drive": [], "labels": Fal
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, Text)]
+    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def styles(figure, name):
@@ -62,9 +62,9 @@ def drawn(capsys, chain, **options):
 @given(st.floats(0.3, 0.9), st.floats(2.0, 4.0), st.floats(0, 6.28), st.sampled_from([1e-4, 1.0, 1e5]))
 def test_pins_are_where_the_links_meet(a, b, phi, unit):
     linkage = FourBar(a, b, 2.0, b).linkage().scaled(unit)
-    stage = staged(linkage, phi)
+    stage = posed_linkage(linkage, phi)
     motion = move(linkage, [phi])
-    circles = [shape for shape in draw_linkage(linkage, phi).shapes if isinstance(shape, Circle)]
+    circles = [shape for shape in draw_linkage(linkage, phi).shapes if isinstance(shape, CircleShape)]
     wanted = [complex(motion.complex_point(name)[0]) for name in linkage.mechanism.chain.joint_names()]
     gaps = [[abs(p - q) * stage.scale for p in wanted] for q in wanted]
     found = [[math.dist(p.at, q.at) for p in circles] for q in circles]
@@ -76,7 +76,7 @@ def test_pins_are_where_the_links_meet(a, b, phi, unit):
     [WITH_POINT, CLASS_III, SliderCrank(25, 70, 5).linkage(), InvertedSliderCrank(25, 60).linkage(), CYLINDER],
 )
 def test_bodies_reach_all_their_joints(linkage):
-    stage = staged(linkage)
+    stage = posed_linkage(linkage)
     found = slides(stage)
     for (number, link), e in stage.lower.elements.items():
         if link == stage.lower.mechanism.frame or not isinstance(e, Pin):
@@ -97,7 +97,7 @@ def _from(p, a, b):
 
 def test_every_pose_of_a_block_lies_on_its_guide():
     linkage = SliderCrank(25, 70, 5).linkage()
-    stage = staged(linkage)
+    stage = posed_linkage(linkage)
     (slide,) = slides(stage)
     assert (slide.guide, slide.block, slide.sign) == ("frame", "slider", "block")
     stroke = math.sqrt(95**2 - 25) - math.sqrt(45**2 - 25)
@@ -115,15 +115,15 @@ def test_every_pose_of_a_block_lies_on_its_guide():
     ],
 )
 def test_signs_of_slides(name, between, guide, block, sign):
-    (slide,) = slides(staged(entry(name).linkage(), between=between))
+    (slide,) = slides(posed_linkage(entry(name).linkage(), between=between))
     assert (slide.guide, slide.block, slide.sign) == (guide, block, sign)
 
 
 def test_the_rod_stays_in_its_cylinder():
-    stage = staged(entry("crane_cyl").linkage(), between=(34.5, 47.0))
-    rows = {part.link: part for part in parts(stage) if any(s.style == "block" for s in part.shapes)}
+    stage = posed_linkage(entry("crane_cyl").linkage(), between=(34.5, 47.0))
+    rows = {part.link: part for part in body_parts(stage) if any(s.style == "block" for s in part.shapes)}
     box = rows["cylinder"].shapes[0].parts[0]
-    (rod,) = (s.parts[0] for part in parts(stage) for s in part.shapes if s.style == "body-rod")
+    (rod,) = (s.parts[0] for part in body_parts(stage) for s in part.shapes if s.style == "body-rod")
     length, far = rod[0].minus(rod[1]).length, max(abs(p.x) for p in box)
     ways = stage.path.drives[:, 0] * stage.scale
     assert (ways - length > 0).all()
@@ -137,7 +137,7 @@ def test_the_rod_stays_in_its_cylinder():
 @given(st.lists(st.tuples(st.floats(-50, 50), st.floats(-50, 50)), min_size=2, max_size=40), st.floats(0.01, 5))
 def test_a_thinned_line_is_near(points, most):
     line = [Point(*p) for p in points]
-    kept = thinned(line, most)
+    kept = simplified(line, most)
     assert kept[0] == line[0]
     assert kept[-1] == line[-1]
     segments = list(itertools.pairwise(kept))
@@ -146,11 +146,11 @@ def test_a_thinned_line_is_near(points, most):
 
 
 def test_a_coupler_curve_has_all_positions_of_its_point():
-    stage = staged(WITH_POINT)
-    (curve,) = coupler_curve(stage, "K")
+    stage = posed_linkage(WITH_POINT)
+    (curve,) = coupler_curve_lines(stage, "K")
     (line,) = curve.parts
     assert curve.closed
-    course = follow(WITH_POINT)
+    course = drive_cycle(WITH_POINT)
     for z in course.at(np.linspace(0, 6, 50), 0).complex_point("K"):
         at = stage.local(complex(z))
         closed = [*line, line[0]]
@@ -158,8 +158,8 @@ def test_a_coupler_curve_has_all_positions_of_its_point():
 
 
 def test_a_straight_curve_goes_there_and_back():
-    stage = staged(entry("scottrussell").linkage())
-    (curve,) = coupler_curve(stage, "C")
+    stage = posed_linkage(entry("scottrussell").linkage())
+    (curve,) = coupler_curve_lines(stage, "C")
     reach = 2 * 50.0 * stage.scale  # C moves on a straight line, twice the crank to both sides
     ys = [p.y for p in curve.parts[0]]
     assert max(ys) - min(ys) == pytest.approx(2 * reach, rel=1e-2)
@@ -168,8 +168,8 @@ def test_a_straight_curve_goes_there_and_back():
 
 def test_watts_curve_is_a_figure_of_eight_symmetric_to_its_middle():
     linkage = entry("watt_axle").linkage()
-    stage = staged(linkage, between=(math.radians(-55), math.radians(29)))
-    rest, used = coupler_curve(stage, "F")
+    stage = posed_linkage(linkage, between=(math.radians(-55), math.radians(29)))
+    rest, used = coupler_curve_lines(stage, "F")
     assert (rest.style, used.style) == ("curve-rest", "curve")
     assert rest.closed
     xs, ys = zip(*rest.parts[0], strict=True)
@@ -230,7 +230,7 @@ def test_machines_are_drawn_within_their_boxes(name):
     tree = ElementTree.fromstring(figure.svg())
     assert tree[0].text == record.name.de
     assert "Maßstäblich" in tree[1].text
-    points = [p for s in figure.shapes if isinstance(s, Lines) for part in s.parts for p in part]
+    points = [p for s in figure.shapes if isinstance(s, Polylines) for part in s.parts for p in part]
     assert all(0 < p.x < figure.width and 0 < p.y < figure.height for p in points)
     assert (
         figure.svg()
@@ -305,7 +305,7 @@ def test_what_cannot_move_shows_itself(lengths):
 
 
 def test_the_pose_of_a_range_is_not_its_singular_middle():
-    stage = staged(SliderCrank(30, 20).linkage())
+    stage = posed_linkage(SliderCrank(30, 20).linkage())
     pins = [complex(stage.pose.complex_point(name)[0]) for name in ("R(frame-crank)", "R(crank-coupler)")]
     assert abs((pins[1] - pins[0]).imag) > 3.0
 
@@ -325,7 +325,7 @@ def test_what_is_said_of_poles_is_seen():
 def test_poses_are_taken_modulo_a_turn():
     linkage = FourBar(60, 30, 40, 50).linkage()
     assert draw_linkage(linkage, 0.2).svg() == draw_linkage(linkage, 0.2 + 2 * math.pi).svg()
-    point = staged(linkage, 0.2).place(Named("crank", 60.0, 0.0))
+    point = posed_linkage(linkage, 0.2).place(LinkPoint("crank", 60.0, 0.0))
     assert math.atan2(-point.y, point.x) == pytest.approx(0.2)
 
 

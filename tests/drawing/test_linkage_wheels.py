@@ -7,27 +7,27 @@ import numpy as np
 import pytest
 
 from gruebler.catalog import entry
-from gruebler.drawing.canvas.shapes import Circle, Lines
-from gruebler.drawing.linkage.posed_linkage import staged
+from gruebler.drawing.canvas.shapes import CircleShape, Polylines
+from gruebler.drawing.linkage.posed_linkage import posed_linkage
 from gruebler.drawing.linkage.wheels import round_parts
-from gruebler.linkages import Named
+from gruebler.linkages import LinkPoint
 
 
 def placed(name):
     """The round parts of a machine where they lie in its picture: link, shapes with their points as numbers."""
     linkage = entry(name).linkage()
-    stage = staged(linkage)
+    stage = posed_linkage(linkage)
     for part in round_parts(stage):
-        at = stage.pose.complex_point(Named(part.link, 0.0, 0.0))[0]
+        at = stage.pose.complex_point(LinkPoint(part.link, 0.0, 0.0))[0]
         turn = cmath.exp(1j * stage.pose.angle(part.link)[0])
 
         def there(p, at=at, turn=turn):
             return at + turn * complex(p.x, -p.y) / stage.scale
 
         for shape in part.shapes:
-            if isinstance(shape, Circle):
+            if isinstance(shape, CircleShape):
                 yield part.link, shape.style, there(shape.at), shape.radius / stage.scale
-            elif isinstance(shape, Lines):
+            elif isinstance(shape, Polylines):
                 yield part.link, shape.style, [np.array([there(p) for p in points]) for points in shape.parts], None
 
 

@@ -13,14 +13,14 @@ from hypothesis import strategies as st
 from gruebler.cams import Cam, CamError, Flat, Lift, Roller, read_lift
 from gruebler.drawing.canvas.moving_files import moving_bytes, moving_page
 from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn, at_time, figure_at, moving_svg
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Text
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, TextShape
 from gruebler.drawing.machines.cam_follower import follower_body
 from gruebler.drawing.machines.cam_picture import animate_cam, draw_cam
 from gruebler.drawing.machines.geneva_picture import animate_geneva, draw_geneva
 from gruebler.drawing.machines.geneva_shape import GenevaShape
-from gruebler.drawing.machines.teeth import toothed
-from gruebler.drawing.machines.train_layout import stages
-from gruebler.drawing.machines.train_motion import course_of
+from gruebler.drawing.machines.teeth import toothed_outline
+from gruebler.drawing.machines.train_layout import gear_stages
+from gruebler.drawing.machines.train_motion import train_motion
 from gruebler.drawing.machines.train_picture import animate_train, draw_train
 from gruebler.errors import GrueblerError
 from gruebler.gears import GearError, read_train
@@ -45,7 +45,7 @@ PLANETARY = "sun:24 planet:18 ring:-60 on arm planets=3; hold ring; sun=7"
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, Text)]
+    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def number(line):
@@ -77,7 +77,7 @@ def test_the_drawn_follower_touches_the_drawn_cam(name, degrees):
     disc = scale * (cam.profile(turn) @ [1, 1j]) * cmath.exp(1j * phi)
     gaps, depth = [], 0.0
     for shape in at_time([follower_body(cam, scale, np.array([phi]))], 0.0):
-        if isinstance(shape, Circle):
+        if isinstance(shape, CircleShape):
             if shape.style == "node":
                 gaps.append(abs(disc - number(shape.at)).min() - shape.radius)
         elif shape.style == "block":
@@ -96,7 +96,7 @@ def test_the_pressure_angle_is_drawn_and_told():
     alpha = float(cam.pressure_angle(at))
     assert f"α = {math.degrees(alpha):.1f}°" in words(figure)
     assert f"pressure angle {math.degrees(alpha):.2f}°" in figure.description
-    arcs = [shape for shape in figure.shapes if isinstance(shape, Arc) and shape.radius > 50]
+    arcs = [shape for shape in figure.shapes if isinstance(shape, ArcShape) and shape.radius > 50]
     assert [arc.extent for arc in arcs] == pytest.approx([-alpha])
     greatest = draw_cam(cam)
     most = max((one.value for one in cam.findings().pressure), key=abs)
@@ -111,7 +111,7 @@ def test_base_circle_pitch_curve_and_undercut():
     figure = draw_cam(tight, lang="de")
     assert "Unterschnitt" in words(figure)
     assert "Unterschnitt bei" in figure.description
-    marked = [s for s in figure.shapes if isinstance(s, Lines) and s.style == "drive"]
+    marked = [s for s in figure.shapes if isinstance(s, Polylines) and s.style == "drive"]
     assert max(len(shape.parts) for shape in marked) == 2  # at the rise and at the fall
     hollow = Cam(read_lift("rise 20 60; dwell 30; fall 20 90; dwell"), 40, Flat())
     assert "undercut" in words(draw_cam(hollow))
@@ -121,7 +121,7 @@ def test_base_circle_pitch_curve_and_undercut():
 def test_the_diagram_is_the_lift():
     figure = draw_cam(CAMS["roller"], math.radians(40), plot=True)
     assert {"s", "s′ = ds/dφ", "s″ = d²s/dφ²", "40°"} <= set(words(figure))
-    curves = [s.parts[0] for s in figure.shapes if isinstance(s, Lines) and s.style == "line-1"]
+    curves = [s.parts[0] for s in figure.shapes if isinstance(s, Polylines) and s.style == "line-1"]
     assert len(curves) == 3
     assert {"ψ in °", "ψ′ = dψ/dφ"} <= set(words(draw_cam(CAMS["swinging knife"], plot=True)))
     first = curves[0]
@@ -196,8 +196,8 @@ def test_a_locked_wheel_is_told_and_the_wheel_turns_as_it_should():
 def test_teeth_mesh_in_all_positions(text):
     """Outlines of two wheels in mesh overlap by less than a tenth of a module, wherever they have turned."""
     reading = read_train(text)
-    course = course_of(reading.train, reading.drives, 4.0)
-    for stage in stages(reading.train, reading.planets):
+    course = train_motion(reading.train, reading.drives, 4.0)
+    for stage in gear_stages(reading.train, reading.planets):
         for mesh in stage.placed:
             a, b = (
                 next(w for w in stage.wheels if w.link == link and abs(w.at - at) < 1e-6 and abs(w.radius - r) < 1e-6)
@@ -217,7 +217,7 @@ def test_teeth_mesh_in_all_positions(text):
 
 
 def outline(wheel, stage, course, time):
-    whole = toothed(
+    whole = toothed_outline(
         round(abs(wheel.size)), 2 * wheel.radius / abs(wheel.size), internal=wheel.internal, phase=wheel.phase
     )
     around = cmath.exp(1j * math.tau * time * course.turns(stage.carrier)) if wheel.planet else 1.0
@@ -227,33 +227,33 @@ def outline(wheel, stage, course, time):
 def test_teeth_end_in_points_rather_than_cross():
     for teeth in (4, 5, 7, 12, 200):
         for internal in (False, True):
-            line = toothed(teeth, internal=internal)
+            line = toothed_outline(teeth, internal=internal)
             assert np.isfinite(line).all()
             assert (np.diff(np.unwrap(np.angle(line))) > -math.pi / teeth).all()
 
 
 def test_distances_follow_from_sizes():
-    (one,) = stages(read_train("sun:20 a:16 b:18 ring:-80 on arm").train, {})
+    (one,) = gear_stages(read_train("sun:20 a:16 b:18 ring:-80 on arm").train, {})
     sun, a, b = (one.axes[link] for link in ("sun", "a", "b"))
     assert [abs(a - sun), abs(b - a), abs(b - sun)] == pytest.approx([18, 17, 31])
-    (row,) = stages(read_train("in:20 lay:41; lay:19 out:42").train, {})
+    (row,) = gear_stages(read_train("in:20 lay:41; lay:19 out:42").train, {})
     assert [abs(row.axes["lay"] - row.axes["in"]), abs(row.axes["out"] - row.axes["lay"])] == pytest.approx([30.5] * 2)
-    (two,) = stages(read_train("sun:24 p:18 ring:-60 on arm; sun:24 q:18 ring:-60 on arm").train, {})
+    (two,) = gear_stages(read_train("sun:24 p:18 ring:-60 on arm; sun:24 q:18 ring:-60 on arm").train, {})
     assert two.central == {"sun", "ring"}
     assert two.axes["p"] == pytest.approx(-two.axes["q"])
-    assert len(stages(read_train("s:20 p:30 r:-80 on c; c:20 q:30 r:-80 on d").train, {})) == 2
+    assert len(gear_stages(read_train("s:20 p:30 r:-80 on c; c:20 q:30 r:-80 on d").train, {})) == 2
 
 
 def test_rates_are_exact_and_the_cycle_closes():
     reading = read_train(PLANETARY)
-    course = course_of(reading.train, reading.drives, 2.0)
+    course = train_motion(reading.train, reading.drives, 2.0)
     assert {link: course.turns(link) for link in reading.train.links} == {"sun": 21, "planet": -14, "arm": 6, "ring": 0}
     shown = animate_train(reading.train, reading.drives, planets=reading.planets)
     start, end = (at_time(shown.bodies, time) for time in (0.0, 1.0))
     assert len(start) == len(end) > 20
     for one, other in zip(start, end, strict=True):
         points = [
-            [p for part in shape.parts for p in part] if isinstance(shape, Lines) else [shape.at]
+            [p for part in shape.parts for p in part] if isinstance(shape, Polylines) else [shape.at]
             for shape in (one, other)
         ]
         assert np.allclose(points[0], points[1], atol=1e-6)
@@ -263,7 +263,7 @@ def test_rates_are_exact_and_the_cycle_closes():
 @given(st.lists(st.integers(8, 90), min_size=2, max_size=5), st.integers(1, 9))
 def test_every_link_of_a_row_makes_whole_turns_in_the_shortest_time(teeth, speed):
     text = " ".join(f"w{k}:{z}" for k, z in enumerate(teeth))
-    course = course_of(read_train(text).train, {"w0": speed}, 1.0, most=10**9)
+    course = train_motion(read_train(text).train, {"w0": speed}, 1.0, most=10**9)
     turns = [rate * course.cycle for rate in course.rates.values()]
     assert all(turn.denominator == 1 for turn in turns)
     assert math.gcd(*(turn.numerator for turn in turns)) == 1
@@ -307,7 +307,7 @@ def test_every_kind_of_train_is_drawn_and_moves(text, teeth):
 
 def test_what_slides_goes_to_and_fro_as_far_as_its_wheel_turns():
     reading = read_train("rack pinion:18 slide; pinion=1")
-    course = course_of(reading.train, reading.drives, 4.0)
+    course = train_motion(reading.train, reading.drives, 4.0)
     assert course.way("slide") == pytest.approx(18 * math.tau * course.turns("pinion"))
     shown = animate_train(reading.train, reading.drives)
     assert not shown.clock.round
@@ -354,7 +354,7 @@ def test_the_svg_says_what_at_time_says():
             steps = group.findall(f"{SVG}animateTransform")
             assert [step.get("additive") for step in steps] == ["replace", *["sum"] * (len(steps) - 1)]
             for time in (0.0, 0.3, 0.8):
-                mark = Body((Circle(Point(30.0, 10.0), 1.0, "dot"),), body.steps)
+                mark = Body((CircleShape(Point(30.0, 10.0), 1.0, "dot"),), body.steps)
                 wanted = at_time([mark], time)[0].at
                 assert abs(complex(*seen(steps, time, 30 + 10j)) - complex(*wanted)) < 0.6
 

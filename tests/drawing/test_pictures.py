@@ -16,7 +16,7 @@ from gruebler.drawing.canvas import gallery_html
 from gruebler.drawing.canvas.files import picture_bytes, suffix_of
 from gruebler.drawing.canvas.gallery import Item, Section
 from gruebler.drawing.canvas.styles import COLOURS, LINES, STYLES
-from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops, place
+from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops, place_joints
 from tests import strategies
 
 GOLDEN = Path(__file__).parent / "golden.json"
@@ -73,7 +73,7 @@ def test_inversions_keep_the_layout(links):
     """All inversions of a chain have the layout of the chain, turned: distances between joints are the same."""
 
     def spans(thing):
-        joints = place(thing).joints
+        joints = place_joints(thing).joints
         return sorted(round(a.minus(b).length, 3) for a in joints for b in joints)
 
     for chain in chains(links):
@@ -83,7 +83,7 @@ def test_inversions_keep_the_layout(links):
 
 def test_the_frame_is_low():
     for mechanism in inversions(next(chains(6))):
-        placed = place(mechanism)
+        placed = place_joints(mechanism)
         frame = placed.outlines[mechanism.frame]
         assert max(p.y for p in frame) == pytest.approx(max(p.y for p in placed.joints), abs=1)
 

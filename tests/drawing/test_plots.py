@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler.analysis import follow
+from gruebler.analysis import drive_cycle
 from gruebler.analysis.events import transfer_function
 from gruebler.analysis.outputs import find_output
 from gruebler.drawing.canvas.axes import Axis, decimals
-from gruebler.drawing.canvas.panels import Band, Curve, Mark, Panel, Spot, plotted, ratio_diagram
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Text
+from gruebler.drawing.canvas.panels import AxisMarker, Band, Curve, Panel, PointMarker, draw_panels, ratio_diagram
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, TextShape
 from gruebler.drawing.linkage.curve_plots import coupler_plot, family_of, family_plot, hodograph
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.errors import GrueblerError, LinkageError
@@ -39,12 +39,12 @@ SHEET = [
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, Text)]
+    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def lines(figure, style):
     """The lines of a style, without the samples of the list beside the panels."""
-    found = [shape for shape in figure.shapes if isinstance(shape, Lines) and shape.style == style]
+    found = [shape for shape in figure.shapes if isinstance(shape, Polylines) and shape.style == style]
     return [part for shape in found for part in shape.parts if not (len(part) == 2 and part[0].x > 520)]
 
 
@@ -82,7 +82,7 @@ class Read:
 def test_lines_lie_where_the_values_are(points):
     x, y = np.array(points).T
     panel = Panel(Axis("x", decimals(0, 10)), Axis("y", decimals(-3, 3)), (Curve(x, y, "", "line-1"),))
-    figure = plotted([panel], "", "")
+    figure = draw_panels([panel], "", "")
     read = Read(figure)
     for a in np.concatenate([read.values(line) for line in lines(figure, "line-1")] or [np.empty((0, 2))]):
         assert min(math.dist(a, b) for b in points) < 1e-6
@@ -94,8 +94,8 @@ def test_lines_are_cut_at_the_rim_and_broken_where_values_lack():
         y = np.tan(x)
         y[100] = np.nan
     panel = Panel(Axis("x", decimals(0, 10)), Axis("y", decimals(-2, 2)), (Curve(x, y, "", "line-1"),))
-    drawn = lines(plotted([panel], "", ""), "line-1")
-    read = Read(plotted([panel], "", ""))
+    drawn = lines(draw_panels([panel], "", ""), "line-1")
+    read = Read(draw_panels([panel], "", ""))
     assert len(drawn) > 4
     assert max(abs(read.values(line)[:, 1]).max() for line in drawn) < 2 + 1e-9
     gaps = [(a[-1][0], b[0][0]) for a, b in pairwise(sorted((read.values(p) for p in drawn), key=lambda v: v[0][0]))]
@@ -108,10 +108,10 @@ def test_what_is_written_stays_clear_and_names_stay_text():
         Axis("&", decimals(0, 1)),
         (Curve(np.array([0.0, 1.0]), np.array([0.0, 1.0]), "<script>", "line-2"),),
         bands=(Band(0.0, 0.3, "low"),),
-        marks=(Mark(0.5, "here"), Mark(0.505, "hidden")),
-        spots=(Spot(0.5, 0.5, "</text>"),),
+        marks=(AxisMarker(0.5, "here"), AxisMarker(0.505, "hidden")),
+        spots=(PointMarker(0.5, 0.5, "</text>"),),
     )
-    figure = plotted([panel], "<i>", "a & b")
+    figure = draw_panels([panel], "<i>", "a & b")
     root = ET.fromstring(figure.svg())
     assert {"<b>", "&", "<script>", "low", "here", "</text>"} <= {e.text for e in root.iter() if e.text}
     assert "hidden" not in words(figure)
@@ -124,7 +124,7 @@ def test_what_is_written_stays_clear_and_names_stay_text():
 @pytest.mark.parametrize("linkage", [WITH_POINT, SliderCrank(25, 70, 8).linkage()])
 def test_transfer_functions_are_those_of_the_kinematics(linkage):
     figure = transfer_plot(linkage)
-    course, output = follow(linkage), find_output(linkage)
+    course, output = drive_cycle(linkage), find_output(linkage)
     drawn = lines(figure, "line-1")
     assert len(drawn) == 3
     for order, line in enumerate(drawn):
@@ -184,7 +184,7 @@ def test_the_hodograph_of_a_crank_pin_is_a_circle():
 def test_a_hodograph_is_that_of_the_motion():
     read = Read(hodograph(WITH_POINT, ["K", "R(coupler-rocker)"]))
     (line,) = lines(hodograph(WITH_POINT, ["K", "R(coupler-rocker)"]), "line-1")
-    path = follow(WITH_POINT).at(np.linspace(0, 2 * np.pi, 3000), 1).point("K", 1)
+    path = drive_cycle(WITH_POINT).at(np.linspace(0, 2 * np.pi, 3000), 1).point("K", 1)
     for point in read.values(line)[::5]:
         assert np.hypot(*(path - point).T).min() < 0.25
 
@@ -266,7 +266,7 @@ def test_the_diagram_of_the_collection_sheet():
     bottom, top = ratio[0].y, min(p.y for p in ratio)
     assert (bottom - ratio[-3].y) / (bottom - top) == pytest.approx(3 / 4, abs=1e-9)  # 0.001, in four decades
     assert ratio[0].x == pytest.approx(length[0].x)
-    first, second = [shape.at for shape in figure.shapes if isinstance(shape, Circle)]
+    first, second = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape)]
     assert first.x == second.x
     assert (bottom - first.y) / (bottom - top) == pytest.approx(math.log10(0.005 / 1e-6) / 4)
 

@@ -13,7 +13,7 @@ from gruebler.enumeration import (
     joint_assortments,
     largest_degree,
 )
-from gruebler.enumeration.assortment import joint_number, loop_number
+from gruebler.enumeration.assortment import joint_count, loop_count
 from gruebler.enumeration.partitions import partition_numbers
 from gruebler.errors import GrueblerError
 
@@ -56,7 +56,7 @@ def test_assortments_of_the_literature():
 
 @pytest.mark.parametrize(("links", "mobility"), [(8, 1), (10, 1), (9, 2), (10, 3)])
 def test_contracted_graphs_realise_just_the_assortments(links, mobility):
-    loops = loop_number(links, mobility)
+    loops = loop_count(links, mobility)
     found = set()
     for graph in contracted_graphs(loops):
         higher = [graph.degrees.count(i) for i in range(3, max(graph.degrees) + 1)]
@@ -87,8 +87,8 @@ def test_numbers_without_chains():
     assert assortments(5, 1) == []
     assert assortments(2, 1) == []
     assert largest_degree(5, 1) is None
-    assert loop_number(4, 3) is None
-    assert joint_number(6, 2) is None
+    assert loop_count(4, 3) is None
+    assert joint_count(6, 2) is None
     for links, mobility in ((0, 1), (4, -1)):
         with pytest.raises(GrueblerError, match="at least"):
             assortments(links, mobility)
@@ -117,7 +117,7 @@ def trimmed(*numbers):
 def test_listing_and_counting_agree_with_trying_every_number(mobility, fractionated):
     """Oracle: the search that tries every number of parts, as the library once did."""
     for links in range(1, 19):
-        joints, largest = joint_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+        joints, largest = joint_count(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
         expected, multiple = [], []
         if joints is not None:
             merging = 2 * (joints - links)
@@ -137,7 +137,7 @@ def test_listing_and_counting_agree_with_trying_every_number(mobility, fractiona
 
 def test_long_lists_come_one_by_one_and_are_counted_without_them():
     """sum i n_i = 2g holds far down the list, and p(n) of the literature (Hardy and Ramanujan: p(200)) is met."""
-    joints = joint_number(3000, 1)
+    joints = joint_count(3000, 1)
     for numbers in islice(each_assortment(3000), 2000):
         assert sum(numbers) == 3000
         assert sum(i * k for i, k in enumerate(numbers, 2)) == 2 * joints

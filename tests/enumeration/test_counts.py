@@ -128,11 +128,11 @@ def is_sound(nodes, strings, mobility):
 @pytest.mark.parametrize("loops", [2, 3])
 def test_fixed_assignments_of_every_automorphism(loops, mobility):
     """The kernel, automorphism by automorphism, against all weights on all strings."""
-    from gruebler._numeric.counting.census import make_bench
+    from gruebler._numeric.counting.census import make_census_memory
     from gruebler._numeric.counting.string_count import count_strings
     from gruebler._numeric.counting.strings import survey_strings
 
-    bench = make_bench(loops, mobility)
+    bench = make_census_memory(loops, mobility)
     for graph in contracted_graphs(loops):
         ends = [(u, v) for u, v, k in graph.bundles for _ in range(k)]
         sound = set()

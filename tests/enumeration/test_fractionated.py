@@ -11,7 +11,7 @@ from gruebler.enumeration.counting import count_chains
 from gruebler.enumeration.fractionated import fractionated_chains
 from gruebler.enumeration.fractionated_count import count_fractionated
 from gruebler.enumeration.listing import chains
-from gruebler.enumeration.simple_chains import chains as plain
+from gruebler.enumeration.simple_chains import simple_chains as plain
 
 
 def composed(links, mobility, kind):

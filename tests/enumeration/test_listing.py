@@ -18,7 +18,7 @@ from gruebler.enumeration import (
     edge_blocks,
     graph6_blocks,
 )
-from gruebler.enumeration.pieces import list_piece, pieces, run
+from gruebler.enumeration.pieces import list_piece, pieces, run_pieces
 
 
 def freedoms(links, edges):
@@ -199,10 +199,10 @@ def test_what_a_piece_raises_is_raised_and_the_rest_is_taken_back():
             raise ArithmeticError(number)
         return number
 
-    assert list(run(str, range(100), None)) == [str(k) for k in range(100)]
+    assert list(run_pieces(str, range(100), None)) == [str(k) for k in range(100)]
     with ThreadPoolExecutor(2) as executor:
-        assert list(run(str, iter(range(100)), executor, ahead=5)) == [str(k) for k in range(100)]
-        results = run(fail, range(100), executor, ahead=5)
+        assert list(run_pieces(str, iter(range(100)), executor, ahead=5)) == [str(k) for k in range(100)]
+        results = run_pieces(fail, range(100), executor, ahead=5)
         assert [next(results), next(results), next(results)] == [0, 1, 2]
         with pytest.raises(ArithmeticError):
             next(results)

@@ -8,7 +8,7 @@ import pytest
 from gruebler import Chain, code, mobility_report
 from gruebler.enumeration.condition import fractionation, is_constrained
 from gruebler.enumeration.listing import chains
-from gruebler.enumeration.multiple import merged, split, with_multiple_joints
+from gruebler.enumeration.multiple import merge_joints, split_multiple_joints, with_multiple_joints
 from gruebler.enumeration.multiple_assortment import joint_assortments
 
 
@@ -128,8 +128,8 @@ def test_merging_tests_exactly_the_definition():
                     candidate = Chain([("revolute", links) for links in made], links=chain.links)
                     if is_constrained(candidate, 1):
                         every.add(code(candidate))
-        assert {code(child) for child in merged(chain)} == every
-        assert {code(child) for child in merged(chain, preferred=True)} <= every
+        assert {code(child) for child in merge_joints(chain)} == every
+        assert {code(child) for child in merge_joints(chain, preferred=True)} <= every
 
 
 def test_the_chosen_split_is_blind_to_names():
@@ -138,7 +138,7 @@ def test_the_chosen_split_is_blind_to_names():
     for chain in several:
         turned = chain.renamed({link: f"link {k}" for k, link in enumerate(reversed(chain.links))})
         mixed = Chain(list(turned.joints)[::-1], links=sorted(turned.links))
-        assert code(split(mixed)) == code(split(chain))
+        assert code(split_multiple_joints(mixed)) == code(split_multiple_joints(chain))
 
 
 def test_exactly_at_most_and_any():

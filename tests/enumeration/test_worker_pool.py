@@ -17,8 +17,8 @@ from gruebler.atomic_files import PARTIAL, atomic_file
 from gruebler.enumeration.checkpoint import Checkpoint
 from gruebler.enumeration.request import Request
 from gruebler.enumeration.run_request import run_count, run_list
-from gruebler.enumeration.work_units import Counter, add_tallies, work_of
-from gruebler.enumeration.worker_pool import Processes, Progress, perform
+from gruebler.enumeration.work_units import PieceCounter, add_tallies, work_units
+from gruebler.enumeration.worker_pool import ProcessPools, Progress, run_work
 from gruebler.errors import RunError
 
 CHAINS_14 = 318162
@@ -51,7 +51,7 @@ def fails(number):
 
 @pytest.fixture
 def processes():
-    made = Processes(2)
+    made = ProcessPools(2)
     yield made
     made.stop()
 
@@ -60,25 +60,25 @@ def processes():
 def test_results_come_in_order(processes, ahead):
     expected = [k * k for k in range(40)]
     told = {}
-    assert list(perform(square, range(40))) == expected
-    assert list(perform(square, range(40), processes, ahead=ahead, finished=told.__setitem__)) == expected
+    assert list(run_work(square, range(40))) == expected
+    assert list(run_work(square, range(40), processes, ahead=ahead, finished=told.__setitem__)) == expected
     assert told == dict(enumerate(expected))
     with ThreadPoolExecutor(3) as threads:
-        assert list(perform(square, range(40), threads, ahead=ahead)) == expected
+        assert list(run_work(square, range(40), threads, ahead=ahead)) == expected
         assert threads.submit(square, 3).result() == 9
 
 
 def test_known_pieces_are_not_done_again(processes):
     for executor in (None, processes):
         told = {}
-        found = list(perform(square, range(9), executor, known={2: -2, 8: -8}.get, finished=told.__setitem__))
+        found = list(run_work(square, range(9), executor, known={2: -2, 8: -8}.get, finished=told.__setitem__))
         assert found == [0, 1, -2, 9, 16, 25, 36, 49, -8]
         assert sorted(told) == [0, 1, 3, 4, 5, 6, 7]
 
 
 def test_a_lost_worker_changes_nothing(processes, tmp_path):
     told = []
-    found = list(perform(partial(dies_once, tmp_path), range(20), processes, finished=lambda k, _: told.append(k)))
+    found = list(run_work(partial(dies_once, tmp_path), range(20), processes, finished=lambda k, _: told.append(k)))
     assert found == [k * k for k in range(20)]
     assert sorted(told) == list(range(20))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["3", "7"]
@@ -104,7 +104,7 @@ class DiesWriting:
 
 def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
     store = Checkpoint(tmp_path / "kept", {}, "1")
-    assert list(perform(DiesWriting(store), range(5), processes)) == [0, 1, 4, 9, 16]
+    assert list(run_work(DiesWriting(store), range(5), processes)) == [0, 1, 4, 9, 16]
     assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)]
     store.tidy()
     assert [path for path in store.directory.iterdir() if path.name.endswith(PARTIAL)] == []
@@ -113,13 +113,13 @@ def test_what_a_lost_worker_was_writing_goes_with_the_run(processes, tmp_path):
 
 def test_a_broken_executor_that_was_given_is_replaced(tmp_path):
     with ProcessPoolExecutor(2) as pool:
-        found = list(perform(partial(dies_once, tmp_path), range(12), pool))
+        found = list(run_work(partial(dies_once, tmp_path), range(12), pool))
     assert found == [k * k for k in range(12)]
 
 
 def test_a_piece_that_kills_every_worker_ends_the_run(processes):
     with pytest.raises(RunError, match="lost 3 times in a row"):
-        list(perform(dies_always, range(8), processes, retries=2))
+        list(run_work(dies_always, range(8), processes, retries=2))
 
 
 def test_an_executor_that_cannot_be_made_anew():
@@ -128,13 +128,13 @@ def test_an_executor_that_cannot_be_made_anew():
             raise BrokenProcessPool("gone")
 
     with pytest.raises(RunError, match="Broken broke"):
-        list(perform(square, range(3), Broken()))
+        list(run_work(square, range(3), Broken()))
 
 
 def test_what_a_piece_raises_is_raised(processes):
     for executor in (None, processes):
         with pytest.raises(ZeroDivisionError, match="four"):
-            list(perform(fails, range(9), executor))
+            list(run_work(fails, range(9), executor))
 
 
 class OneDeath:
@@ -152,10 +152,10 @@ class OneDeath:
 
 def test_a_lost_worker_changes_no_count(processes, tmp_path):
     request = Request(12)
-    work = list(work_of(request, size=10_000))
+    work = list(work_units(request, size=10_000))
     assert len(work) > 10
-    counter = OneDeath(tmp_path / "dead", Counter(request, True), repr(work[2]))
-    found = add_tallies(request, True, perform(counter, work, processes))
+    counter = OneDeath(tmp_path / "dead", PieceCounter(request, True), repr(work[2]))
+    found = add_tallies(request, True, run_work(counter, work, processes))
     assert (tmp_path / "dead").exists()
     assert found == run_count(request, orbits=True)
     assert found.chains == 6856
@@ -343,7 +343,7 @@ def test_progress_counts_pieces_and_chains(tmp_path):
 
 def test_at_least_one_process():
     with pytest.raises(RunError, match="at least one process"):
-        Processes(0)
+        ProcessPools(0)
 
 
 ENDLESS = """
@@ -405,7 +405,7 @@ def test_sixteen_links_killed_three_times(tmp_path):
     assert subprocess.run(command, check=False).returncode == 0
     with out.open("rb") as file:
         assert sum(chunk.count(b"\n") for chunk in iter(lambda: file.read(1 << 24), b"")) == 19_819_281
-    counted = run_count(Request(16), executor=Processes(2), checkpoint=tmp_path / "count")
+    counted = run_count(Request(16), executor=ProcessPools(2), checkpoint=tmp_path / "count")
     assert counted.chains == 19_819_281
 
 

@@ -8,12 +8,23 @@ from hypothesis import strategies as st
 
 from gruebler import GrueblerError
 from gruebler.chain import Chain
-from gruebler.exercises import KINDS, LEVELS, Mark, exercise, fresh, mark, plain_key, solution_text, solve, task_text
-from gruebler.exercises.generation import is_fresh
+from gruebler.exercises import (
+    KINDS,
+    LEVELS,
+    Mark,
+    ascii_key,
+    exercise,
+    generate,
+    grade,
+    solution_text,
+    solve,
+    task_text,
+)
+from gruebler.exercises.generation import is_generated
 from gruebler.exercises.solution import number
 from gruebler.mobility import counted, generic_mobility
 
-TASKS = st.builds(fresh, st.sampled_from(list(KINDS)), st.integers(0, 999), st.sampled_from(LEVELS))
+TASKS = st.builds(generate, st.sampled_from(list(KINDS)), st.integers(0, 999), st.sampled_from(LEVELS))
 
 
 @settings(max_examples=30)
@@ -27,7 +38,7 @@ def test_every_fresh_task_is_solved_by_both_ways(task):
         assert task_text(task, lang, solution)
     again = exercise(task.id)
     assert again == task
-    assert is_fresh(task.id)
+    assert is_generated(task.id)
 
 
 @settings(max_examples=30)
@@ -35,13 +46,13 @@ def test_every_fresh_task_is_solved_by_both_ways(task):
 def test_right_answers_are_right_and_likely_mistakes_get_their_hint(task):
     solution = solve(task)
     right = {key: _written(result.value) for key, result in solution.results.items()}
-    assert {one.mark for one in mark(task, right)} == {Mark.RIGHT}
+    assert {one.mark for one in grade(task, right)} == {Mark.RIGHT}
     for mistake in solution.mistakes:
         value = solution[mistake.key]
         close = isinstance(value, float) and abs(mistake.value - value) <= 2e-3 * abs(value)
         if close or (isinstance(value, float) and not math.isfinite(mistake.value)):
             continue
-        (one,) = mark(task, {mistake.key: _written(mistake.value)})
+        (one,) = grade(task, {mistake.key: _written(mistake.value)})
         assert one.mark is not Mark.RIGHT
         assert one.hint is not None
 
@@ -55,14 +66,14 @@ def _written(value):
 def test_other_seeds_give_other_tasks():
     for kind in KINDS:
         for level in LEVELS:
-            made = {str(sorted(fresh(kind, seed, level).given.items())) for seed in range(12)}
+            made = {str(sorted(generate(kind, seed, level).given.items())) for seed in range(12)}
             assert len(made) >= (2 if kind == "dyad" else 8)
 
 
 def test_fresh_chains_grow_with_the_level():
     kinds = []
     for level in LEVELS:
-        found = [Chain.parse(fresh("mobility", seed, level).given["chain"]) for seed in range(10)]
+        found = [Chain.parse(generate("mobility", seed, level).given["chain"]) for seed in range(10)]
         assert all(generic_mobility(chain) == max(counted(chain), 0) for chain in found)
         kinds.append({joint.pair.name for chain in found for joint in chain.joints})
         assert all(bool(chain.multiple_joints) == (level > 1) for chain in found)
@@ -95,7 +106,7 @@ def test_fresh_chains_grow_with_the_level():
     ],
 )
 def test_hints(id, key, answer, words):
-    (one,) = mark(exercise(id), {key: answer})
+    (one,) = grade(exercise(id), {key: answer})
     assert one.mark is Mark.WRONG
     assert words in one.hint.en
 
@@ -115,14 +126,14 @@ def test_hints(id, key, answer, words):
     ],
 )
 def test_digits_of_an_answer(answer, worth):
-    assert mark(exercise("exercise-11"), {"φ_H2": answer})[0].mark is worth
+    assert grade(exercise("exercise-11"), {"φ_H2": answer})[0].mark is worth
 
 
 def test_words_as_answers():
     task = exercise("exercise-7")
-    assert [m.mark for m in mark(task, {"turns": "ja", "type": "Kurbelschwinge"})] == [Mark.RIGHT, Mark.RIGHT]
-    assert [m.mark for m in mark(task, {"turns": "No", "type": "double crank"})] == [Mark.WRONG, Mark.WRONG]
-    assert mark(task, {"type": "crank rocker"})[0].mark is Mark.RIGHT
+    assert [m.mark for m in grade(task, {"turns": "ja", "type": "Kurbelschwinge"})] == [Mark.RIGHT, Mark.RIGHT]
+    assert [m.mark for m in grade(task, {"turns": "No", "type": "double crank"})] == [Mark.WRONG, Mark.WRONG]
+    assert grade(task, {"type": "crank rocker"})[0].mark is Mark.RIGHT
 
 
 @pytest.mark.parametrize(
@@ -140,14 +151,14 @@ def test_words_as_answers():
 )
 def test_wrong_calls(answers, words):
     with pytest.raises(GrueblerError, match=words):
-        mark(exercise("exercise-11"), answers)
+        grade(exercise("exercise-11"), answers)
 
 
 def test_wrong_kinds_and_seeds():
     for call, words in (
-        (lambda: fresh("gear", 1), "kinds of fresh tasks"),
-        (lambda: fresh("grashof", 1, 4), "level is 1, 2 or 3"),
-        (lambda: fresh("grashof", -1), "seed is a whole number"),
+        (lambda: generate("gear", 1), "kinds of fresh tasks"),
+        (lambda: generate("grashof", 1, 4), "level is 1, 2 or 3"),
+        (lambda: generate("grashof", -1), "seed is a whole number"),
         (lambda: exercise("gear-1-1"), "there is no exercise"),
         (lambda: exercise("grashof-9-1"), "level is 1, 2 or 3"),
     ):
@@ -157,7 +168,7 @@ def test_wrong_kinds_and_seeds():
 
 def test_keys_on_every_keyboard():
     for kind in KINDS:
-        keys = [plain_key(key) for key in solve(fresh(kind, 3, 3)).results]
+        keys = [ascii_key(key) for key in solve(generate(kind, 3, 3)).results]
         assert len(set(keys)) == len(keys)
         assert all(key.isascii() for key in keys)
 
@@ -180,13 +191,13 @@ def test_keys_on_every_keyboard():
     ],
 )
 def test_answers_with_units(id, key, answer):
-    assert mark(exercise(id), {key: answer})[0].mark is Mark.RIGHT
+    assert grade(exercise(id), {key: answer})[0].mark is Mark.RIGHT
 
 
 def test_a_unit_counts():
-    assert mark(exercise("15"), {"H": "7.2 mm"})[0].mark is Mark.WRONG
+    assert grade(exercise("15"), {"H": "7.2 mm"})[0].mark is Mark.WRONG
     with pytest.raises(GrueblerError, match="without a unit"):
-        mark(exercise("6"), {"F": "1 mm"})
+        grade(exercise("6"), {"F": "1 mm"})
 
 
 def test_the_task_tells_the_unit():
@@ -196,22 +207,22 @@ def test_the_task_tells_the_unit():
 
 def test_a_table_is_no_answer():
     with pytest.raises(GrueblerError, match="exercise-16 is answered by a table"):
-        mark(exercise("16"), {"K": "1"})
+        grade(exercise("16"), {"K": "1"})
 
 
 def test_counts_get_no_hints_for_lengths():
-    (one,) = mark(exercise("6"), {"F": "2"})
+    (one,) = grade(exercise("6"), {"F": "2"})
     assert (one.mark, one.hint) == (Mark.WRONG, None)
 
 
 @pytest.mark.parametrize("seed", [27, 28, 35])
 def test_strokes_that_are_nearly_twice_the_crank_are_not_asked(seed):
-    task = fresh("dead-centre", seed, 2)
-    assert mark(task, {"H": number(2 * task.given["a"])})[0].mark is not Mark.RIGHT
+    task = generate("dead-centre", seed, 2)
+    assert grade(task, {"H": number(2 * task.given["a"])})[0].mark is not Mark.RIGHT
 
 
 def test_dyads_are_of_many_kinds():
-    made = [fresh("dyad", seed, level) for seed in range(15) for level in LEVELS]
+    made = [generate("dyad", seed, level) for seed in range(15) for level in LEVELS]
     assert len({str(sorted(task.given.items())) for task in made}) > 30
     assert {task.given.get("form") for task in made} == {None, "RRR", "RPR", "RRP"}
     for task in made[:9]:
@@ -220,12 +231,12 @@ def test_dyads_are_of_many_kinds():
 
 def test_some_four_bars_are_change_points():
     kinds = {
-        solve(fresh("grashof", seed, 1))["sum_ends"] == solve(fresh("grashof", seed, 1))["sum_others"]
+        solve(generate("grashof", seed, 1))["sum_ends"] == solve(generate("grashof", seed, 1))["sum_others"]
         for seed in range(20)
     }
     assert kinds == {True, False}
 
 
 def test_the_inner_dead_centre_is_told_only_where_it_may_be_meant():
-    assert "v_B_i" not in solve(fresh("velocity", 1, 1)).results
+    assert "v_B_i" not in solve(generate("velocity", 1, 1)).results
     assert "v_B_i" in solve(exercise("21")).results

@@ -31,9 +31,9 @@ from gruebler.exercises import (
     transmission_angle,
     velocities,
 )
-from gruebler.exercises.solution import filled, number
+from gruebler.exercises.solution import fill_template, number
 from gruebler.formats import Exercise
-from gruebler.formats.catalog_records import Asked
+from gruebler.formats.catalog_records import Question
 from gruebler.fourbar import FourBar
 from gruebler.text import Text
 
@@ -464,7 +464,7 @@ def test_wrong_records_are_refused(changes, words):
 
 def test_a_reason_without_a_difference_does_not_explain():
     def one(printed, reason=None):
-        task = _task(asked=(Asked("H", printed, reason=reason),))
+        task = _task(asked=(Question("H", printed, reason=reason),))
         return compare(task, solve(task))[0]
 
     why = Text("misprint", "Druckfehler")
@@ -475,7 +475,7 @@ def test_a_reason_without_a_difference_does_not_explain():
     assert one("40.4").agrees is False
     assert one("4e1").agrees
     with pytest.raises(CatalogError, match="no result 'q'"):
-        compare(_task(asked=(Asked("q"),)), solve(_task()))
+        compare(_task(asked=(Question("q"),)), solve(_task()))
 
 
 def test_every_method_is_used_by_an_exercise_or_a_fresh_task():
@@ -494,10 +494,10 @@ def test_unknown_exercises():
 
 
 def test_formulas_are_filled_with_numbers():
-    assert filled("a - b", {"a": 1, "b": -2.5}) == "1 - (-2.5)"
-    assert filled("arccos(b/d)", {"b": -1, "d": 2, "arc": 3}) == "arccos(-1/2)"
-    assert filled("b²", {"b": -1}) == "(-1)²"
-    assert filled("φ_max/φ_min", {"φ_max": "190°", "φ_min": "170°", "φ": 1}) == "190°/170°"
+    assert fill_template("a - b", {"a": 1, "b": -2.5}) == "1 - (-2.5)"
+    assert fill_template("arccos(b/d)", {"b": -1, "d": 2, "arc": 3}) == "arccos(-1/2)"
+    assert fill_template("b²", {"b": -1}) == "(-1)²"
+    assert fill_template("φ_max/φ_min", {"φ_max": "190°", "φ_min": "170°", "φ": 1}) == "190°/170°"
     assert number(123456.7) == "123457"
 
 

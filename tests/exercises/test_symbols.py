@@ -5,12 +5,12 @@ from collections import Counter
 import pytest
 
 from gruebler import GrueblerError
-from gruebler.exercises import Mark, all_exercises, fresh, mark, solve
+from gruebler.exercises import Mark, all_exercises, generate, grade, solve
 from gruebler.exercises.generation import KINDS
 
 TASKS = [
     *all_exercises().values(),
-    *(fresh(kind, seed, level) for kind in KINDS for level in (1, 2, 3) for seed in (1, 2)),
+    *(generate(kind, seed, level) for kind in KINDS for level in (1, 2, 3) for seed in (1, 2)),
 ]
 
 
@@ -23,21 +23,21 @@ def test_answers_are_taken_by_the_printed_symbols(task):
         if isinstance(result.value, bool) or not isinstance(result.value, int | float):
             continue
         answer = repr(result.value)
-        (by_key,) = mark(task, {key: answer})
+        (by_key,) = grade(task, {key: answer})
         assert (by_key.key, by_key.mark) == (key, Mark.RIGHT)
         if symbols[result.symbol] == 1:
-            (by_symbol,) = mark(task, {result.symbol: answer})
+            (by_symbol,) = grade(task, {result.symbol: answer})
             assert by_symbol == by_key
         elif result.symbol not in solution.results:
             with pytest.raises(GrueblerError, match=r"stands for several results") as caught:
-                mark(task, {result.symbol: answer})
+                grade(task, {result.symbol: answer})
             assert key in str(caught.value)
 
 
 def test_the_ratio_of_times_by_its_symbol():
-    task = fresh("dead-centre", 3, 2)
-    assert [one.mark for one in mark(task, {"H": "43,2456", "k": "1,3007"})] == [Mark.RIGHT, Mark.RIGHT]
+    task = generate("dead-centre", 3, 2)
+    assert [one.mark for one in grade(task, {"H": "43,2456", "k": "1,3007"})] == [Mark.RIGHT, Mark.RIGHT]
     with pytest.raises(GrueblerError, match=r"k is answered twice"):
-        mark(task, {"time_ratio": "1.3007", "k": "1.3007"})
+        grade(task, {"time_ratio": "1.3007", "k": "1.3007"})
     with pytest.raises(GrueblerError, match=r"it asks for H, phi_max, time_ratio \(k\)"):
-        mark(task, {"j": "1"})
+        grade(task, {"j": "1"})

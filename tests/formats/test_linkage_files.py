@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
 from gruebler.formats.angles import in_degrees, in_radians
-from gruebler.formats.linkages import linkage_from_json, read_linkage, to_json, to_toml, write_linkage
+from gruebler.formats.linkages import linkage_from_json, linkage_to_json, linkage_to_toml, read_linkage, write_linkage
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
@@ -69,12 +69,12 @@ def _drawings(draw):
 @given(linkage=st.composite(_drawings)())
 def test_round_trips(linkage):
     assume(linkage is not None)
-    assert linkage_from_json(to_json(linkage)) == linkage
-    assert linkage_from_json(json.loads(json.dumps(to_json(linkage)))) == linkage
-    again = linkage_from_json(tomllib.loads(to_toml(linkage)))
+    assert linkage_from_json(linkage_to_json(linkage)) == linkage
+    assert linkage_from_json(json.loads(json.dumps(linkage_to_json(linkage)))) == linkage
+    again = linkage_from_json(tomllib.loads(linkage_to_toml(linkage)))
     assert again == linkage
     assert again.mechanism.chain.links == linkage.mechanism.chain.links
-    assert to_toml(again) == to_toml(linkage)
+    assert linkage_to_toml(again) == linkage_to_toml(linkage)
 
 
 def test_files_round_trip_and_keep_the_order_of_links(tmp_path):

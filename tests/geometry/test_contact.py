@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.geometry import coupler_curve, series, tangent_contact
+from gruebler.geometry import coupler_curve, tangent_contact, taylor_series
 from gruebler.geometry.curvature import inflection_circle, path_curvature
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 
 from .linkages import CYLINDER, MOVING
 
@@ -25,7 +25,7 @@ def test_rivals_up_to_the_third_order(name):
     """The kernels' velocities, accelerations and jerks."""
     linkage, rows, one, _ = MOVING[name]
     motion = move(linkage, rows[::25], speed=1, order=3)
-    found = series(motion, 3)
+    found = taylor_series(motion, 3)
     for k in range(4):
         exact = motion.complex_point("K", k)
         assert abs(found.point("K")[:, k] * factorial(k) - exact).max() < 1e-12 * abs(exact).max()
@@ -40,13 +40,13 @@ def test_oracle_the_sum_of_the_series(name):
     linkage, rows, *_ = MOVING[name]
     step = 0.02 * (rows[-1] - rows[0])
     motion = move(linkage, [rows[30], rows[30] + step])
-    sum_of = np.polynomial.polynomial.polyval(step, series(motion, 14).point("K")[0])
+    sum_of = np.polynomial.polynomial.polyval(step, taylor_series(motion, 14).point("K")[0])
     assert abs(sum_of - motion.complex_point("K")[1]) < 1e-11 * linkage.size
 
 
 def test_oracle_closed_form():
     """The slider of a central slider-crank: s = a cos + sqrt(b^2 - a^2 sin^2), expanded at 0 by hand."""
-    found = series(move(SliderCrank(1, 2).linkage(), [0.0]), 6).point("R(coupler-slider)")[0]
+    found = taylor_series(move(SliderCrank(1, 2).linkage(), [0.0]), 6).point("R(coupler-slider)")[0]
     # sqrt(4 - sin^2) = 2 - sin^2/4 - sin^4/64 - sin^6/512, sin^2 = x^2 - x^4/3 + 2 x^6/45, sin^4 = x^4 - 2 x^6/3
     expected = [3, 0, -1 / 2 - 1 / 4, 0, 1 / 24 + 1 / 12 - 1 / 64, 0, -1 / 720 - 1 / 90 + 1 / 96 - 1 / 512]
     assert found.real == pytest.approx(expected, abs=1e-14)
@@ -61,7 +61,7 @@ def test_six_points_literature():
     assert math.degrees(found.direction) % 180 == pytest.approx(15.79316904826399)
     scaled = tangent_contact(move(LENKER.scaled(10), math.pi), "K")
     assert scaled.coefficient == pytest.approx(found.coefficient * 1e-5)
-    z = series(move(LENKER, math.pi), 6).point("K")[0] * np.exp(-1j * (found.direction + math.pi))
+    z = taylor_series(move(LENKER, math.pi), 6).point("K")[0] * np.exp(-1j * (found.direction + math.pi))
     # xi = -1.63299316 t + 0.10886621 t^3, eta = 0.00293938769 t^6, as printed in the series of the reference
     assert abs(z[1]) == pytest.approx(7.07630370, rel=1e-8) or abs(z[1]) == pytest.approx(1.63299316, rel=1e-8)
     assert abs(z[6].imag) == pytest.approx(0.00293938769, abs=1e-11)
@@ -128,7 +128,7 @@ def test_no_normal_acceleration_on_the_inflection_circle(name):
         for angle in (0.3, 1.4, 2.6, 4.0, 5.5):
             on = circle.pole[row] - 0.5j * circle.shift[row] * (1 - np.exp(1j * angle))
             arm = complex(np.conj(motion.turns[row, k]) * (on - motion.places[0, row, k]))
-            point = Named(one, arm.real, arm.imag)
+            point = LinkPoint(one, arm.real, arm.imag)
             velocity, acceleration = (motion.complex_point(point, order)[row] for order in (1, 2))
             normal = (np.conj(velocity) * acceleration).imag / abs(velocity)
             assert abs(normal) < 1e-9 * max(abs(acceleration), abs(velocity))
@@ -153,8 +153,8 @@ def test_wrong_calls():
         tangent_contact(move(SliderCrank(2, 5).linkage(), [0.0]), "R(coupler-slider)")
     for order in (0, 41, 2.0, True, "3"):
         with pytest.raises(LinkageError, match="order of a series"):
-            series(motion, order)
+            taylor_series(motion, order)
     with pytest.raises(LinkageError, match="assembly modes meet"):
-        series(move(FourBar(25, 70, 25, 70).linkage(), [0.0], branch="+"), 3)
-    assert series(move(CYLINDER, [3.2]), 2).order == 2
-    assert series(move(InvertedSliderCrank(25, 60, 5).linkage(), [1.0, 2.0]), 4).places.shape[::2] == (2, 5)
+        taylor_series(move(FourBar(25, 70, 25, 70).linkage(), [0.0], branch="+"), 3)
+    assert taylor_series(move(CYLINDER, [3.2]), 2).order == 2
+    assert taylor_series(move(InvertedSliderCrank(25, 60, 5).linkage(), [1.0, 2.0]), 4).places.shape[::2] == (2, 5)

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import coupler_curve, coupler_sextic
-from gruebler.geometry.relative import against
+from gruebler.geometry.relative import relative_motion
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 
 from .linkages import CYLINDER, SIX_BAR
 
@@ -207,9 +207,9 @@ def test_a_cusp_on_the_moving_centrode(name, phi):
     """The coupler's point that is the pole stands still: the path has a cusp with the pole normal as its tangent."""
     linkage, _ = CURVES[name]
     motion = move(linkage, [phi], speed=1, order=2)
-    seen = against(motion, "coupler")
+    seen = relative_motion(motion, "coupler")
     arm = complex(np.conj(seen.turn[0]) * (seen.pole[0] - seen.places[0, 0]))
-    found = coupler_curve(linkage, Named("coupler", arm.real, arm.imag))
+    found = coupler_curve(linkage, LinkPoint("coupler", arm.real, arm.imag))
     near = [one for one in found.cusps if abs(one.drive - phi) < 1e-6]
     assert len(near) == 1
     assert near[0].drive == pytest.approx(phi, abs=1e-10)
@@ -218,7 +218,7 @@ def test_a_cusp_on_the_moving_centrode(name, phi):
     ahead = found.trail.at(np.array([near[0].parameter + 1e-4]), 1)[1, 0]
     assert abs(math.remainder(np.angle(ahead) - near[0].direction, 2 * math.pi)) < 1e-2
     assert all(abs(one.drive - phi) > 1e-3 for one in (*found.inflections, *found.vertices))
-    aside = coupler_curve(linkage, Named("coupler", arm.real + 1e-3, arm.imag + 2e-3))
+    aside = coupler_curve(linkage, LinkPoint("coupler", arm.real + 1e-3, arm.imag + 2e-3))
     assert not [one for one in aside.cusps if abs(one.drive - phi) < 0.1]
 
 
@@ -292,7 +292,7 @@ def test_wrong_calls():
 
 def test_a_far_point_is_sampled_by_its_own_path():
     """The polygon's tolerance goes with the path where that is larger than the linkage."""
-    near, far = (coupler_curve(CRANK_ROCKER, Named("coupler", x, 40.0)) for x in (45.0, 1e10))
+    near, far = (coupler_curve(CRANK_ROCKER, LinkPoint("coupler", x, 40.0)) for x in (45.0, 1e10))
     assert near.tolerance == pytest.approx(1e-4 * near.trail.size)
     assert len(far.points) < 10 * len(near.points)
     assert far.length == pytest.approx(np.hypot(*np.diff([far.points.real, far.points.imag], axis=1)).sum(), rel=1e-3)

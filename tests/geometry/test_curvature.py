@@ -8,9 +8,9 @@ import pytest
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import inflection_circle, path_curvature
-from gruebler.geometry.relative import against
+from gruebler.geometry.relative import relative_motion
 from gruebler.kinematics import move
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 
 from .linkages import MOVING, moved
 
@@ -22,7 +22,7 @@ ARMS = [0.4 + 0.3j, -1.1 + 0.8j, 2.0 - 1.7j]  # points of the moving link, in si
 def test_a_point_on_the_inflection_circle_has_no_normal_acceleration(name, relative):
     motion, one, other = moved(name)
     reference = other if relative else motion.linkage.mechanism.frame
-    circle, seen = inflection_circle(motion, one, reference), against(motion, one, reference, order=2)
+    circle, seen = inflection_circle(motion, one, reference), relative_motion(motion, one, reference, order=2)
     middle = circle.pole - 0.5j * circle.shift
     for angle in (0.3, 2.0, 4.0):
         there = middle + circle.diameter / 2 * np.exp(1j * angle) * circle.normal
@@ -41,7 +41,7 @@ def test_rivals_for_centres_of_curvature(name, relative):
     reference = other if relative else motion.linkage.mechanism.frame
     circle = inflection_circle(motion, one, reference)
     for arm in np.array(ARMS) * motion.linkage.size:
-        path = path_curvature(motion, Named(one, arm.real, arm.imag), reference)
+        path = path_curvature(motion, LinkPoint(one, arm.real, arm.imag), reference)
         curved = np.isfinite(circle.pole) & (abs(path.curvature) * motion.linkage.size > 1e-3)
         assert np.allclose(circle.centre(path.point)[curved], path.centre[curved], rtol=1e-7)
 
@@ -50,7 +50,7 @@ def test_rivals_for_centres_of_curvature(name, relative):
 def test_oracle_three_points(name):
     """The circle through three neighbouring points of the path, and differences of the curvature along it."""
     motion, one, _ = moved(name)
-    path = path_curvature(motion, Named(one, 0.5 * motion.linkage.size, 0.7 * motion.linkage.size))
+    path = path_curvature(motion, LinkPoint(one, 0.5 * motion.linkage.size, 0.7 * motion.linkage.size))
     a, b, c = path.point[:-2], path.point[1:-1], path.point[2:]
     area = (np.conj(b - a) * (c - a)).imag
     through = 2 * area / (abs(b - a) * abs(c - b) * abs(c - a))
@@ -69,7 +69,7 @@ def test_geometry_does_not_know_the_time(name):
     for other in (None, MOVING[name][3]):
         first, second = inflection_circle(slow, one, other), inflection_circle(fast, one, other)
         assert np.allclose(first.inflection_pole, second.inflection_pole, rtol=1e-9, equal_nan=True)
-    path, again = (path_curvature(each, Named(one, 0.5 * slow.linkage.size, 0.7)) for each in (slow, fast))
+    path, again = (path_curvature(each, LinkPoint(one, 0.5 * slow.linkage.size, 0.7)) for each in (slow, fast))
     scale = np.maximum(abs(path.change), slow.linkage.size**-2)
     assert np.abs((path.change - again.change) / scale).max() < 1e-6
 
@@ -142,7 +142,7 @@ def test_cardan_circles():
     circle = inflection_circle(motion, "coupler")
     assert np.allclose(circle.diameter, 2)
     assert np.allclose(circle.inflection_pole, 0)
-    opposite = path_curvature(motion, Named("coupler", -1.0, 0.0))
+    opposite = path_curvature(motion, LinkPoint("coupler", -1.0, 0.0))
     assert np.abs(opposite.point.real).max() < 1e-12
     assert np.abs(opposite.curvature).max() < 1e-12
 
@@ -160,10 +160,10 @@ def test_translation_and_cusp():
     assert np.isnan(inflection_circle(motion, "coupler").pole).all()
     assert np.allclose(abs(path_curvature(motion, "K").radius), 25)
     moving, one, _ = moved("four-bar")
-    pole = against(moving, one).pole
-    seen = against(moving, one)
+    pole = relative_motion(moving, one).pole
+    seen = relative_motion(moving, one)
     arm = (np.conj(seen.turn) * (pole - seen.places[0]))[40]
-    cusp = path_curvature(moving, Named(one, arm.real, arm.imag))
+    cusp = path_curvature(moving, LinkPoint(one, arm.real, arm.imag))
     assert np.isnan(cusp.curvature[40])
     assert np.isfinite(cusp.curvature[30])
 

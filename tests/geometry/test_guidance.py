@@ -7,10 +7,10 @@ import pytest
 
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
-from gruebler.geometry import coupler_path, longest_piece, piece, piece_of_ratio
+from gruebler.geometry import coupler_path, longest_piece, path_piece, piece_of_ratio
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.guidance import GUIDANCES, guidance
-from gruebler.geometry.sizing import Window, longest_in_band, ratio_curve, sized, widest_piece
+from gruebler.geometry.sizing import Window, longest_in_band, ratio_curve, scale_for, widest_piece
 from gruebler.kinematics import move
 
 KAPPA = math.radians(15.79316904826399)
@@ -123,7 +123,7 @@ def test_meyer_zur_capellen_and_its_replacement_draw_one_curve():
 
 def test_the_sizing_of_the_sheet():
     """L = 15 cm within 0.75 mm: Q_G = 0.005, phi_G = 163.3248, phi_A = 98.3376, L/l1 = 3.907352, l1 = 3.8389 cm."""
-    found = sized(LENKER, WHOLE, 15, 0.075)
+    found = scale_for(LENKER, WHOLE, 15, 0.075)
     assert abs(math.degrees(found.piece.end - found.piece.start) - 163.32477378) < 2e-7
     assert abs(math.degrees(found.piece.start) - 98.33761311) < 1e-7
     assert abs(found.piece.length - 3.907352348) < 5e-9
@@ -193,6 +193,6 @@ def test_the_longest_piece_between_samples():
         other = next(
             one
             for stop in np.arange(found.end - 0.01, found.end + 0.02, 2e-5)
-            if (one := piece(path, found.start + off, stop, samples=201)).length >= found.length
+            if (one := path_piece(path, found.start + off, stop, samples=201)).length >= found.length
         )
         assert other.band > 0.5

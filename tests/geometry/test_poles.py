@@ -8,7 +8,7 @@ import pytest
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import centrodes, poles
-from gruebler.geometry.relative import against
+from gruebler.geometry.relative import relative_motion
 from gruebler.kinematics import move
 
 from .linkages import MOVING, moved
@@ -74,7 +74,7 @@ def test_two_ways_to_one_pole(name):
     """From absolute velocities in the plane, and from the motion as the other link sees it."""
     motion, one, other = moved(name)
     k = motion.linkage.mechanism.chain.links.index(other)
-    seen = against(motion, one, other)
+    seen = relative_motion(motion, one, other)
     there = motion.places[0, :, k] + motion.turns[:, k] * seen.pole
     assert np.allclose(poles(motion).of(one, other), there, rtol=1e-9, equal_nan=True)
 
@@ -88,7 +88,7 @@ def test_centrodes_roll_without_slip(name, relative):
     rolling = centrodes(motion, one, reference)
     if np.isnan(rolling.fixed).any():
         pytest.skip("the links translate against one another")
-    seen = against(motion, one, reference)
+    seen = relative_motion(motion, one, reference)
     fixed, moving = np.diff(rolling.fixed), np.diff(rolling.moving)
     far = 1e-9 * np.maximum(abs(rolling.fixed), motion.linkage.size)
     assert np.all(abs(seen.places[0] + seen.turn * rolling.moving - rolling.fixed) < far)

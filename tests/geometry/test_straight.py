@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.geometry import coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
+from gruebler.geometry import coupler_path, linkage_path, longest_piece, path_piece, piece_of_ratio
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -46,7 +46,7 @@ def test_relative_deviation(ratio, window, start, length):
 def test_window_given():
     """163.3 degrees: L = 3.907, Dy = 0.0195."""
     half = math.radians(163.3 / 2)
-    found = piece(LENKER, math.pi - half, math.pi + half, direction=math.radians(15.79316904826399))
+    found = path_piece(LENKER, math.pi - half, math.pi + half, direction=math.radians(15.79316904826399))
     assert abs(found.length - 3.907019046) < 1e-9
     assert abs(found.band - 0.019520446675) < 1e-11
     assert abs(found.ratio - 0.004996250708) < 1e-11
@@ -54,15 +54,15 @@ def test_window_given():
 
 def test_lambda_linkage():
     """1 : 2 : 2.5 with 20 mm: crank angles 90 to 270 degrees, a line of 80 mm within 0.195."""
-    found = piece(LAMBDA, math.pi / 2, 3 * math.pi / 2, direction=0)
+    found = path_piece(LAMBDA, math.pi / 2, 3 * math.pi / 2, direction=0)
     assert abs(found.length - 80) < 1e-9
     assert abs(found.band - 0.195075) < 1e-6
     assert abs(found.ratio - 0.002438) < 5e-7
-    narrow = piece(LAMBDA, math.pi / 2, 3 * math.pi / 2)
+    narrow = path_piece(LAMBDA, math.pi / 2, 3 * math.pi / 2)
     assert abs(narrow.band - found.band) < 1e-5
     for band, length in ((0.01, 7.210260387), (0.05, 16.713497735), (0.1, 25.003512870), (0.2, 88.813674830)):
         start, _ = {0.01: (172.255, 0), 0.05: (162.055, 0), 0.1: (153.165, 0), 0.2: (75.375, 0)}[band]
-        window = piece(LAMBDA, math.radians(start), math.radians(360 - start), direction=0)
+        window = path_piece(LAMBDA, math.radians(start), math.radians(360 - start), direction=0)
         assert abs(window.length - length) < 1e-8
         assert window.band < band
 
@@ -74,10 +74,10 @@ def test_conchoid_linkage():
         (57.25, 120.75, 0.4977666221, 29.240327460, 132.0407538768386),
         (51.5, 138.75, 0.9939175008, 37.480926940, 133.29337555286986),
     ):
-        found = piece(CONCHOID, *np.radians([start, end]), direction=np.radians(direction))
+        found = path_piece(CONCHOID, *np.radians([start, end]), direction=np.radians(direction))
         assert abs(found.length - length) < 1e-9
         assert abs(found.band - band) < 2e-5  # the figures are extremes of samples
-        assert piece(CONCHOID, *np.radians([start, end])).band <= found.band + 1e-6
+        assert path_piece(CONCHOID, *np.radians([start, end])).band <= found.band + 1e-6
         longest = longest_piece(CONCHOID, 0, 2 * math.pi, band + 1e-9, samples=721)
         assert longest.length > found.length - 0.2
 
@@ -85,7 +85,7 @@ def test_conchoid_linkage():
 def test_an_exact_line():
     """Slider-crank a = b: the point opposite to the slider moves on the y axis."""
     exact = coupler_path(SliderCrank(3, 3), -3, 0)
-    found = piece(exact, 0.2, 1.4)
+    found = path_piece(exact, 0.2, 1.4)
     assert found.band < 1e-14
     assert abs(found.length - 6 * (math.sin(1.4) - math.sin(0.2))) < 1e-12
     assert abs(found.direction - math.pi / 2) < 1e-12
@@ -114,7 +114,7 @@ def test_any_linkage_by_moving_it():
     values = np.linspace(1.5, 4.5, 40).reshape(2, 20)
     assert np.allclose(linkage_path(linkage, "C", branch="+")(values), LAMBDA(values))
     with pytest.raises(LinkageError):
-        piece(linkage_path(FourBar(30, 20, 20, 60).linkage({"C": (5, 5)}), "C"), 0.0, 3.0)
+        path_piece(linkage_path(FourBar(30, 20, 20, 60).linkage({"C": (5, 5)}), "C"), 0.0, 3.0)
 
 
 def test_an_ordinary_point():
@@ -136,19 +136,19 @@ def test_a_mirrored_path_is_as_straight():
 def test_what_cannot_be():
     assert piece_of_ratio(coupler_path(SliderCrank(3, 3), -3, 0), 0.8, 0.01, widest=1.0) is None
     with pytest.raises(LinkageError, match="no point at the parameter"):
-        piece(coupler_path(FourBar(60, 30, 30, 70), 5, 5), 0, 3)
+        path_piece(coupler_path(FourBar(60, 30, 30, 70), 5, 5), 0, 3)
     with pytest.raises(LinkageError, match="ratio must be positive"):
         piece_of_ratio(LENKER, math.pi, 0)
     with pytest.raises(LinkageError, match="bends too much for a relative deviation of 1e-12"):
         piece_of_ratio(CONCHOID, 3.0, 1e-12)
     with pytest.raises(LinkageError, match="one point for each parameter"):
-        piece(lambda at: at[:2], 0, 1)
+        path_piece(lambda at: at[:2], 0, 1)
     with pytest.raises(LinkageError, match="band must be positive"):
         longest_piece(LENKER, 0, 1, -1)
     with pytest.raises(LinkageError, match="samples must be a whole number"):
-        piece(LENKER, 0, 1, samples=2)
+        path_piece(LENKER, 0, 1, samples=2)
     with pytest.raises(LinkageError, match="start must be a finite number"):
-        piece(LENKER, math.nan, 1)
+        path_piece(LENKER, math.nan, 1)
 
 
 def test_watt_guide_of_the_documents():
@@ -176,7 +176,7 @@ def test_crane_guide_of_the_documents():
     seen = path(np.radians([10, 20, 30]) - frame) * np.exp(1j * frame)
     assert seen.real == pytest.approx([84.071616, 84.313472, 84.250006], abs=1e-6)
     assert seen.imag == pytest.approx([43.677859, 62.605636, 79.907617], abs=1e-6)
-    found = piece(path, math.radians(10) - frame, math.radians(30) - frame, direction=math.pi / 2 - frame)
+    found = path_piece(path, math.radians(10) - frame, math.radians(30) - frame, direction=math.pi / 2 - frame)
     fine = path(np.radians(np.linspace(10, 30, 20001)) - frame) * np.exp(1j * frame)
     assert round(found.length, 2) == 36.23
     assert found.length == pytest.approx(np.ptp(fine.imag))
@@ -206,11 +206,11 @@ def test_chebyshev_and_roberts(bar, point, branch, middle, ends, height):
 
     heights = path(np.array([at(ends[0]), at(2 * middle - ends[0])])).imag
     assert heights == pytest.approx([height, height], abs=1e-9)
-    found = piece(path, at(ends[0]), at(ends[1]), direction=0.0)
+    found = path_piece(path, at(ends[0]), at(ends[1]), direction=0.0)
     assert found.length == pytest.approx(abs(ends[0] - ends[1]))
     assert found.band == pytest.approx(abs(height - round(height)), rel=1e-6)
 
 
 def test_a_piece_has_two_ends():
     with pytest.raises(LinkageError, match="two different ends"):
-        piece(LAMBDA, 1.5, 1.5)
+        path_piece(LAMBDA, 1.5, 1.5)

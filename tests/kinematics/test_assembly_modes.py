@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.assembly_modes import PIN, SLIDE, Conditions, Modes, conditions, search_modes
+from gruebler.kinematics.assembly_modes import PIN, SLIDE, AssemblyModes, GroupConditions, conditions, search_modes
 
 DYAD = [(0, 1), (1, 2), (0, 2)]
 # the three trusses of seven links (0 is what is known), two with a contour of four inner joints
@@ -19,7 +19,9 @@ TRUSSES = [
 ]
 
 
-def assembled(rng: np.random.Generator, joints: Sequence[tuple[int, int]], kinds: str) -> tuple[Conditions, np.ndarray]:
+def assembled(
+    rng: np.random.Generator, joints: Sequence[tuple[int, int]], kinds: str
+) -> tuple[GroupConditions, np.ndarray]:
     """A group whose bodies 1, 2, ... (0 is what is known) lie at random, and that pose of bodies 0, 1, ..."""
     count = max(max(pair) for pair in joints)
     places = np.array([0, *(rng.uniform(-1, 1, count) + 1j * rng.uniform(-1, 1, count))])
@@ -33,7 +35,7 @@ def assembled(rng: np.random.Generator, joints: Sequence[tuple[int, int]], kinds
     return conditions(rows), np.stack([places.real, places.imag, np.angle(turns)], axis=1)[1:]
 
 
-def open_by(group: Conditions, pose: np.ndarray) -> float:
+def open_by(group: GroupConditions, pose: np.ndarray) -> float:
     """By how much the worst joint is open; 2 or more where a slide points the wrong way."""
     places, turns = np.append(pose[:, 0] + 1j * pose[:, 1], 0), np.append(np.exp(1j * pose[:, 2]), 1)
     at = places[group.owners] + turns[group.owners] * group.points
@@ -48,7 +50,7 @@ def open_by(group: Conditions, pose: np.ndarray) -> float:
     return worst
 
 
-def same(one: Modes, two: Modes, tolerance: float = 1e-7) -> bool:
+def same(one: AssemblyModes, two: AssemblyModes, tolerance: float = 1e-7) -> bool:
     """Whether two answers hold the same poses, in the same order."""
     if one.poses.shape != two.poses.shape:
         return False
@@ -57,7 +59,7 @@ def same(one: Modes, two: Modes, tolerance: float = 1e-7) -> bool:
     return bool((gap < tolerance * (1 + np.abs(one.poses).max(initial=0))).all())
 
 
-def holds(modes: Modes, pose: np.ndarray) -> bool:
+def holds(modes: AssemblyModes, pose: np.ndarray) -> bool:
     """Whether a pose is among the modes."""
     turned = np.abs(np.exp(1j * modes.poses[:, :, 2]) - np.exp(1j * pose[:, 2])).max(axis=1)
     moved = np.abs(modes.poses[:, :, :2] - pose[:, :2]).max(axis=(1, 2))

@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from gruebler import LinkageError
 from gruebler.analysis import measures
-from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cams import read_lift
-from gruebler.formats import linkage_from_json, to_json
+from gruebler.formats import linkage_from_json, linkage_to_json
 from gruebler.geneva import Geneva
 from gruebler.kinematics import circuit, degrees, move
-from gruebler.linkages import Circle, Cross, Disc, Driver, Linkage
+from gruebler.linkages import CamDisc, Circle, GenevaDriver, GenevaWheel, Linkage
 from gruebler.mechanism import Mechanism
 
 LIFT = "rise 20 90; dwell 60; fall 20 120 cycloidal; dwell"
@@ -24,7 +24,7 @@ TOLERANCES = (1e-11, 1e-9, 1e-6, 1e-3)
 
 def flat_follower(lift=LIFT, base=60.0):
     mechanism = Mechanism.parse("R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-cam)")
-    touch = {"cam": Disc(0, 0, 0, lift, base, flat=True), "valve": (0, base, 0)}
+    touch = {"cam": CamDisc(0, 0, 0, lift, base, flat=True), "valve": (0, base, 0)}
     return Linkage.drawn(mechanism, {"R(0-cam)": (0, 0), "P(0-valve)": (0, base, pi / 2), "G(cam-valve)": touch})
 
 
@@ -32,7 +32,7 @@ def roller_follower(lift=LIFT, base=40.0, roller=10.0, offset=5.0):
     """The spin of the roller is a freedom of its own."""
     mechanism = Mechanism.parse("R(0-cam) P(0-tappet) R(tappet-roller) G(cam-roller); frame=0; drive=R(0-cam)")
     y = sqrt((base + roller) ** 2 - offset**2)
-    touch = {"cam": Disc(0, 0, 0, lift, base, roller, offset), "roller": Circle(offset, y, roller)}
+    touch = {"cam": CamDisc(0, 0, 0, lift, base, roller, offset), "roller": Circle(offset, y, roller)}
     places = {"R(0-cam)": (0, 0), "P(0-tappet)": (offset, y + 30, pi / 2), "R(tappet-roller)": (offset, y)}
     return Linkage.drawn(mechanism, {**places, "G(cam-roller)": touch})
 
@@ -42,7 +42,7 @@ def rocker_follower():
     mechanism = Mechanism.parse(
         "R(0-cam) R(0-rocker) G(cam-rocker) R(rocker-rod) R(rod-slider) P(0-slider); frame=0; drive=R(0-cam)"
     )
-    touch = {"cam": Disc(0, 0, 0.4, LIFT, 40), "rocker": (-17.0, 38.0)}
+    touch = {"cam": CamDisc(0, 0, 0.4, LIFT, 40), "rocker": (-17.0, 38.0)}
     touch["rocker"] = tuple(40 * x / hypot(-17, 38) for x in (-17.0, 38.0))
     places = {"R(0-cam)": (0, 0), "R(0-rocker)": (-80, 40), "R(rocker-rod)": (-70, 90), "R(rod-slider)": (0, 130)}
     return Linkage.drawn(mechanism, {**places, "P(0-slider)": (0, 130, 0), "G(cam-rocker)": touch})
@@ -50,7 +50,7 @@ def rocker_follower():
 
 def geneva(slots=4, pins=1, internal=False):
     mechanism = Mechanism.parse("R(0-driver) R(0-cross) G(driver-cross); frame=0; drive=R(0-driver)")
-    touch = {"driver": Driver(0, 0, 0, pins), "cross": Cross(100, 0, pi, slots, internal)}
+    touch = {"driver": GenevaDriver(0, 0, 0, pins), "cross": GenevaWheel(100, 0, pi, slots, internal)}
     return Linkage.drawn(mechanism, {"R(0-driver)": (0, 0), "R(0-cross)": (100, 0), "G(driver-cross)": touch})
 
 
@@ -97,7 +97,7 @@ def test_the_circuit_finds_the_same_and_files_keep_it(linkage):
     assert motion.closure < 1e-11
     for link in linkage.mechanism.chain.links:
         np.testing.assert_allclose(np.exp(1j * motion.angle(link)), np.exp(1j * made.angle(link)), atol=1e-9)
-    assert linkage_from_json(to_json(linkage)) == linkage
+    assert linkage_from_json(linkage_to_json(linkage)) == linkage
     large = move(linkage.scaled(2.5), made.drive)
     np.testing.assert_allclose(large.places[0], 2.5 * motion.places[0], atol=1e-9)
 
@@ -200,7 +200,7 @@ def test_dwells_are_those_of_the_lift(angles, name, flat):
 
 
 def test_velocities_in_a_dwell_are_exactly_zero():
-    course = follow(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
+    course = drive_cycle(flat_follower("rise 8 75; fall 8 75; dwell", 40.0))
     rates = course.at(np.radians(np.linspace(150.001, 359.999, 500)), 3)
     assert [np.abs(rates.slide("P(0-valve)", order)).max() for order in (1, 2, 3)] == [0, 0, 0]
 
@@ -272,6 +272,6 @@ def swinging_cam():
     mechanism = Mechanism.parse(
         "R(0-arm) R(arm-rod) R(rod-cam) R(0-cam) P(0-valve) G(cam-valve); frame=0; drive=R(0-arm)"
     )
-    touch = {"cam": Disc(0, 0, 0.3, "rise 8 60; dwell 60; fall 8 60; dwell", 40.0, flat=True), "valve": (0, 40, 0)}
+    touch = {"cam": CamDisc(0, 0, 0.3, "rise 8 60; dwell 60; fall 8 60; dwell", 40.0, flat=True), "valve": (0, 40, 0)}
     places = {"R(0-arm)": (150, 0), "R(arm-rod)": (150, 60), "R(rod-cam)": (30, 45), "R(0-cam)": (0, 0)}
     return Linkage.drawn(mechanism, {**places, "P(0-valve)": (0, 40, pi / 2), "G(cam-valve)": touch})

@@ -12,7 +12,7 @@ from gruebler.catalog import entry
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import degrees, move
-from gruebler.kinematics.solve import planned
+from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -109,10 +109,10 @@ def drawn(name):
 
 def around_home(linkage, rows, step):
     """A path through the home position."""
-    from gruebler.kinematics.reference_pose import at_home
-    from gruebler.kinematics.solve import planned
+    from gruebler.kinematics.reference_pose import pose_at_reference
+    from gruebler.kinematics.solve import cached_plan
 
-    home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives))).drives
+    home = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives))).drives
     return home + step * np.arange(rows)[:, None]
 
 
@@ -376,7 +376,7 @@ def test_the_change_points_of_a_scissor_lift_in_any_unit(scale: float) -> None:
 
 def test_rows_of_very_different_lengths_do_not_jump_at_a_change_point():
     random = np.random.default_rng(20_261_122)
-    made = planned(FourBar(20, 80.62257748298549, 20, 80.62257748298549).linkage())
+    made = cached_plan(FourBar(20, 80.62257748298549, 20, 80.62257748298549).linkage())
     for _ in range(400):
         before = -np.sort(10 ** random.uniform(-3, 0.7, 3))[::-1]
         after = np.sort(10 ** random.uniform(-3, 0.7, 2))

@@ -12,7 +12,7 @@ from gruebler.analysis import measures
 from gruebler.cams import read_lift
 from gruebler.catalog import entry
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.formats import linkage_from_json, read_linkage, to_json, write_linkage
+from gruebler.formats import linkage_from_json, linkage_to_json, read_linkage, write_linkage
 from gruebler.kinematics import circuit, degrees, move
 from gruebler.kinematics.noncircular import transfer_of
 from gruebler.linkages import Linkage, NonCircular, Wheel
@@ -157,7 +157,7 @@ def test_the_circuit_finds_the_same_and_files_keep_it(text, teeth, tmp_path):
     motion = move(linkage, made.drive)
     assert motion.complete
     np.testing.assert_allclose(np.exp(1j * motion.angle("b")), np.exp(1j * made.angle("b")), atol=1e-9)
-    assert linkage_from_json(to_json(linkage)) == linkage
+    assert linkage_from_json(linkage_to_json(linkage)) == linkage
     for name in ("pair.toml", "pair.json"):
         write_linkage(tmp_path / name, linkage)
         assert read_linkage(tmp_path / name) == linkage

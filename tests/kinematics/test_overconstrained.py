@@ -11,8 +11,8 @@ from gruebler.chain import Chain
 from gruebler.errors import LinkageError
 from gruebler.kinematics import circuit, degrees, move
 from gruebler.kinematics.batch import move_many
-from gruebler.kinematics.solve import planned
-from gruebler.linkages import Linkage, Named
+from gruebler.kinematics.solve import cached_plan
+from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.screws import freedoms
 from gruebler.statics import Loads, statics
@@ -72,8 +72,8 @@ def test_neither_unit_nor_place_matters(scale, turn, shift):
 
     feet = [put(p) for p in ((0, 0), (50, 0), (80, 10))]
     linkage = locomotive(feet, crank=20 * scale, angle=1.0 + turn)
-    made = planned(linkage)
-    assert made.released == planned(locomotive()).released
+    made = cached_plan(linkage)
+    assert made.released == cached_plan(locomotive()).released
     motion = move(linkage, linkage.home["crank"].angle + degrees(0, 360, 10))
     assert motion.complete
     assert motion.closure < 1e-9
@@ -89,7 +89,7 @@ def test_dixons_linkage_against_its_closed_form(count):
 
     def track(bar, joint):
         element = linkage.elements[joint, bar]
-        return motion.complex_point(Named(bar, element.x, element.y))
+        return motion.complex_point(LinkPoint(bar, element.x, element.y))
 
     a = [track(f"b{i}0", i) for i in range(len(xs))]
     b = [track(f"b0{j}", len(xs) + j) for j in range(len(ys))]
@@ -136,7 +136,7 @@ def test_two_sides_that_repeat_each_other():
     }
     mechanism = Mechanism.parse(" ".join(places) + "; frame=base; drive=R(base-a1)")
     linkage = Linkage.drawn(mechanism, places)
-    made = planned(linkage)
+    made = cached_plan(linkage)
     assert made.decomposition.class_number == 2  # both sides are solved by dyads
     motion = move(linkage, degrees(10, 80, 1))
     assert motion.complete
@@ -149,7 +149,7 @@ def test_a_crank_that_stands_askew_is_refused_at_once():
     with pytest.raises(LinkageError, match=words):
         move(locomotive(error=0.05), [1.0])
     with pytest.raises(LinkageError, match="leave 0 freedoms"):
-        planned(dixon([1.0, -1.7, 2.6], [1.3, 2.2, -0.9], off=0.01))
+        cached_plan(dixon([1.0, -1.7, 2.6], [1.3, 2.2, -0.9], off=0.01))
 
 
 def test_a_shaky_linkage_ends_where_a_joint_opens():

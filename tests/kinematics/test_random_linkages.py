@@ -12,8 +12,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.reference_pose import at_home
-from gruebler.kinematics.solve import planned
+from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage
 from tests.strategies import built_mechanisms
 
@@ -48,8 +48,8 @@ def drawings(draw: st.DrawFn) -> Drawing:
 
 
 def _away(linkage: Linkage, rng: np.random.Generator) -> np.ndarray:
-    plan = planned(linkage)
-    home = at_home(plan, np.zeros(len(linkage.mechanism.drives))).drives
+    plan = cached_plan(linkage)
+    home = pose_at_reference(plan, np.zeros(len(linkage.mechanism.drives))).drives
     way = rng.uniform(0.3, 1.2, len(home)) * rng.choice([-1, 1], len(home))
     return np.asarray(home) + np.linspace(0, 1, ROWS)[:, None] * way
 
@@ -103,7 +103,7 @@ def test_scaled_turned_and_mirrored_drawings_move_as_such(
     linkage = drawing.linkage
     links = linkage.mechanism.chain.links
     other = Linkage.drawn(linkage.mechanism, places, {"K": (links[-1], k.real, k.imag)})
-    start = np.asarray(at_home(planned(other), np.zeros(motion.drives.shape[1])).drives)
+    start = np.asarray(pose_at_reference(cached_plan(other), np.zeros(motion.drives.shape[1])).drives)
     way = motion.drives - motion.drives[0]
     found = move(other, start + (-way if mirrored else way), speed=-1.0 if mirrored else 1.0)
     assert found.complete, found.message()

@@ -18,7 +18,7 @@ from gruebler.analysis import measures
 from gruebler.analysis.measures import Measures
 from gruebler.catalog import entries
 from gruebler.errors import LinkageError
-from gruebler.linkages import Circle, Disc, Linkage, Wheel
+from gruebler.linkages import CamDisc, Circle, Linkage, Wheel
 from gruebler.linkages.elements import Element, Pin
 from gruebler.mechanism import Mechanism
 
@@ -129,7 +129,7 @@ def check(linkage: Linkage, scale: float, turn: float, shift: complex) -> None:
     plain = facts(found)
     same(facts(measures(linkage.scaled(scale))), plain, found)
     same(facts(measures(laid(linkage, turn, shift * linkage.size))), plain, found)
-    if not any(isinstance(e, Disc) for e in linkage.elements.values()):
+    if not any(isinstance(e, CamDisc) for e in linkage.elements.values()):
         same(facts(measures(linkage.mirrored()), mirrored=True), facts(found, plain=True), found)
 
 

@@ -10,9 +10,9 @@ from gruebler.analysis import measures
 from gruebler.cams import Cam, Flat, Roller, read_lift
 from gruebler.catalog import entry
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.formats import linkage_from_json, to_json
+from gruebler.formats import linkage_from_json, linkage_to_json
 from gruebler.kinematics import circuit, degrees, move
-from gruebler.linkages import Circle, Disc, Linkage, Named
+from gruebler.linkages import CamDisc, Circle, Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
 
 LIFT = "rise 12 90; dwell 60; fall 12 120 cycloidal; dwell"
@@ -29,7 +29,7 @@ def roller_rocker(pivot=100.0, arm=80.0, roller=10.0, base=40.0, lift=LIFT, scal
     centre = scale * turn * (pivot - side * arm * np.exp(-1j * side * start))
     at = scale * turn * pivot
     touch = {
-        "cam": Disc(0, 0, angle, lift, base, roller, scale=scale, arm=arm, distance=pivot),
+        "cam": CamDisc(0, 0, angle, lift, base, roller, scale=scale, arm=arm, distance=pivot),
         "roller": Circle(centre.real, centre.imag, roller * scale),
     }
     places = {"R(0-cam)": (0, 0), "R(0-rocker)": (at.real, at.imag), "R(rocker-roller)": (centre.real, centre.imag)}
@@ -42,7 +42,7 @@ def face_rocker(pivot=110.0, face=5.0, base=60.0, lift=LIFT):
     normal = np.exp(1j * (pi / 2 - copysign(1, pivot) * start))
     foot = base * normal
     touch = {
-        "cam": Disc(0, 0, 0, lift, base, flat=True, distance=pivot, face=face),
+        "cam": CamDisc(0, 0, 0, lift, base, flat=True, distance=pivot, face=face),
         "rocker": (foot.real, foot.imag, float(np.angle(normal)) - pi / 2),
     }
     return Linkage.drawn(mechanism, {"R(0-cam)": (0, 0), "R(0-rocker)": (pivot, 0), "G(cam-rocker)": touch})
@@ -56,7 +56,7 @@ def swing(motion, order=0):
     """The rocker's angle from the line of centres, growing away from the cam."""
     linkage = motion.linkage
     centre = linkage.elements[1, "0"]
-    cam = next(element for element in linkage.elements.values() if isinstance(element, Disc))
+    cam = next(element for element in linkage.elements.values() if isinstance(element, CamDisc))
     side = copysign(1, cam.distance)
     assert centre.x or centre.y
     return -side * (motion.angular("rocker", order) if order else motion.angle("rocker"))
@@ -78,13 +78,13 @@ def test_the_cam_gives_the_lift_for_which_it_is_made(linkage):
 
 def touching(linkage, motion, row, points):
     """The least distance of the profile, as it is cut, from the follower's surface; negative if it cuts into it."""
-    number, cam = next((key, e) for key, e in linkage.elements.items() if isinstance(e, Disc))
+    number, cam = next((key, e) for key, e in linkage.elements.items() if isinstance(e, CamDisc))
     turned = motion.turns[row, motion._link("cam")] * np.exp(1j * cam.angle)
-    centre = motion.complex_point(Named("cam", cam.x, cam.y))[row]
+    centre = motion.complex_point(LinkPoint("cam", cam.x, cam.y))[row]
     profile = centre + cam.scale * turned * points
     other = next(link for link in linkage.mechanism.chain.joints[number[0]].links if link != "cam")
     element = linkage.elements[number[0], other]
-    at = motion.complex_point(Named(other, element.x, element.y))[row]
+    at = motion.complex_point(LinkPoint(other, element.x, element.y))[row]
     if isinstance(element, Circle):
         return np.abs(profile - at).min() - element.radius
     normal = 1j * motion.turns[row, motion._link(other)] * np.exp(1j * element.angle)
@@ -93,7 +93,7 @@ def touching(linkage, motion, row, points):
 
 @pytest.mark.parametrize("linkage", [ROLLERS[0], ROLLERS[1], ROLLERS[2], FACES[0], FACES[1]])
 def test_the_cut_profile_touches_and_never_cuts(linkage):
-    cam = next(e for e in linkage.elements.values() if isinstance(e, Disc))
+    cam = next(e for e in linkage.elements.values() if isinstance(e, CamDisc))
     follower = Flat(cam.distance, cam.face) if cam.flat else Roller(cam.roller, arm=cam.arm, distance=cam.distance)
     cut = Cam(read_lift(cam.lift).scaled(radians(1)), cam.base, follower).profile(np.linspace(0, 2 * pi, 40_001))
     points = cut[:, 0] + 1j * cut[:, 1]
@@ -109,7 +109,7 @@ def test_the_circuit_finds_the_same_and_files_keep_it(linkage):
     motion = move(linkage, made.drive)
     assert motion.complete
     np.testing.assert_allclose(np.exp(1j * motion.angle("rocker")), np.exp(1j * made.angle("rocker")), atol=1e-9)
-    assert linkage_from_json(to_json(linkage)) == linkage
+    assert linkage_from_json(linkage_to_json(linkage)) == linkage
     np.testing.assert_allclose(move(linkage.scaled(2.5), made.drive).turns, motion.turns, atol=1e-9)
 
 
@@ -139,6 +139,6 @@ def test_what_does_not_fit_is_said(disc, words):
     elements = linkage._by_link()
     number = len(linkage.mechanism.chain.joints) - 1
     fields = elements["cam"][number]._asdict() | {"arm": 0.0, "distance": 0.0, "face": 0.0} | disc
-    elements["cam"][number] = Disc(**fields)
+    elements["cam"][number] = CamDisc(**fields)
     with pytest.raises(LinkageError, match=words):
         move(Linkage(linkage.mechanism, elements, home=linkage.home), [0.0])

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.assembly_modes import PIN, SLIDE, Conditions, Modes, conditions, search_modes
+from gruebler.kinematics.assembly_modes import PIN, SLIDE, AssemblyModes, GroupConditions, conditions, search_modes
 from gruebler.kinematics.triads import BOUNDS, assembly_modes, is_triad, triad_modes
 from tests.kinematics.test_assembly_modes import TRUSSES, assembled, holds, open_by, same
 
@@ -18,12 +18,12 @@ JOINTS = [(0, 2), (2, 1), (0, 3), (3, 1), (0, 4), (4, 1)]  # base 0, hub 1, legs
 Points = Sequence[complex]
 
 
-def of_legs(forms: Sequence[str], seed: int) -> tuple[Conditions, np.ndarray]:
+def of_legs(forms: Sequence[str], seed: int) -> tuple[GroupConditions, np.ndarray]:
     """A triad with legs of these forms, built from a random pose."""
     return assembled(np.random.default_rng(seed), JOINTS, "".join(forms))
 
 
-def seen_from(group: Conditions, pose: np.ndarray, known: int) -> tuple[Conditions, np.ndarray]:
+def seen_from(group: GroupConditions, pose: np.ndarray, known: int) -> tuple[GroupConditions, np.ndarray]:
     """The same bodies in the same pose, another of them known instead: class IV if that is a leg."""
     poses = np.vstack([pose, np.zeros(3)])
     turn = np.exp(-1j * poses[known, 2])
@@ -36,21 +36,21 @@ def seen_from(group: Conditions, pose: np.ndarray, known: int) -> tuple[Conditio
     return group._replace(owners=names[group.owners]), moved[order]
 
 
-def three_bars(base: Points, hub: Points, lengths: Sequence[float]) -> Conditions:
+def three_bars(base: Points, hub: Points, lengths: Sequence[float]) -> GroupConditions:
     rows = []
     for k in range(3):
         rows += [(PIN, -1, k + 1, base[k], 1, 0j, 1), (PIN, k + 1, 0, complex(lengths[k]), 1, hub[k], 1)]
     return conditions(rows)
 
 
-def three_bars_at(base: Points, hub: Points, place: complex, angle: float) -> Conditions:
+def three_bars_at(base: Points, hub: Points, place: complex, angle: float) -> GroupConditions:
     return three_bars(base, hub, [abs(place + np.exp(1j * angle) * h - a) for a, h in zip(base, hub, strict=True)])
 
 
 # literature ----------------------------------------------------------------------------------------------------------
 
 
-def known_platform() -> Conditions:
+def known_platform() -> GroupConditions:
     """Base 15.91 and 10, platform 17.04, 16.54, 20.84: the example on which many works on 3-RPR robots compute."""
     x = (17.04**2 + 20.84**2 - 16.54**2) / (2 * 17.04)
     platform = (0j, 17.04 + 0j, complex(x, np.sqrt(20.84**2 - x * x)))
@@ -81,7 +81,7 @@ def test_directly_similar_platforms_have_at_most_four() -> None:
 # oracles and rivals --------------------------------------------------------------------------------------------------
 
 
-def scanned(group: Conditions, steps: int = 40_000) -> list[float]:
+def scanned(group: GroupConditions, steps: int = 40_000) -> list[float]:
     """Angles of the hub (body 0) for which the third leg fits where circles of the first two meet; by sign changes."""
 
     def miss(angle: np.ndarray, side: int) -> np.ndarray:
@@ -211,7 +211,7 @@ TRIANGLE = (0j, 4 + 0j, 1 + 3j)
 LINE = (0j, 1 + 0j, 3 + 0j)
 
 
-def concurrent(parts: Sequence[float], stretch: float = 0.0) -> Conditions:
+def concurrent(parts: Sequence[float], stretch: float = 0.0) -> GroupConditions:
     """Bars that lie on lines through the point 1 + 2i: a singular pose. The first bar is longer by a ratio."""
     pins = [a + part * (1 + 2j - a) for a, part in zip(TRIANGLE, parts, strict=True)]
     lengths = [abs(p - a) for p, a in zip(pins, TRIANGLE, strict=True)]
@@ -264,7 +264,7 @@ def test_special_dimensions_against_the_search(name: str) -> None:
     assert same(modes, search_modes(SPECIAL[name]), 1e-5)
 
 
-def sliding(angles: Sequence[float], forms: str) -> Conditions:
+def sliding(angles: Sequence[float], forms: str) -> GroupConditions:
     """Legs with slides of given directions, at the pose 0.3 + 1i, 0.4 of the hub."""
     turn, rows = np.exp(0.4j), []
     for k, (form, angle) in enumerate(zip(forms.split("+"), angles, strict=True)):
@@ -310,7 +310,7 @@ def test_parallel_slides_against_the_search(forms: str, angles: tuple[float, ...
     ],
     ids=["parallelogram", "a bar of no length", "three parallel slides", "three parallel guides", "hub held, parallel"],
 )
-def test_what_moves_is_called_degenerate(group: Conditions) -> None:
+def test_what_moves_is_called_degenerate(group: GroupConditions) -> None:
     assert triad_modes(group).method == "degenerate"
     assert search_modes(group).method == "degenerate"
 
@@ -322,7 +322,7 @@ def test_beside_its_motion_a_parallelogram_has_two_rigid_modes() -> None:
 
 
 def test_what_cannot_be_assembled_has_no_mode() -> None:
-    modes: Modes = triad_modes(three_bars(TRIANGLE, (0j, 1 + 0j, 1j), (1, 0.1, 10)))
+    modes: AssemblyModes = triad_modes(three_bars(TRIANGLE, (0j, 1 + 0j, 1j), (1, 0.1, 10)))
     assert modes.poses.shape == (0, 4, 3)
     assert modes.exact
 

@@ -12,7 +12,7 @@ from gruebler import LinkageError
 from gruebler.analysis import measures, motion_roles, rotatability
 from gruebler.gears import Mesh, Train, speeds
 from gruebler.kinematics import circuit, degrees, move, move_many
-from gruebler.linkages import Circle, Linkage, Named, Wheel
+from gruebler.linkages import Circle, Linkage, LinkPoint, Wheel
 from gruebler.mechanism import Mechanism
 
 TEETH = st.integers(12, 90)
@@ -220,7 +220,7 @@ def test_no_slip_at_the_contact():
     motion = move(linkage, degrees(0, 720, 3), speed=1)
     assert np.ptp(motion.angular("arm")) > 0.05
     one, two = linkage.element("W(1-2)", "1"), linkage.element("W(1-2)", "2")
-    first, second = Named("1", one.x, one.y), Named("2", two.x, two.y)
+    first, second = LinkPoint("1", one.x, one.y), LinkPoint("2", two.x, two.y)
     along = motion.complex_point(second) - motion.complex_point(first)
     np.testing.assert_allclose(np.abs(along), one.radius + two.radius, rtol=1e-13)
     along /= np.abs(along)

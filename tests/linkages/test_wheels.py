@@ -6,9 +6,9 @@ import tomllib
 import pytest
 
 from gruebler import LinkageError
-from gruebler.formats import linkage_from_json, to_json, to_toml
+from gruebler.formats import linkage_from_json, linkage_to_json, linkage_to_toml
 from gruebler.linkages import Circle, Linkage, Wheel, with_lower_pairs
-from gruebler.linkages.wheels import arms, factors, redundant
+from gruebler.linkages.wheels import carriers, redundant_wheels, rolling_factors
 from gruebler.mechanism import Mechanism
 
 
@@ -50,8 +50,8 @@ def changed(**wheel):
     ],
 )
 def test_files_lose_nothing(linkage):
-    assert linkage_from_json(json.loads(json.dumps(to_json(linkage)))) == linkage
-    assert linkage_from_json(tomllib.loads(to_toml(linkage))) == linkage
+    assert linkage_from_json(json.loads(json.dumps(linkage_to_json(linkage)))) == linkage
+    assert linkage_from_json(tomllib.loads(linkage_to_toml(linkage))) == linkage
 
 
 def test_sizes_from_teeth():
@@ -65,7 +65,7 @@ def test_sizes_from_teeth():
 
 def test_ratios_are_exact():
     for module in (0.1, 1.25, 3.7, 1e-3):
-        a, b = factors(Wheel(0, 0, 7 * module / 2, 7), Wheel(0, 0, 49 * module / 2, 49))
+        a, b = rolling_factors(Wheel(0, 0, 7 * module / 2, 7), Wheel(0, 0, 49 * module / 2, 49))
         assert b / a == 7
 
 
@@ -128,7 +128,7 @@ def test_arms_and_what_repeats():
         places[f"G(s-{planet})"] = {"s": Wheel(0, 0, 20), planet: Wheel(x, 0, 18)}
         places[f"G({planet}-r)"] = {"r": Wheel(0, 0, -56), planet: Wheel(x, 0, 18)}
     linkage = Linkage.drawn(Mechanism.parse(f"{text}; frame=f"), places)
-    held = arms(linkage.mechanism, linkage.elements)
+    held = carriers(linkage.mechanism, linkage.elements)
     assert {arm.link for arm in held.values()} == {"c"}
-    assert redundant(linkage.mechanism, linkage.elements) == {8}
+    assert redundant_wheels(linkage.mechanism, linkage.elements) == {8}
     assert len(with_lower_pairs(linkage).mechanism.chain.joints) == 8

@@ -2,7 +2,15 @@
 
 import numpy as np
 
-from gruebler._numeric.modular import P, echelon, left_null_space, null_space, product, reduced, transposed
+from gruebler._numeric.modular import (
+    P,
+    echelon,
+    left_null_space,
+    modular_product,
+    null_space,
+    reduced_echelon,
+    transposed,
+)
 
 BUDGET = 200
 LARGEST = 60
@@ -103,17 +111,19 @@ class _Part:
         out = {}
         if len(space) > 1:
             for load in self.classes.values():
-                kernel = left_null_space(product(space, load))
+                kernel = left_null_space(modular_product(space, load))
                 if 0 < len(kernel) < len(space):
-                    smaller = reduced(product(kernel, space))
+                    smaller = reduced_echelon(modular_product(kernel, space))
                     out[smaller.tobytes()] = smaller
         return out
 
     def _describe(self, space, *, minimal):
-        links = tuple(self.chain.links[link] for link, load in self.on_links.items() if product(space, load).any())
+        links = tuple(
+            self.chain.links[link] for link, load in self.on_links.items() if modular_product(space, load).any()
+        )
         joints, removing = [], []
         for joint, load in self.on_joints.items():
-            loaded = product(space, load)
+            loaded = modular_product(space, load)
             if loaded.any():
                 joints.append(joint)
                 if len(left_null_space(loaded)) == 0:

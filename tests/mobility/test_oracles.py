@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from gruebler import Chain, ChainError
 from gruebler._numeric import modular
 from gruebler.mobility import counted, generic, generic_mobility, mobility_report, overconstrained
-from gruebler.mobility.idle import When
+from gruebler.mobility.idle import IdleCondition
 from tests.mobility import slow_circuits
 from tests.strategies import PLANAR, SPATIAL, SPHERICAL, chains
 
@@ -208,7 +208,7 @@ def test_circuits_with_a_sparse_basis_and_without_any(monkeypatch, limit, chain)
 def test_idle_freedoms_by_the_rank_of_all_constraints_of_a_link(chain):
     functionals = generic(chain).placement.functionals
     idle = mobility_report(chain).idle_freedoms
-    always = {f.links[0]: f.freedoms for f in idle if f.when is When.ALWAYS and len(f.links) == 1}
+    always = {f.links[0]: f.freedoms for f in idle if f.when is IdleCondition.ALWAYS and len(f.links) == 1}
     for link in chain.links[1:]:  # the first one is the frame
         mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
         rows = [dict(enumerate(f)) for k in mine for f in functionals[k]]

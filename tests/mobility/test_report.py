@@ -7,7 +7,7 @@ import pytest
 
 from gruebler import Chain, ChainError, GrueblerError
 from gruebler.mobility import mobility_report
-from gruebler.mobility.idle import When
+from gruebler.mobility.idle import IdleCondition
 from gruebler.mobility.messages import SENTENCES
 from gruebler.mobility.report import Verdict
 
@@ -59,10 +59,12 @@ def test_a_sum_that_is_right_by_accident_is_not_passed():
 
 def test_idle_freedoms():
     rod = mobility_report(Chain.parse("spatial: R(body-arm) S(arm-knuckle) R(knuckle-body) S(body-rod) S(rod-knuckle)"))
-    assert [(i.links, i.freedoms, i.when) for i in rod.idle_freedoms] == [(("rod",), 1, When.ALWAYS)]
+    assert [(i.links, i.freedoms, i.when) for i in rod.idle_freedoms] == [(("rod",), 1, IdleCondition.ALWAYS)]
     cam = Chain.parse("R(frame-cam) P(frame-tappet) R(tappet-roller) G(cam-roller)")
-    assert [(i.links, i.when) for i in mobility_report(cam).idle_freedoms] == [(("roller",), When.ROUND)]
-    assert [(i.links, i.when) for i in mobility_report(cam, frame="tappet").idle_freedoms] == [(("cam",), When.ROUND)]
+    assert [(i.links, i.when) for i in mobility_report(cam).idle_freedoms] == [(("roller",), IdleCondition.ROUND)]
+    assert [(i.links, i.when) for i in mobility_report(cam, frame="tappet").idle_freedoms] == [
+        (("cam",), IdleCondition.ROUND)
+    ]
     gears = Chain.parse("R(frame-gear1) R(frame-gear2) G(gear1-gear2)")
     assert mobility_report(gears).idle_freedoms == ()
     with pytest.raises(ChainError, match=r"no link 'rame'; did you mean 'frame'"):

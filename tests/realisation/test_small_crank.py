@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from gruebler import Mechanism
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
-from gruebler.realisation.layout_program import sketch
-from gruebler.realisation.layout_trial import followed, range_path
+from gruebler.realisation.layout_program import layout_program
+from gruebler.realisation.layout_trial import closed_path_quality, range_path
 from gruebler.realisation.measures import conditioning
 
 MECHANISMS = (
@@ -43,15 +43,15 @@ def measures(motion):
 def test_a_small_crank_turns_fully(text, seed):
     """Regular in the drawn position: full with a small crank, and hardly less well conditioned."""
     mechanism = Mechanism.parse(text)
-    drawn = sketch(mechanism)
+    drawn = layout_program(mechanism)
     drawing = drawn.tied(np.random.default_rng(seed).uniform(0, 1, (len(mechanism.chain.joints), 3)))
     assume(all(np.hypot(*(drawing[a, :2] - drawing[b, :2])) > 0.1 for a, b in drawn.pairs))
     mine = [k for k, joint in enumerate(mechanism.chain.joints) if "1" in joint.links]
     drawing[mine, :2] = drawing[0, :2] + 1e-4 * (drawing[mine, :2] - drawing[0, :2])
     setting = drawn.setting(drawn.tied(drawing))
-    still = followed(drawn, setting, np.zeros((2, 1)))
+    still = closed_path_quality(drawn, setting, np.zeros((2, 1)))
     assume(still > 0.4)
-    turning = followed(drawn, setting, range_path(((0.0, 2 * np.pi),), full=True))
+    turning = closed_path_quality(drawn, setting, range_path(((0.0, 2 * np.pi),), full=True))
     assert turning == pytest.approx(still, abs=0.1)
 
 

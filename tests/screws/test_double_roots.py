@@ -12,10 +12,10 @@ from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Evidence, SpatialLinkage, freedoms, joint_value
-from gruebler.screws.closed_poses import placed
-from gruebler.screws.double_roots import sharpened
-from gruebler.screws.finite_mobility import finite
-from gruebler.screws.instant_mobility import at_pose
+from gruebler.screws.closed_poses import closed_pose
+from gruebler.screws.double_roots import refined_at_double_root
+from gruebler.screws.finite_mobility import finite_mobility
+from gruebler.screws.instant_mobility import instant_mobility
 from tests.screws import machines as m
 
 ON_ONE_LINE = [
@@ -80,18 +80,18 @@ def test_a_rounded_home_of_a_stretched_linkage():
 
 def test_a_pose_with_an_error_proves_nothing():
     """The same pose before it is sharpened: its smallest singular value is only the pose's error."""
-    closing, pose = placed(FourBar(1, 2, 3, 6).linkage())
+    closing, pose = closed_pose(FourBar(1, 2, 3, 6).linkage())
     random = np.random.default_rng(1)
     shifted = closing.settled(closing.moved(pose, 1e-3 * random.normal(size=closing.unknowns)))
-    beside = at_pose(closing, shifted, 1e-8)
+    beside = instant_mobility(closing, shifted, 1e-8)
     assert (beside.mobility, beside.redundancy) == (1, 0)
-    assert finite(beside).evidence is Evidence.BLURRED
-    assert at_pose(closing, sharpened(closing, shifted), 1e-8).mobility == 2
+    assert finite_mobility(beside).evidence is Evidence.BLURRED
+    assert instant_mobility(closing, refined_at_double_root(closing, shifted), 1e-8).mobility == 2
 
 
 def test_poses_that_are_regular_stay_where_they_are():
-    closing, pose = placed(FourBar(25, 70, 40, 70).linkage())
-    assert sharpened(closing, pose) is pose
+    closing, pose = closed_pose(FourBar(25, 70, 40, 70).linkage())
+    assert refined_at_double_root(closing, pose) is pose
     almost = freedoms(FourBar(2, 5, 2, 5).linkage(), at=1e-6)
     assert (almost.instant.mobility, almost.finite.evidence) == (1, Evidence.REGULAR)
 

@@ -12,8 +12,8 @@ from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Evidence, freedoms
 from gruebler.screws.finite_mobility import _zeros
-from gruebler.screws.obstruction import Point
-from gruebler.screws.quadratic_forms import definite, directions
+from gruebler.screws.obstruction import NearbyPose
+from gruebler.screws.quadratic_forms import directions, is_definite
 from tests.screws import machines as m
 
 PLATFORM = "R(0-1) R(0-2) R(0-3) R(1-p) R(2-p) R(3-p)"
@@ -192,7 +192,7 @@ class FlatExcess:
     def __call__(self, k):
         flat, steep = k[0] - k[1], k[0] + k[1]
         slope = 1e4 * flat**6 * np.array([7 * steep + flat, -7 * steep + flat])
-        return Point(k, np.array([1e4 * flat**7 * steep]), slope[None])
+        return NearbyPose(k, np.array([1e4 * flat**7 * steep]), slope[None])
 
 
 def test_zeros_that_are_not_told_apart_are_one_way():
@@ -205,13 +205,13 @@ def test_zeros_that_are_not_told_apart_are_one_way():
 
 def test_forms():
     plane = np.diag([1.0, 1.0, -1.0])[None]
-    assert not definite(plane)
+    assert not is_definite(plane)
     found = directions(plane, np.random.default_rng(0), 10)
     assert all(abs(np.einsum("sij,i,j->s", plane, k, k)).max() < 1e-9 for k in found)
     assert len(found) >= 8
     pair = np.array([np.diag([1.0, 0.0]), np.diag([0.0, 1.0])])  # neither is definite, their sum is
-    assert definite(pair)
+    assert is_definite(pair)
     cross = np.array([[[0.0, 1.0], [1.0, 0.0]]])
-    assert not definite(cross)
+    assert not is_definite(cross)
     assert len(directions(cross, np.random.default_rng(0), 10)) == 2
     assert directions(np.array([np.diag([1.0, -1.0]), np.diag([0.0, 1.0])]), np.random.default_rng(0), 10) == []

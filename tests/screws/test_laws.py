@@ -75,15 +75,15 @@ def test_the_same_answer_all_along_the_motion(name):
     """The pose moves on: what is finite at home is finite there."""
     linkage = MACHINES[name]
     closing = Closing.of(linkage)
-    from gruebler.screws.finite_mobility import finite
-    from gruebler.screws.instant_mobility import at_pose
+    from gruebler.screws.finite_mobility import finite_mobility
+    from gruebler.screws.instant_mobility import instant_mobility
 
-    instant = at_pose(closing, closing.home, 1e-8)
+    instant = instant_mobility(closing, closing.home, 1e-8)
     for step in (0.1, -0.3):
         pose = closing.settled(closing.moved(closing.home, step * instant.motions[0]))
-        there = at_pose(closing, pose, 1e-8)
+        there = instant_mobility(closing, pose, 1e-8)
         assert there.rank == instant.rank
-        assert finite(there).mobility == finite(instant).mobility
+        assert finite_mobility(there).mobility == finite_mobility(instant).mobility
 
 
 def test_mobility_is_never_less_than_generic_nor_instant_less_than_finite():

@@ -9,7 +9,7 @@ import pytest
 from gruebler import LinkageError
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Closing, JointPlace, SpatialLinkage, common_group
-from gruebler.screws.motion_groups import Kind
+from gruebler.screws.motion_groups import MotionGroupKind
 from tests.screws import machines
 
 WINCH = Mechanism.parse("spatial: R(frame-spindle) H(spindle-nut) P(frame-nut)")
@@ -61,14 +61,14 @@ def test_a_value():
 
 
 GROUPS = {
-    "winch": (machines.winch(), Kind.CYLINDER, 2),
-    "tilted winch": (machines.winch(0.1), Kind.PARALLEL, 4),
-    "hooke": (machines.hooke(), Kind.SPHERE, 3),
-    "oldham": (machines.oldham(), Kind.PLANE, 3),
-    "bennett": (machines.bennett()[0], Kind.SPACE, 6),
-    "sarrus": (machines.sarrus(), Kind.SPACE, 6),
-    "locomotive": (machines.locomotive(2), Kind.PLANE, 3),
-    "bevel": (machines.bevel(1), Kind.SPHERE, 3),
+    "winch": (machines.winch(), MotionGroupKind.CYLINDER, 2),
+    "tilted winch": (machines.winch(0.1), MotionGroupKind.PARALLEL, 4),
+    "hooke": (machines.hooke(), MotionGroupKind.SPHERE, 3),
+    "oldham": (machines.oldham(), MotionGroupKind.PLANE, 3),
+    "bennett": (machines.bennett()[0], MotionGroupKind.SPACE, 6),
+    "sarrus": (machines.sarrus(), MotionGroupKind.SPACE, 6),
+    "locomotive": (machines.locomotive(2), MotionGroupKind.PLANE, 3),
+    "bevel": (machines.bevel(1), MotionGroupKind.SPHERE, 3),
 }
 
 
@@ -86,5 +86,5 @@ def test_shifts_are_a_group():
         {k: {"x": x} for k, x in enumerate([(1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1)])},
     )
     closing = Closing.of(wedges)
-    assert common_group(closing, closing.home) == (Kind.TRANSLATIONS, 3)
+    assert common_group(closing, closing.home) == (MotionGroupKind.TRANSLATIONS, 3)
     assert pi > closing.unknowns / 6 == 3

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from gruebler.screws import Closing, freedoms
-from gruebler.screws.instant_mobility import at_pose
-from gruebler.screws.joint_geometry import Sketch
+from gruebler.screws.instant_mobility import instant_mobility
+from gruebler.screws.joint_geometry import JointGeometry
 from gruebler.screws.loops import bricard
 from tests.screws import machines as m
 
@@ -56,6 +56,6 @@ def mirrored(upright):
 def test_a_plane_symmetric_bricard_has_no_offsets_in_its_mirror(upright):
     """Axes upright on the mirror are taken to themselves too, but with offsets: such a loop is rigid."""
     closing = Closing.of(mirrored(upright))
-    kinds = [r.kind for r in bricard(Sketch(at_pose(closing, closing.home, 1e-8)))]
+    kinds = [r.kind for r in bricard(JointGeometry(instant_mobility(closing, closing.home, 1e-8)))]
     assert ("plane_symmetric" in kinds) is not upright
     assert freedoms(mirrored(upright)).mobility == (not upright)

@@ -11,7 +11,7 @@ from gruebler.kinematics import circuit
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Closing, SpatialLinkage, exponential, freedoms
-from gruebler.screws.closed_poses import placed
+from gruebler.screws.closed_poses import closed_pose
 from tests.screws import machines as m
 
 EXAMPLES = {
@@ -101,7 +101,7 @@ def test_circuits_of_four_bars(lengths):
     made = circuit(bar, drive=1.0)
     for value in made.samples.drive()[::40]:
         assert freedoms(bar, at=float(value)).mobility == 1
-    closing, pose = placed(bar, [1.0])
+    closing, pose = closed_pose(bar, [1.0])
     assert sampled_dimension(closing, pose) == 1
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from gruebler.chain.pairs import PAIRS, Space
 from gruebler.screws import Closing, JointPlace, exponential
-from gruebler.screws.closing_rows import rows
+from gruebler.screws.closing_rows import joint_rows
 from gruebler.screws.joint_places import read_place
 from tests.screws import machines
 
@@ -35,7 +35,7 @@ def unit(direction, pitch=0.0):
 @pytest.mark.parametrize(("pair", "space"), EVERY, ids=lambda v: getattr(v, "name", v))
 def test_a_pair_takes_away_what_its_table_says(pair, space):
     radii = (1.0, 0.5) if space is not Space.SPHERICAL else (0.6, 0.4)
-    made = rows(pair, space, place(pair, space, radii if pair.name in ROUND else None))
+    made = joint_rows(pair, space, place(pair, space, radii if pair.name in ROUND else None))
     assert len(made) == pair.u(space)
     assert abs(values(made, np.eye(4))).max() < 1e-15
     directions = [unit(d) for d in space.directions]
@@ -55,7 +55,7 @@ def test_a_pair_takes_away_what_its_table_says(pair, space):
 )
 def test_finite_motions_of_a_pair_keep_it_closed(pair, space):
     """Shifts first, then the turns in the order of the table: the first link's axis, then the second's."""
-    made = rows(pair, space, place(pair, space))
+    made = joint_rows(pair, space, place(pair, space))
     for _ in range(5):
         amount = RANDOM.uniform(-1, 1, 6)
         e = np.eye(4)
@@ -69,7 +69,7 @@ def test_finite_motions_of_a_pair_keep_it_closed(pair, space):
 
 
 def test_a_screw_may_turn_more_than_once():
-    made = rows(next(p for p in PAIRS if p.name == "helical"), Space.SPATIAL, JointPlace(pitch=0.3))
+    made = joint_rows(next(p for p in PAIRS if p.name == "helical"), Space.SPATIAL, JointPlace(pitch=0.3))
     assert abs(values(made, exponential(20 * unit("Hz", 0.3)))).max() < 1e-12
 
 
@@ -111,7 +111,7 @@ def seen(turn, x, y):
 @pytest.mark.parametrize(("r", "s"), [(2.0, 1.0), (1.0, 3.0), (-3.0, 1.0), (5.0, -2.0)])
 def test_wheels_roll_without_slip(r, s):
     """The second wheel on the first: its centre goes round by t, and it turns by t (1 + r / s)."""
-    made = rows(next(p for p in PAIRS if p.name == "rolling"), Space.PLANAR, JointPlace(radii=(r, s)))
+    made = joint_rows(next(p for p in PAIRS if p.name == "rolling"), Space.PLANAR, JointPlace(radii=(r, s)))
     for t in (0.1, -0.4, 1.0):
         centre = np.array([-(r + s) * sin(t), (r + s) * cos(t) - r])  # from the contact at home
 
@@ -126,7 +126,9 @@ def test_wheels_roll_without_slip(r, s):
 def test_teeth_keep_in_touch_on_the_common_tangent_of_the_base_circles(away):
     """Involutes are drawn by a thread from base circle to base circle: what it unwinds from both is its length."""
     r, s, alpha = 2.0, 1.5, 0.35
-    row = rows(next(p for p in PAIRS if p.name == "roll_slide"), Space.PLANAR, JointPlace(radii=(r, s), pressure=alpha))
+    row = joint_rows(
+        next(p for p in PAIRS if p.name == "roll_slide"), Space.PLANAR, JointPlace(radii=(r, s), pressure=alpha)
+    )
     one, other = r * cos(alpha), s * cos(alpha)
 
     def unwound(distance):  # with the line of centres and the first wheel at rest
@@ -141,7 +143,7 @@ def test_teeth_keep_in_touch_on_the_common_tangent_of_the_base_circles(away):
 
 @pytest.mark.parametrize("radii", [(0.0, inf), (inf, 0.0), (inf, 0.7), (0.7, inf)])
 def test_a_pin_in_a_slot_and_a_disc_on_a_face(radii):
-    made = rows(next(p for p in PAIRS if p.name == "roll_slide"), Space.PLANAR, JointPlace(radii=radii))
+    made = joint_rows(next(p for p in PAIRS if p.name == "roll_slide"), Space.PLANAR, JointPlace(radii=radii))
     round_first = radii[0] < inf
     radius = min(radii)
     for turn, way in ((0.3, 0.5), (-1.0, -0.2)):
@@ -156,7 +158,7 @@ def test_a_pin_in_a_slot_and_a_disc_on_a_face(radii):
 
 @pytest.mark.parametrize(("r", "s"), [(0.5, 0.7), (1.0, 0.3), (pi / 4, pi / 4)])
 def test_cones_roll_without_slip(r, s):
-    made = rows(next(p for p in PAIRS if p.name == "rolling"), Space.SPHERICAL, JointPlace(radii=(r, s)))
+    made = joint_rows(next(p for p in PAIRS if p.name == "rolling"), Space.SPHERICAL, JointPlace(radii=(r, s)))
     one, other = np.array([0, -sin(r), cos(r)]), np.array([0, sin(s), cos(s)])
     for t in (0.3, -0.8):
         e = exponential([*(t * one), 0, 0, 0]) @ exponential([*(t * sin(r) / sin(s) * other), 0, 0, 0])

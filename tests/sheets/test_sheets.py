@@ -14,8 +14,8 @@ from gruebler.errors import CatalogError, LinkageError
 from gruebler.sheets import sheet, sheets
 from gruebler.sheets.expressions import Expression
 from gruebler.sheets.layout import page
-from gruebler.sheets.messages import Number, explained, value_lines
-from gruebler.sheets.model import Sheet, Told
+from gruebler.sheets.messages import LocalNumber, explanation_paragraphs, value_lines
+from gruebler.sheets.model import Sheet, StatedValue
 from gruebler.sheets.records import read_sheet
 
 MZC = (catalog_folder() / "sheets" / "mzc.toml").read_text(encoding="utf-8")
@@ -85,7 +85,7 @@ def test_every_sheet_holds(id):
         assert told.exact is not None
         assert told.exact.exact is not None
     for lang in ("en", "de"):
-        assert all("{" not in text for text in explained(one, lang))
+        assert all("{" not in text for text in explanation_paragraphs(one, lang))
 
 
 def test_sizing_law():
@@ -105,7 +105,7 @@ def test_sizing_law():
     [("15.79", 15.793169, True), ("15.8", 15.793169, True), ("15.7", 15.793169, False), ("40/3*sqrt(3)", 7.7, False)],
 )
 def test_printed_digits(printed, derived, as_printed):
-    assert Told("x", "x", derived, None, Expression(printed)).is_as_printed is as_printed
+    assert StatedValue("x", "x", derived, None, Expression(printed)).is_as_printed is as_printed
 
 
 @pytest.mark.parametrize("lang", ["en", "de"])
@@ -222,9 +222,9 @@ def test_a_sheet_with_a_wrong_value_gets_no_page(tmp_path):
 
 
 def test_figures_in_the_explanation_are_derived():
-    assert "10/9·√3" in explained(sheet("mzc"), "de")[2]
+    assert "10/9·√3" in explanation_paragraphs(sheet("mzc"), "de")[2]
     assert "{l2_star}" in sheet("mzc").record.explanation[2].de
-    assert "4 : 5 : 5 : 2" in explained(sheet("lambda"), "en")[2]
+    assert "4 : 5 : 5 : 2" in explanation_paragraphs(sheet("lambda"), "en")[2]
 
 
 def test_the_german_page_has_decimal_commas():
@@ -246,5 +246,5 @@ def test_unknown_sheets():
 
 
 def test_numbers_of_a_language():
-    assert f"{Number(-1.25, 'de'):.1f}" == "−1,2"
-    assert f"{Number(-1.25, 'en'):.2f}" == "−1.25"
+    assert f"{LocalNumber(-1.25, 'de'):.1f}" == "−1,2"
+    assert f"{LocalNumber(-1.25, 'en'):.2f}" == "−1.25"

@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import degrees, move
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
 from gruebler.statics import Loads, statics
 from tests.geometry.linkages import MOVING
@@ -71,7 +71,9 @@ def test_free_bodies(name):
             if link not in joint.links:
                 continue
             end = linkage.element(number, joint.links[1] if joint.pair.name == "prismatic" else link)
-            at = motion.complex_point(Named(joint.links[1] if joint.pair.name == "prismatic" else link, end.x, end.y))
+            at = motion.complex_point(
+                LinkPoint(joint.links[1] if joint.pair.name == "prismatic" else link, end.x, end.y)
+            )
             mine = held.force(number, link) @ [1, 1j]
             for k, drive in enumerate(linkage.mechanism.drives):
                 if drive.joint == number and joint.pair.name == "prismatic":
@@ -97,7 +99,7 @@ def test_two_force_members_and_a_joint_of_three_links():
     held = statics(motion, Loads({"R(2-4)": (0, -50), "R(3-5)": (0, -20)}))
     pin = sum(held.force("R(1-2-3)", link) for link in "123")
     assert np.abs(pin).max() < 1e-12
-    rod = motion.point("R(2-4)") - motion.point(Named("2", *FORKED.element("R(1-2-3)", "2")))
+    rod = motion.point("R(2-4)") - motion.point(LinkPoint("2", *FORKED.element("R(1-2-3)", "2")))
     pull = held.force("R(1-2-3)", "2")
     assert np.abs(rod[:, 0] * pull[:, 1] - rod[:, 1] * pull[:, 0]).max() < 1e-10
     assert held.disagreement < 1e-12
@@ -149,7 +151,7 @@ def test_where_links_are_not_held():
 
 
 def test_at_its_limits_the_drive_holds_nothing():
-    course = follow(FourBar(60, 30, 30, 70).linkage())
+    course = drive_cycle(FourBar(60, 30, 30, 70).linkage())
     motion = course.at(np.array([course.span.low, 0.1, course.span.high]), 0)
     held = statics(motion, Loads(moments={"rocker": 1}))
     assert held.singular.tolist() == [True, False, True]
@@ -185,7 +187,7 @@ def test_many_rows_are_the_same_as_few():
         (Loads({"K": 3.0}), "expected x and y"),
         (Loads({"K": (1, float("nan"))}), "expected finite numbers"),
         (Loads({"K": "much"}), "expected x and y"),
-        (Loads({Named("roker", 0, 0): (1, 2)}), "no link 'roker'"),
+        (Loads({LinkPoint("roker", 0, 0): (1, 2)}), "no link 'roker'"),
         (Loads(moments={"roker": 1}), "did you mean 'rocker'"),
         (Loads(moments={"rocker": (1, 2, 3, 4)}), "one number for each row"),
         (Loads(moments={"rocker": float("inf")}), "finite"),

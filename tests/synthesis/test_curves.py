@@ -11,7 +11,7 @@ from gruebler.kinematics import circuit, move
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 from gruebler.synthesis import Demands, PathTask, pareto, synthesise_path, synthesise_structures
-from gruebler.synthesis.closure import Closure
+from gruebler.synthesis.closure import DesignClosure
 from gruebler.synthesis.curves import atlas, fit_curve, linkages_of
 from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, curve_points
 
@@ -105,7 +105,7 @@ MECHANISMS = (
 @pytest.mark.parametrize("text", MECHANISMS)
 def test_closing_conditions_against_differences(text):
     linkage = realise(Mechanism.parse(text), seed=1).linkage
-    closure = Closure(linkage)
+    closure = DesignClosure(linkage)
     q, p = closure.poses(circuit(linkage).at([0.3, 0.9])), closure.sizes
     made = closure.slopes(q, p)
     assert np.abs(made.gaps).max() < 1e-11 * linkage.size
@@ -122,7 +122,7 @@ def test_closing_conditions_against_differences(text):
 def test_poses_change_with_dimensions_as_derived(text):
     """The derivative of a pose by a dimension, against the pose of the linkage that has the other dimension."""
     linkage = realise(Mechanism.parse(text), seed=2).linkage
-    closure = Closure(linkage)
+    closure = DesignClosure(linkage)
     size = linkage.size
     q, p = closure.poses(circuit(linkage).at([0.4])), closure.sizes
     motion, by_sizes = closure.tangents(q, p, size=size)

@@ -5,13 +5,13 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler._numeric.homotopy import evaluate
+from gruebler._numeric.homotopy import evaluate_system
 from gruebler.errors import SynthesisError
 from gruebler.fourbar import FourBar
 from gruebler.geometry import cognates
 from gruebler.kinematics import move
 from gruebler.synthesis import PathTask, synthesise_path
-from gruebler.synthesis.alt_burmester import PROBLEMS, generic, parameters, solutions
+from gruebler.synthesis.alt_burmester import PROBLEMS, load_generic_solutions, parameters, solutions
 from gruebler.synthesis.discs import certified
 from gruebler.synthesis.monodromy import find_generic
 
@@ -41,7 +41,7 @@ def random_parameters(problem, seed):
 def values(problem, z, p):
     f, ft = np.empty(8, complex), np.empty(8, complex)
     jac = np.empty((8, 8), complex)
-    evaluate(z, p, np.zeros((4, 8), complex), problem.poses, problem.points, f, jac, ft)
+    evaluate_system(z, p, np.zeros((4, 8), complex), problem.poses, problem.points, f, jac, ft)
     return f.copy(), jac.copy()
 
 
@@ -58,21 +58,21 @@ def test_the_derivatives_of_the_equations(problem):
         slope = (values(problem, z + step, p)[0] - values(problem, z - step, p)[0]) / 2e-6
         assert jac[:, k] == pytest.approx(slope, rel=1e-6, abs=1e-6)
     f, ft, free = np.empty(8, complex), np.empty(8, complex), np.empty((8, 8), complex)
-    evaluate(z, p, dp, problem.poses, problem.points, f, free, ft)
+    evaluate_system(z, p, dp, problem.poses, problem.points, f, free, ft)
     slope = (values(problem, z, p + 1e-6 * dp)[0] - values(problem, z, p - 1e-6 * dp)[0]) / 2e-6
     assert ft == pytest.approx(slope, rel=1e-6, abs=1e-6)
 
 
 @pytest.mark.parametrize("problem", PROBLEMS, ids=lambda p: p.name)
 def test_the_stored_solutions_are_complete_and_proved(problem):
-    p, z = generic(problem)
+    p, z = load_generic_solutions(problem)
     assert len(z) == problem.classes
     assert certified(problem.poses, problem.points, z, p).all()
     assert problem.classes * problem.members in (8652, 2224, 402, 60, 36)
 
 
 def test_cognates_solve_the_same_task():
-    p, z = generic(NINE)
+    p, z = load_generic_solutions(NINE)
     three = NINE.with_cognates(z[:5])
     assert len(three) == 15
     for row in three:
@@ -82,7 +82,7 @@ def test_cognates_solve_the_same_task():
 
 
 def test_a_wrong_solution_is_not_certified():
-    p, z = generic(FOUR)
+    p, z = load_generic_solutions(FOUR)
     assert not certified(FOUR.poses, FOUR.points, z + 0.3, p).any()
     assert not certified(FOUR.poses, FOUR.points, np.repeat(z[:1], 2, axis=0), p).any()
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from gruebler import FourBar
 from gruebler.catalog import entries
 from gruebler.cli.parser import build_parser
-from gruebler.formats.linkages import to_json, to_toml
+from gruebler.formats.linkages import linkage_to_json, linkage_to_toml
 from gruebler.isomorphism import code
 from tests.torture.processes import Outcome, partial_files, run, warm
 
@@ -84,13 +84,13 @@ _NOT_TAKEN = {("check", "made.json"), ("check", "lambda.json"), ("freedoms", "ca
 
 def _linkages() -> list[Case]:
     files: list[tuple[str, bytes]] = [
-        ("made.toml", to_toml(_FOUR_BAR).encode()),
+        ("made.toml", linkage_to_toml(_FOUR_BAR).encode()),
         ("short.toml", b'unit = "mm"\n[four_bar]\na = 25\nb = 70\nc = 40\nd = 70\n'),
     ]
     for id in ("lambda", "crankrocker", "crane_cyl", "cam_roller"):
-        files.append((f"{id}.toml", to_toml(entries()[id].linkage()).encode()))
-    files.append(("made.json", json.dumps(to_json(_FOUR_BAR)).encode()))
-    files.append(("lambda.json", json.dumps(to_json(entries()["lambda"].linkage())).encode()))
+        files.append((f"{id}.toml", linkage_to_toml(entries()[id].linkage()).encode()))
+    files.append(("made.json", json.dumps(linkage_to_json(_FOUR_BAR)).encode()))
+    files.append(("lambda.json", json.dumps(linkage_to_json(entries()["lambda"].linkage())).encode()))
     commands = (
         ("analyse", "--drive", "0:90:30", "--json"),
         ("check",),

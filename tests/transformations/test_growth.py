@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from gruebler import Chain, code, counted, generic_mobility, is_isomorphic
 from gruebler.enumeration import chains
-from gruebler.transformations import derive, extend, grown
+from gruebler.transformations import derive, extend, grow_family
 from gruebler.transformations.growth import is_loop, removable_dyads
 from tests.assur.oracles import closed_chains
 from tests.strategies import renumbered
@@ -34,13 +34,13 @@ def _two_ways(links, all_chains, from_four_bar):
     backward = {code(chain) for chain in every if derive(chain).from_loop}
     assert len(every) == all_chains
     assert len(backward) == from_four_bar
-    assert backward == {code(chain) for chain in grown(FOUR_BAR, links)}
+    assert backward == {code(chain) for chain in grow_family(FOUR_BAR, links)}
     assert all(derive(chain).exact for chain in every)
 
 
 @pytest.mark.parametrize("links", [5, 7, 9])
 def test_with_two_freedoms_the_order_matters_and_both_ways_agree(links):
-    forward = {code(chain) for chain in grown(FIVE_BAR, links)}
+    forward = {code(chain) for chain in grow_family(FIVE_BAR, links)}
     every = {code(chain): chain for chain in closed_chains(links, 2)}
     assert forward <= set(every)
     assert {key for key, chain in every.items() if derive(chain).from_loop} == forward

@@ -9,7 +9,7 @@ from gruebler import Chain, ChainError, counted, generic_mobility
 from gruebler.assur import DYADS, AssurError, AssurGroup
 from gruebler.errors import TransformationError
 from gruebler.mobility import generic
-from gruebler.mobility.placement import Lock
+from gruebler.mobility.placement import LockedFreedom
 from gruebler.transformations import (
     Derivation,
     contract,
@@ -123,7 +123,10 @@ def test_contraction_lowers_counted_by_the_freedoms_and_locks_the_joint(chain, d
         return
     freedoms = joint.pair.freedoms[chain.space]
     assert counted(step.chain) == counted(chain) - len(freedoms)
-    assert generic_mobility(step.chain) == generic(chain, [Lock(number, d, tuple(links)) for d in freedoms]).mobility
+    assert (
+        generic_mobility(step.chain)
+        == generic(chain, [LockedFreedom(number, d, tuple(links)) for d in freedoms]).mobility
+    )
     assert done_again(step)
     kept, gone = links
     moved = [k for k, j in enumerate(chain.joints) if gone in j.links and k != number]

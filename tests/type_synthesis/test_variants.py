@@ -6,8 +6,8 @@ import pytest
 
 from gruebler import GrueblerError, code
 from gruebler.mechanism import Mechanism, check_drives
-from gruebler.mechanism.inversion import Driven
-from gruebler.type_synthesis import Requirements, Wanted, typed_chains, variants
+from gruebler.mechanism.inversion import DrivenMechanism
+from gruebler.type_synthesis import JointRequirement, Requirements, typed_chains, variants
 
 
 def mechanisms_by_brute_force(links, prismatic, accept):
@@ -39,10 +39,10 @@ CASES = [
 @pytest.mark.parametrize(("links", "prismatic"), [(4, 1), (4, 2), (6, 1)])
 def test_driven_mechanisms(asked, accept, links, prismatic):
     asked = dict(asked)
-    asked["drives"] = tuple(Wanted.parse(text) for text in asked["drives"])
+    asked["drives"] = tuple(JointRequirement.parse(text) for text in asked["drives"])
     if "at_frame" in asked:
         symbol, number = asked["at_frame"]
-        asked["at_frame"] = ((Wanted.parse(f"{symbol}@frame"), number),)
+        asked["at_frame"] = ((JointRequirement.parse(f"{symbol}@frame"), number),)
     found = [d.mechanism.code() for d in variants(Requirements(links, prismatic=prismatic, **asked))]
     assert len(found) == len(set(found))
     assert set(found) == mechanisms_by_brute_force(links, prismatic, accept)
@@ -75,11 +75,13 @@ def test_gears_and_cams_of_three_links():
 
 def test_outputs():
     """The four-bar with the far link as output: not next to the crank, and joined to the frame by a revolute."""
-    wanted = Requirements(4, drives=(Wanted.parse("R@frame"),), output=Wanted.parse("R@frame"), output_at_drive=False)
+    wanted = Requirements(
+        4, drives=(JointRequirement.parse("R@frame"),), output=JointRequirement.parse("R@frame"), output_at_drive=False
+    )
     (only,) = variants(wanted)
-    assert isinstance(only, Driven)
+    assert isinstance(only, DrivenMechanism)
     assert (only.mechanism.frame, only.output) == ("0", "3")
-    coupler = Requirements(4, drives=(Wanted.parse("R@frame"),), output=Wanted.parse("@moving"))
+    coupler = Requirements(4, drives=(JointRequirement.parse("R@frame"),), output=JointRequirement.parse("@moving"))
     assert [d.output for d in variants(coupler)] == ["2"]
 
 
@@ -93,13 +95,13 @@ def test_frames_without_drives():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Wanted.parse("R@wall"), "frame, moving or any, not 'wall'"),
-        (lambda: Wanted.parse("Q@frame"), "unknown pair 'Q'"),
-        (lambda: Wanted.parse("R frame"), "not PAIR@PLACE"),
-        (lambda: Wanted.parse(""), "not PAIR@PLACE"),
+        (lambda: JointRequirement.parse("R@wall"), "frame, moving or any, not 'wall'"),
+        (lambda: JointRequirement.parse("Q@frame"), "unknown pair 'Q'"),
+        (lambda: JointRequirement.parse("R frame"), "not PAIR@PLACE"),
+        (lambda: JointRequirement.parse(""), "not PAIR@PLACE"),
         (lambda: list(variants(Requirements(2))), "at least three links, not 2"),
         (
-            lambda: list(variants(Requirements(4, drives=(Wanted.parse("R"), Wanted.parse("R"))))),
+            lambda: list(variants(Requirements(4, drives=(JointRequirement.parse("R"), JointRequirement.parse("R"))))),
             "as many drives, not 2",
         ),
     ],

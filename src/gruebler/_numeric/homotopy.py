@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = ["ARRIVED", "FAILED", "INFINITE", "evaluate", "refine", "track"]
+__all__ = ["ARRIVED", "FAILED", "INFINITE", "evaluate_system", "refine_solutions", "track"]
 
 Complexes = NDArray[np.complex128]
 Reals = NDArray[np.float64]
@@ -28,7 +28,7 @@ _MOST = 20000
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def evaluate(
+def evaluate_system(
     z: Complexes, p: Complexes, dp: Complexes, poses: int, points: int, f: Complexes, jac: Complexes, ft: Complexes
 ) -> None:
     """The equations, their derivatives by z and along the path.
@@ -175,14 +175,14 @@ def _relative(step: Complexes, z: Complexes) -> float:
 
 
 @njit(cache=True, error_model="numpy", nogil=True)
-def refine(z: Complexes, p: Complexes, poses: int, points: int, steps: Reals) -> None:
+def refine_solutions(z: Complexes, p: Complexes, poses: int, points: int, steps: Reals) -> None:
     """Newton's method for many solutions of one task; the last relative step of each is written.
 
     Args:
         z: (solutions, 8) changed.
-        p: (4, 8) parameters, as in `evaluate`.
-        poses: as in `evaluate`.
-        points: as in `evaluate`.
+        p: (4, 8) parameters, as in `evaluate_system`.
+        poses: as in `evaluate_system`.
+        points: as in `evaluate_system`.
         steps: (solutions,) written; infinite where the matrix is singular.
     """
     f = np.empty(UNKNOWNS, np.complex128)
@@ -192,7 +192,7 @@ def refine(z: Complexes, p: Complexes, poses: int, points: int, steps: Reals) ->
     for n in range(len(z)):
         steps[n] = np.inf
         for _ in range(8):
-            evaluate(z[n], p, still, poses, points, f, jac, ft)
+            evaluate_system(z[n], p, still, poses, points, f, jac, ft)
             if not _solve(jac, f):
                 steps[n] = np.inf
                 break
@@ -225,8 +225,8 @@ def track(
         starts: (paths, 8) solutions of the begin.
         begin: (4, 8) parameters.
         end: (4, 8) parameters.
-        poses: as in `evaluate`.
-        points: as in `evaluate`.
+        poses: as in `evaluate_system`.
+        points: as in `evaluate_system`.
         loose: 1e-3 is quick; 1e-6 keeps paths apart that come near each other.
         out: (paths, 8) written: where the path ended.
         status: (paths,) written: ARRIVED, FAILED or INFINITE.
@@ -267,7 +267,7 @@ def track(
                         w[i] += h * slopes[2, i]
                     elif stage > 0:
                         w[i] += 0.5 * h * slopes[stage - 1, i]
-                evaluate(w, p, dp, poses, points, f, jac, ft)
+                evaluate_system(w, p, dp, poses, points, f, jac, ft)
                 if not _solve(jac, ft):
                     possible = False
                     break
@@ -280,7 +280,7 @@ def track(
                     w[i] = z[i] + h / 6 * (slopes[0, i] + 2 * slopes[1, i] + 2 * slopes[2, i] + slopes[3, i])
                 last = 1e300
                 for turn in range(3):
-                    evaluate(w, p, dp, poses, points, f, jac, ft)
+                    evaluate_system(w, p, dp, poses, points, f, jac, ft)
                     if not _solve(jac, f):
                         break
                     for i in range(n):

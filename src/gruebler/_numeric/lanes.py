@@ -19,7 +19,18 @@ import numpy as np
 
 from gruebler._numeric.compiling import compiled, instead, njit
 
-__all__ = ["choose", "dot", "give_back", "lanes", "logarithm", "number", "square_root", "subtract", "taken", "tally"]
+__all__ = [
+    "choose",
+    "complex_number",
+    "dot",
+    "give_back",
+    "lanes",
+    "logarithm",
+    "square_root",
+    "subtract",
+    "taken",
+    "tally",
+]
 
 
 @cache
@@ -48,7 +59,7 @@ def logarithm(x: float) -> float:
 
 
 @instead(lambda: complex)
-def number(real: float, imag: float) -> complex:
+def complex_number(real: float, imag: float) -> complex:
     """The complex number with these parts, or an array of them."""
     out: Any = np.empty(np.shape(real), np.complex128)
     out.real, out.imag = real, imag

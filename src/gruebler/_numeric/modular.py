@@ -20,14 +20,14 @@ __all__ = [
     "P",
     "Support",
     "echelon",
-    "inverse",
     "left_null_space",
     "left_null_spaces",
+    "modular_inverse",
+    "modular_product",
     "null_space",
     "null_space_by_column",
-    "product",
     "random_solutions",
-    "reduced",
+    "reduced_echelon",
     "transposed",
 ]
 
@@ -73,10 +73,10 @@ class Echelon(NamedTuple):
         return len(self.pivots)
 
 
-def inverse(a: int) -> int:
+def modular_inverse(a: int) -> int:
     """1/a modulo P; a must not be 0 modulo P.
 
-    >>> inverse(7) * 7 % P
+    >>> modular_inverse(7) * 7 % P
     1
     """
     return pow(a, -1, P)
@@ -125,7 +125,7 @@ def echelon(rows: list[Row], columns: int, *, large: bool = False) -> Echelon:
         for c in row:
             where[c].discard(i)
         pivot = min(row, key=lambda c: (len(where[c]), c))
-        scale = inverse(row[pivot])
+        scale = modular_inverse(row[pivot])
         rest = [(c, v * scale % P) for c, v in row.items() if c != pivot]
         pivots.append((pivot, *_arrays(rest)))
         for k in where.pop(pivot):
@@ -185,15 +185,15 @@ def _dense(rows: list[Row]) -> list[tuple[int, NDArray[np.int64], NDArray[np.int
             continue
         # The rows of the panel's pivots, then the rows below: A12 = L11^-1 A12, A22 -= L21 A12.
         within = _inverse_of_unit_lower(factors[: len(found)])
-        matrix[top:done, right:] = product(within, matrix[top:done, right:])
+        matrix[top:done, right:] = modular_product(within, matrix[top:done, right:])
         for start in range(done, len(rows), _STRIPE):
             stripe = slice(start, start + _STRIPE)
-            less = product(factors[start - top : start - top + _STRIPE], matrix[top:done, right:])
+            less = modular_product(factors[start - top : start - top + _STRIPE], matrix[top:done, right:])
             matrix[stripe, right:] = (matrix[stripe, right:] - less) % P
     out = []
     for top, k in enumerate(pivots):
         others = k + 1 + np.flatnonzero(matrix[top, k + 1 :])
-        scale = inverse(int(matrix[top, k]))
+        scale = modular_inverse(int(matrix[top, k]))
         out.append((int(columns[k]), columns[others], matrix[top, others] * scale % P))
     return out
 
@@ -216,7 +216,7 @@ def _panel(matrix: NDArray[np.int64], top: int, left: int, right: int) -> tuple[
             work[swap], factors[swap] = work[back], factors[back]
             matrix[[top + i for i in swap]] = matrix[[top + i for i in back]]
         below = done + 1 + np.flatnonzero(work[done + 1 :, k])
-        factor = work[below, k] * inverse(int(work[done, k])) % P
+        factor = work[below, k] * modular_inverse(int(work[done, k])) % P
         factors[below, done] = factor
         work[below, k:] = (work[below, k:] - factor[:, None] * work[done, k:]) % P
         pivots.append(left + k)
@@ -230,7 +230,7 @@ def _inverse_of_unit_lower(factors: NDArray[np.int64]) -> NDArray[np.int64]:
     """The inverse of the lower triangular matrix with ones on the diagonal and these factors below it."""
     out = np.eye(len(factors), dtype=np.int64)
     for i in range(1, len(factors)):
-        out[i, :i] = -product(factors[i : i + 1, :i], out[:i, :i])[0] % P
+        out[i, :i] = -modular_product(factors[i : i + 1, :i], out[:i, :i])[0] % P
     return out
 
 
@@ -320,10 +320,10 @@ def null_space(form: Echelon) -> NDArray[np.int64]:
     return solution.T
 
 
-def reduced(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
+def reduced_echelon(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
     """The reduced row echelon form of a small dense matrix without its zero rows: equal for equal row spaces.
 
-    >>> reduced(np.array([[2, 4], [1, 2]]))
+    >>> reduced_echelon(np.array([[2, 4], [1, 2]]))
     array([[1, 2]])
     """
     work = matrix % P
@@ -336,7 +336,7 @@ def reduced(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
             continue
         if found[0]:
             work[[top, top + found[0]]] = work[[top + found[0], top]]
-        work[top] = work[top] * inverse(int(work[top, k])) % P
+        work[top] = work[top] * modular_inverse(int(work[top, k])) % P
         others = work[:, k].nonzero()[0]
         others = others[others != top]
         if len(others):
@@ -352,7 +352,7 @@ def left_null_space(matrix: NDArray[np.int64]) -> NDArray[np.int64]:
     array([[         1, 1073741823]])
     """
     width = matrix.shape[1]
-    both = reduced(np.hstack([matrix, np.eye(len(matrix), dtype=np.int64)]))
+    both = reduced_echelon(np.hstack([matrix, np.eye(len(matrix), dtype=np.int64)]))
     return both[~both[:, :width].any(axis=1), width:]
 
 
@@ -412,7 +412,7 @@ def _reduce_side_by_side(stack: NDArray[np.int64]) -> None:
 def _inverses(values: NDArray[np.int64]) -> NDArray[np.int64]:
     """1/a modulo P for each entry, by Fermat's little theorem: P - 2 has ones in all its 31 bits but the second."""
     if len(values) < _FEW_INVERSES:
-        return np.array([inverse(value) for value in values.tolist()], np.int64)
+        return np.array([modular_inverse(value) for value in values.tolist()], np.int64)
     out = np.ones_like(values)
     for bit in range(30, -1, -1):
         out = out * out % P
@@ -421,10 +421,10 @@ def _inverses(values: NDArray[np.int64]) -> NDArray[np.int64]:
     return out
 
 
-def product(a: NDArray[np.int64], b: NDArray[np.int64]) -> NDArray[np.int64]:
+def modular_product(a: NDArray[np.int64], b: NDArray[np.int64]) -> NDArray[np.int64]:
     """The matrix product modulo P of two arrays of residues; the inner dimension must stay below 2^16.
 
-    >>> product(np.array([[P - 1, 2]]), np.array([[3], [5]]))
+    >>> modular_product(np.array([[P - 1, 2]]), np.array([[3], [5]]))
     array([[7]])
     """
     out: NDArray[np.int64]

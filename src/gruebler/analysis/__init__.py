@@ -4,7 +4,7 @@
 fully: docs/theory/events.md.
 """
 
-from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.measures import Measures, measures
 from gruebler.analysis.rotatability import DriveRange, Rotatability, drive_range, motion_roles, rotatability
 from gruebler.analysis.transmission import deviation_angle, transmission_angle
@@ -14,8 +14,8 @@ __all__ = [
     "Measures",
     "Rotatability",
     "deviation_angle",
+    "drive_cycle",
     "drive_range",
-    "follow",
     "measures",
     "motion_roles",
     "rotatability",

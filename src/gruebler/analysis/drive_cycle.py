@@ -15,19 +15,19 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.change_point_rates import mend_rates
+from gruebler.kinematics.change_point_rates import set_change_point_rates
 from gruebler.kinematics.contacts import MESH, POLAR, Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
 from gruebler.kinematics.motion import Complexes, Motion, Reals, Stop
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.reference_pose import at_home
-from gruebler.kinematics.root_finding import Samples, bracketed
-from gruebler.kinematics.solve import motion_of, move, planned
+from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.root_finding import FunctionSamples, bracketed_root
+from gruebler.kinematics.solve import cached_plan, motion_from_rows, move
 from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
 
-__all__ = ["Course", "PathCourse", "Span", "follow", "follow_path_of"]
+__all__ = ["CycleSpan", "DriveCycle", "PathCycle", "drive_cycle", "path_cycle"]
 
 _CELLS = 360  # of the first grid
 _LEVELS = 5  # how often a cell is halved where the motion bends
@@ -51,7 +51,7 @@ _LAW_NOISE = (
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
-class Span(NamedTuple):
+class CycleSpan(NamedTuple):
     """The range of a drive: radians, or lengths for a slide."""
 
     low: float
@@ -82,13 +82,13 @@ class Span(NamedTuple):
 
 
 @dataclass(frozen=True, repr=False)
-class Course(Brief):
+class DriveCycle(Brief):
     """A linkage on one branch over the whole range of its drive."""
 
     plan: Plan
     start: Motion
     """One row: where it was begun."""
-    span: Span
+    span: CycleSpan
     grid: Reals
     """Drive values, ascending, finer where the motion bends; of a full turn the first comes once more at the end."""
 
@@ -102,15 +102,15 @@ class Course(Brief):
         """Whether the drive turns; else it slides."""
         return _turns(self.plan)
 
-    def samples(self, order: int = 1) -> Samples:
+    def samples(self, order: int = 1) -> FunctionSamples:
         """The grid, with the joints of the laws of its cams, for zeros of a derivative of that order by the drive."""
         noise = _LAW_NOISE[order:] if self.joints else ()
-        return Samples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
+        return FunctionSamples(self.grid, self.joints, self.span.period if self.span.full else None, noise)
 
     @cached_property
     def joints(self) -> tuple[float, ...]:
         """Drive values at which the law of a cam or a Geneva drive passes to its next piece, and may not be smooth."""
-        return law_joints(self)
+        return _law_joints(self)
 
     def at(self, drives: Reals, order: int = 3) -> Motion:
         """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
@@ -145,7 +145,7 @@ class Course(Brief):
         return float(weights @ values / weights.sum())
 
 
-def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Course:
+def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> DriveCycle:
     """The course of a linkage with one drive.
 
     It is begun at the linkage's home, else at drive value 0 or the first multiple of 5 degrees (for a slide: 1/40 of
@@ -153,7 +153,7 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
 
     Raises `LinkageError` if it has more drives than one, or cannot be assembled or moved at all.
     """
-    plan = planned(linkage)
+    plan = cached_plan(linkage)
     count = len(plan.linkage.mechanism.drives)
     if count != 1:
         raise LinkageError(
@@ -174,12 +174,12 @@ def follow(linkage: Linkage, branch: str | Iterable[str] | None = None) -> Cours
             f"the drive cannot move: all that can be assembled is one position, drive = {at}",
             f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
         )
-    course = Course(plan, start, span, np.array([span.low, span.high]))
+    course = DriveCycle(plan, start, span, np.array([span.low, span.high]))
     return replace(course, grid=_grid(course))
 
 
 @dataclass(frozen=True, repr=False)
-class PathCourse(Course):
+class PathCycle(DriveCycle):
     """A linkage along a straight path of all its drives; the drive value of the course is the part of it, 0 to 1."""
 
     ends: Reals
@@ -211,12 +211,12 @@ class PathCourse(Course):
         return _rows(found, 1 + np.argsort(order_of, kind="stable"))
 
 
-def follow_path_of(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCourse:
+def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCycle:
     """The course of a linkage along a straight path of its drives, (rows, drives), from the first row to the last.
 
     Raises `LinkageError` if the drives do not move, or if the linkage cannot be moved to the end of the path.
     """
-    plan = planned(linkage)
+    plan = cached_plan(linkage)
     rows = drive_path(plan, path)
     ends = np.array([rows[0], rows[-1]])
     if (ends[0] == ends[1]).all():
@@ -227,7 +227,7 @@ def follow_path_of(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str
     start = move(plan, ends[:1], branch=branch)
     if not start.complete:
         raise LinkageError(start.message(), start.message("de"))
-    course = PathCourse(plan, start, Span(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
+    course = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
     return replace(course, grid=_grid(course))
 
 
@@ -243,9 +243,9 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds = np.zeros((order, *path.shape))
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
-    motion = motion_of(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
+    motion = motion_from_rows(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
     if order:
-        mend_rates(plan, motion, path, speeds, signs)
+        set_change_point_rates(plan, motion, path, speeds, signs)
     return motion, rows
 
 
@@ -285,7 +285,7 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
 
 def _candidates(plan: Plan) -> Iterator[float]:
     if plan.lower.home is not None:
-        yield float(at_home(plan, np.zeros(1)).drives[0])
+        yield float(pose_at_reference(plan, np.zeros(1)).drives[0])
     step, count = (pi / 36, 36) if _turns(plan) else (plan.lower.size / 40, 120)
     yield 0.0
     for k in range(1, count + 1):
@@ -293,7 +293,7 @@ def _candidates(plan: Plan) -> Iterator[float]:
         yield -k * step
 
 
-def _span(plan: Plan, start: Motion) -> Span:
+def _span(plan: Plan, start: Motion) -> CycleSpan:
     q = float(start.drives[0, 0])
     turning = _turns(plan)
     most = _MOST_WITH_WHEELS if plan.wheels else _MOST_TURNS
@@ -302,13 +302,13 @@ def _span(plan: Plan, start: Motion) -> Span:
     above, rows = _run(plan, q + steps, 0, start)
     back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
     if back:
-        return Span(q, q + 2 * pi * back[0], True, back[0], (None, None))
+        return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
     short = steps[: _MOST_TURNS + 1] if turning else steps
     if above.complete:
         above = _rows(above, rows[: len(short)])
     below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
-    return Span(low, high, False, 0, (below.stop, above.stop))
+    return CycleSpan(low, high, False, 0, (below.stop, above.stop))
 
 
 def _same(plan: Plan, motion: Motion, row: int) -> bool:
@@ -316,7 +316,7 @@ def _same(plan: Plan, motion: Motion, row: int) -> bool:
     return bool(max(places, np.abs(motion.turns[row] - motion.turns[0]).max()) < _BACK)
 
 
-def _grid(course: Course) -> Reals:
+def _grid(course: DriveCycle) -> Reals:
     """Places in the span between which the rates are near to their cubics."""
     span = course.span
     if span.full:
@@ -354,7 +354,7 @@ def _grid(course: Course) -> Reals:
 _SAME = 1e-9  # of the range: joints of two laws that are nearer are one
 
 
-def law_joints(course: Course) -> tuple[float, ...]:
+def _law_joints(course: DriveCycle) -> tuple[float, ...]:
     """Drive values at which derivatives may jump, in rising order; of full turns in the period from the grid on."""
     laws = [c for group in course.plan.conditions for c in group if c.law.joints]
     if not laws:
@@ -373,7 +373,7 @@ def law_joints(course: Course) -> tuple[float, ...]:
             def off(drives: Reals, condition: Condition = condition, angle: float = angle) -> Reals:
                 return np.asarray((_direction(course.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
 
-            found += bracketed(off, low, high).tolist() if len(cells) else []
+            found += bracketed_root(off, low, high).tolist() if len(cells) else []
     return _merged(sorted(found), _SAME * course.span.width, course.span.period)
 
 

@@ -12,28 +12,28 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.analysis.drive_cycle import Course
+from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output
-from gruebler.assur import Group
+from gruebler.assur import SolvedGroup
 from gruebler.kinematics.circuits import Circuit, circuit
 from gruebler.kinematics.motion import Motion, Reals
 from gruebler.kinematics.plan import Dyad
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.redundancy import _Conditions
-from gruebler.kinematics.root_finding import Zero, bracketed, vanishing, zeros
+from gruebler.kinematics.redundancy import ReferenceConditions
+from gruebler.kinematics.root_finding import Zero, bracketed_root, find_zeros, vanishing
 
 __all__ = [
-    "ChangePoint",
     "Crossing",
-    "DeadCentre",
     "Dwell",
+    "GroupChangePoint",
+    "OutputDeadCentre",
     "change_points",
     "crossings",
     "dead_centres",
     "drive_pivot",
     "dwells",
     "dyad_change_points",
-    "natural",
+    "natural_speed",
     "output_turns",
     "stops",
     "transfer_function",
@@ -53,7 +53,7 @@ _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change poin
 _STEP = 0.02  # radians, or parts of the size
 
 
-class DeadCentre(NamedTuple):
+class OutputDeadCentre(NamedTuple):
     """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
 
     drive: float
@@ -102,7 +102,7 @@ class Crossing(NamedTuple):
     """``maximum``, ``minimum`` or ``flat`` of that function; for order 0 ``rising``, ``falling`` or ``touching``."""
 
 
-class ChangePoint(NamedTuple):
+class GroupChangePoint(NamedTuple):
     """Where the assembly modes of a group meet and the motion goes on through."""
 
     drive: float
@@ -112,23 +112,23 @@ class ChangePoint(NamedTuple):
     """Whether more than two curves of positions meet there, or two that touch one another."""
 
 
-def transfer_function(course: Course, output: Output, drives: Reals, order: int = 0) -> Reals:
+def transfer_function(course: DriveCycle, output: Output, drives: Reals, order: int = 0) -> Reals:
     """The transfer function of order 0 to 3 at drive values: psi, psi', psi'', psi''' in radians or lengths; (n,)."""
     return output.track(course.at(np.asarray(drives, np.float64), max(order, 1)), order)
 
 
-def natural(course: Course, output: Output) -> float:
+def natural_speed(course: DriveCycle, output: Output) -> float:
     """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
     size = course.plan.lower.size
     return (1.0 if output.turning else size) / (1.0 if course.turning_drive else size)
 
 
-def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...]:
+def crossings(course: DriveCycle, output: Output, order: int) -> tuple[Crossing, ...]:
     """The zeros of a transfer function: of order 0; 1, the output's extremes; 2, those of its velocity; 3, of psi''.
 
     Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
     """
-    least = (_EVEN if order > 1 else _STILL) * natural(course, output)
+    least = (_EVEN if order > 1 else _STILL) * natural_speed(course, output)
     if not course.turning_drive:
         least /= course.plan.lower.size ** max(order - 1, 0)
 
@@ -144,7 +144,7 @@ def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...
     samples = course.samples(order)
     if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
         samples = samples._replace(period=None)
-    found = _inside(course, zeros(jet, samples, least))
+    found = _inside(course, find_zeros(jet, samples, least))
     if order == 0 and output.turning and found:  # that sine falls where the angle rises through an odd multiple
         turned = np.round(transfer_function(course, output, np.array([zero.at for zero in found])) / (2 * pi)) % 2 == 1
         found = tuple(zero._replace(rises=zero.rises != odd) for zero, odd in zip(found, turned.tolist(), strict=True))
@@ -156,18 +156,18 @@ def crossings(course: Course, output: Output, order: int) -> tuple[Crossing, ...
     )
 
 
-def _before(course: Course, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
+def _before(course: DriveCycle, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
     if not found:
         return np.empty(0)
     return transfer_function(course, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
 
 
-def _inside(course: Course, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+def _inside(course: DriveCycle, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
     """The zeros in the order in which they are reported."""
     return tuple(sorted(found, key=lambda zero: course.span.wrapped(zero.at)))
 
 
-def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
+def dead_centres(course: DriveCycle, output: Output) -> tuple[OutputDeadCentre, ...]:
     """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
 
     A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
@@ -179,7 +179,7 @@ def dead_centres(course: Course, output: Output) -> tuple[DeadCentre, ...]:
     return stops(course, output)[0]
 
 
-def dwells(course: Course, output: Output) -> tuple[Dwell, ...]:
+def dwells(course: DriveCycle, output: Output) -> tuple[Dwell, ...]:
     """The stretches on which the output rests; none of an output that never moves.
 
     An output can only begin or end to rest where a cam or Geneva drive passes to the next piece of its law: between
@@ -188,19 +188,19 @@ def dwells(course: Course, output: Output) -> tuple[Dwell, ...]:
     return stops(course, output)[1]
 
 
-def stops(course: Course, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
+def stops(course: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ...], tuple[Dwell, ...]]:
     """`dead_centres` and `dwells`."""
 
     def jet(drives: Reals) -> Reals:
         motion = course.at(drives)
         return np.stack([output.track(motion, k) for k in (1, 2, 3)])
 
-    least, samples = _STILL * natural(course, output), course.samples(1)
-    found = _inside(course, zeros(jet, samples, least))
+    least, samples = _STILL * natural_speed(course, output), course.samples(1)
+    found = _inside(course, find_zeros(jet, samples, least))
     resting = vanishing(jet, samples, least) if course.joints else ()
     values = transfer_function(course, output, np.array([zero.at for zero in found])) if found else np.empty(0)
     centres = [
-        DeadCentre(
+        OutputDeadCentre(
             course.span.wrapped(zero.at),
             float(value),
             "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
@@ -217,7 +217,7 @@ def stops(course: Course, output: Output) -> tuple[tuple[DeadCentre, ...], tuple
     )
 
 
-def _dwell(course: Course, output: Output, begin: float, end: float) -> Dwell:
+def _dwell(course: DriveCycle, output: Output, begin: float, end: float) -> Dwell:
     """The rest of the output between two joints of laws."""
     span, joints = course.span, np.array(course.joints)
     if span.full:
@@ -236,7 +236,7 @@ def _dwell(course: Course, output: Output, begin: float, end: float) -> Dwell:
     return Dwell(begin, end, value, kind, "")
 
 
-def _way(course: Course, output: Output, edge: float, joint: float) -> int:
+def _way(course: DriveCycle, output: Output, edge: float, joint: float) -> int:
     """In which direction the output moves beside a dwell, on the way to the next joint: 1, -1; 0 if there is none."""
     if not np.isfinite(joint):
         return 0
@@ -244,7 +244,7 @@ def _way(course: Course, output: Output, edge: float, joint: float) -> int:
     return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
 
 
-def _sides(course: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
+def _sides(course: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre | Dwell]) -> list[str]:
     """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
     sides = [""] * len(stops)
     turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
@@ -268,11 +268,11 @@ def _sides(course: Course, output: Output, stops: Sequence[DeadCentre | Dwell]) 
     return sides
 
 
-def _goes_round(course: Course, output: Output) -> bool:
+def _goes_round(course: DriveCycle, output: Output) -> bool:
     return bool(course.span.full and output.turning and output_turns(course, output))
 
 
-def output_turns(course: Course, output: Output) -> int:
+def output_turns(course: DriveCycle, output: Output) -> int:
     """How many full turns an angle makes while everything repeats."""
     if not (course.span.full and output.turning):
         return 0
@@ -280,7 +280,7 @@ def output_turns(course: Course, output: Output) -> int:
     return round(float(track[1] - track[0]) / (2 * pi))
 
 
-def drive_pivot(course: Course) -> complex | None:
+def drive_pivot(course: DriveCycle) -> complex | None:
     """Where a turning drive has its axis in the frame; None for any other drive."""
     lower = course.plan.lower
     first, _ = lower.reference(0)
@@ -290,7 +290,7 @@ def drive_pivot(course: Course) -> complex | None:
     return complex(e.x, e.y)
 
 
-def _distances(course: Course, output: Output, drives: Reals) -> Reals | None:
+def _distances(course: DriveCycle, output: Output, drives: Reals) -> Reals | None:
     """How far the point that drives the output lies from the pivot of the drive."""
     pivot, place = drive_pivot(course), _driving_point(course, output)
     if pivot is None or place is None:
@@ -301,7 +301,7 @@ def _distances(course: Course, output: Output, drives: Reals) -> Reals | None:
     return np.asarray(np.abs(point - pivot))
 
 
-def _driving_point(course: Course, output: Output) -> tuple[str, complex] | None:
+def _driving_point(course: DriveCycle, output: Output) -> tuple[str, complex] | None:
     """The one pin by which the rest of its group takes hold of the output link."""
     plan = course.plan
     for group in plan.decomposition.groups:
@@ -319,7 +319,7 @@ def _driving_point(course: Course, output: Output) -> tuple[str, complex] | None
     return None
 
 
-def change_points(course: Course) -> tuple[ChangePoint, ...]:
+def change_points(course: DriveCycle) -> tuple[GroupChangePoint, ...]:
     """Where the motion goes through a position in which two assembly modes of a group meet.
 
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
@@ -331,11 +331,11 @@ def change_points(course: Course) -> tuple[ChangePoint, ...]:
     return _meetings(course, [*larger, *dyad_change_points(course)])
 
 
-def _meetings(course: Course, found: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
+def _meetings(course: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[GroupChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
     near = _TOGETHER * (1 if course.turning_drive else course.plan.lower.size)
 
-    def gap(one: ChangePoint, other: ChangePoint) -> float:
+    def gap(one: GroupChangePoint, other: GroupChangePoint) -> float:
         way = abs(one.drive - other.drive)
         return min(way, abs(course.span.period - way))
 
@@ -346,7 +346,7 @@ def _meetings(course: Course, found: Iterable[ChangePoint]) -> tuple[ChangePoint
     )
 
 
-def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
+def dyad_change_points(course: DriveCycle) -> tuple[GroupChangePoint, ...]:
     """Those of dyads alone."""
     found = []
     roots = course.at(course.grid, 0).roots
@@ -355,11 +355,11 @@ def dyad_change_points(course: Course) -> tuple[ChangePoint, ...]:
         for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
             found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
     if course.plan.released and found:  # one of the independent part may be none of the linkage
-        found = [point for point in found if not regular(course.at(np.array([point.drive]), 0), 0)]
+        found = [point for point in found if not _is_regular(course.at(np.array([point.drive]), 0), 0)]
     return _meetings(course, found)
 
 
-def _of_larger_groups(course: Course) -> Iterator[ChangePoint]:
+def _of_larger_groups(course: DriveCycle) -> Iterator[GroupChangePoint]:
     made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
     for change in made.change_points:
         groups = list(_singular(course, made, change.pose))
@@ -370,10 +370,10 @@ def _of_larger_groups(course: Course) -> Iterator[ChangePoint]:
                 away = [here.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
                 if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
                     for group in groups:
-                        yield ChangePoint(course.span.wrapped(drive), group.links, group.form(), change.several)
+                        yield GroupChangePoint(course.span.wrapped(drive), group.links, group.form(), change.several)
 
 
-def _singular(course: Course, made: Circuit, pose: Poses) -> Iterator[Group]:
+def _singular(course: DriveCycle, made: Circuit, pose: Poses) -> Iterator[SolvedGroup]:
     """The larger groups that can move there while everything before them stands."""
     plan, bodies, size = course.plan, list(made.system.bodies), course.plan.lower.size
     rows = [
@@ -394,14 +394,14 @@ def _singular(course: Course, made: Circuit, pose: Poses) -> Iterator[Group]:
         known = max(known, rank)
 
 
-def _change_point(course: Course, dyad: Dyad, cell: Reals) -> ChangePoint:
+def _change_point(course: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoint:
     span = course.span
     step = _STEP * (1 if course.turning_drive else course.plan.lower.size)
 
     def root(drives: Reals) -> Reals:
         return course.at(drives, 0).roots[:, dyad.number]
 
-    at = float(bracketed(root, cell[:1], cell[1:])[0])
+    at = float(bracketed_root(root, cell[:1], cell[1:])[0])
     for _ in range(2):
         room = step if span.full else min(step, (at - span.low) / 5, (span.high - at) / 5)
         places = at + _AROUND * room
@@ -412,15 +412,15 @@ def _change_point(course: Course, dyad: Dyad, cell: Reals) -> ChangePoint:
             break
         at += room * float(min(near, key=abs))
     group = course.plan.decomposition.groups[dyad.group]
-    return ChangePoint(span.wrapped(at), group.links, group.form())
+    return GroupChangePoint(span.wrapped(at), group.links, group.form())
 
 
 _SINGULAR = 1e-6  # of the largest singular value: poses at change points are known to some 1e-8 only
 
 
-def regular(motion: Motion, row: int) -> bool:
+def _is_regular(motion: Motion, row: int) -> bool:
     """Whether in a pose all conditions together, with the drives held, fix every link: then it is no change point."""
-    conditions = _Conditions(motion.linkage)
+    conditions = ReferenceConditions(motion.linkage)
     x = []
     for link in conditions.bodies:
         k = motion._link(link)

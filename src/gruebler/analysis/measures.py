@@ -3,18 +3,19 @@
 `Measures` (fields are stable):
 
 - ``linkage, output`` (`Output`: name, link, joint, turning), ``branch`` (labels at ``start``), ``start`` (drive value);
-- ``span`` (`Span`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
+- ``span`` (`CycleSpan`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
 - ``ends``: the output at both ends of a range that is no full turn, else None;
-- ``dead_centres`` (tuple of `DeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
+- ``dead_centres`` (tuple of `OutputDeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
 - ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
-- ``inner, outer`` (`DeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
+- ``inner, outer`` (`OutputDeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
   ``output_turns`` (turns of the output per period);
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
   output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
   ``dwell_time``;
-- ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_notes`` say if some are not known);
+- ``change_points`` (tuple of `GroupChangePoint`: drive, links, form; ``change_points_notes`` say if some are not
+  known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
-- ``transmission`` (`Transmission`: extremes, smallest, largest, legs, good; None if undefined, then
+- ``transmission`` (`TransmissionExtremes`: extremes, smallest, largest, legs, good; None if undefined, then
   ``transmission_note`` says why);
 - ``explain(lang)`` prose, ``to_json()`` plain data with angles in degrees.
 """
@@ -28,25 +29,25 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from gruebler.analysis.drive_cycle import Course, Span, follow
+from gruebler.analysis.drive_cycle import CycleSpan, DriveCycle, drive_cycle
 from gruebler.analysis.events import (
-    ChangePoint,
     Crossing,
-    DeadCentre,
     Dwell,
+    GroupChangePoint,
+    OutputDeadCentre,
     change_points,
     crossings,
     dyad_change_points,
-    natural,
+    natural_speed,
     output_turns,
     stops,
     transfer_function,
 )
 from gruebler.analysis.outputs import Output, find_output
-from gruebler.analysis.transmission import NoTransmissionAngleError, Transmission, measure_transmission
+from gruebler.analysis.transmission import NoTransmissionAngleError, TransmissionExtremes, measure_transmission
 from gruebler.errors import LinkageError
 from gruebler.fourbar.extremes import StrokeTimes
-from gruebler.kinematics.root_finding import sampled
+from gruebler.kinematics.root_finding import sample_function
 from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
 
@@ -86,18 +87,18 @@ class Measures(Brief):
     branch: tuple[str, ...]
     start: float
     turning_drive: bool
-    span: Span
+    span: CycleSpan
     ends: tuple[float, float] | None
-    dead_centres: tuple[DeadCentre, ...]
+    dead_centres: tuple[OutputDeadCentre, ...]
     dwells: tuple[Dwell, ...]
     """Where the output rests, behind a cam or a Geneva drive."""
     output_turns: int
     travel: float | None
-    change_points: tuple[ChangePoint, ...]
+    change_points: tuple[GroupChangePoint, ...]
     change_points_notes: dict[str, str]
     """Why those of larger groups are not known, by language; empty if they are."""
     transfer: Transfer
-    transmission: Transmission | None
+    transmission: TransmissionExtremes | None
     transmission_notes: dict[str, str]
     """Why there is no transmission angle, by language; empty if there is one."""
     speed_rpm: float | None
@@ -108,21 +109,21 @@ class Measures(Brief):
         return self.transmission_notes["en"]
 
     @property
-    def inner(self) -> DeadCentre | Dwell | None:
+    def inner(self) -> OutputDeadCentre | Dwell | None:
         """The inner dead centre, or the dwell in its place."""
         return self._extreme("inner")
 
     @property
-    def outer(self) -> DeadCentre | Dwell | None:
+    def outer(self) -> OutputDeadCentre | Dwell | None:
         """The outer dead centre, or the dwell in its place."""
         return self._extreme("outer")
 
     @property
-    def stops(self) -> tuple[DeadCentre | Dwell, ...]:
+    def stops(self) -> tuple[OutputDeadCentre | Dwell, ...]:
         """Where the output stops: dead centres, then dwells."""
         return (*self.dead_centres, *self.dwells)
 
-    def _extreme(self, side: str) -> DeadCentre | Dwell | None:
+    def _extreme(self, side: str) -> OutputDeadCentre | Dwell | None:
         return next((stop for stop in self.stops if stop.side == side), None)
 
     @property
@@ -135,7 +136,7 @@ class Measures(Brief):
         """The drive angle from the outer to the next inner dead centre, in the positive sense, less dwells between."""
         return self._way(self.outer, self.inner)
 
-    def _way(self, start: DeadCentre | Dwell | None, end: DeadCentre | Dwell | None) -> float | None:
+    def _way(self, start: OutputDeadCentre | Dwell | None, end: OutputDeadCentre | Dwell | None) -> float | None:
         """How far the drive turns, while the output moves, from one stop to the next that is like the other.
 
         Of several stops like the first before that one the last counts: the ways are those of a mirror image, too.
@@ -144,7 +145,7 @@ class Measures(Brief):
             return None
         period, near = self.span.period, 1e-9 * (self.travel or 0.0)
 
-        def alike(one: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
+        def alike(one: OutputDeadCentre | Dwell) -> list[OutputDeadCentre | Dwell]:
             return [stop for stop in self.stops if stop.kind == one.kind and abs(stop.output - one.output) <= near]
 
         def ahead(drive: float, of: float) -> float:
@@ -204,15 +205,15 @@ class Measures(Brief):
 
     def explain(self, lang: str = "en") -> str:
         """The measures as lines of prose, in English (``en``) or German (``de``)."""
-        from gruebler.analysis.messages import explain
+        from gruebler.analysis.messages import explain_measures
 
-        return "\n".join(explain(self, lang))
+        return "\n".join(explain_measures(self, lang))
 
     def to_json(self) -> dict[str, Any]:
         """The measures as plain data; angles in degrees, times in seconds."""
-        from gruebler.analysis.messages import plain
+        from gruebler.analysis.messages import measures_as_dict
 
-        return plain(self)
+        return measures_as_dict(self)
 
 
 def measures(
@@ -227,7 +228,7 @@ def measures(
         linkage: a linkage whose drive fixes the motion.
         speed_rpm: the drive's speed in turns a minute, for the times; not zero.
         branch: as for `move`; without it that of the home position, else all ``+`` and 1. It is understood where the
-            motion is begun: `gruebler.analysis.drive_cycle.follow`.
+            motion is begun: `gruebler.analysis.drive_cycle.drive_cycle`.
         output: a link or a sliding joint; without it the linkage's first output, else the last link at the frame.
 
     Cost: some 60 ms for a dyad, 0.2 s for a group of four links.
@@ -241,7 +242,7 @@ def measures(
     """
     looked_at = find_output(linkage, output)
     speed = _speed(speed_rpm)
-    course = follow(linkage, branch)
+    course = drive_cycle(linkage, branch)
     if speed is not None and not course.turning_drive:
         raise LinkageError("a speed in turns a minute is that of a turning drive; this linkage has a sliding one")
     span = course.span
@@ -290,7 +291,7 @@ def _speed(rpm: float | None) -> float | None:
     return float(rpm)
 
 
-def _travel(course: Course, output: Output, values: list[float]) -> float:
+def _travel(course: DriveCycle, output: Output, values: list[float]) -> float:
     """The difference of the largest and the smallest output among its stops and ends."""
     if not values:  # it goes nowhere, or its motion has no end: what the grid shows
         track = transfer_function(course, output, course.grid)
@@ -299,7 +300,7 @@ def _travel(course: Course, output: Output, values: list[float]) -> float:
     return max(values) - min(values)
 
 
-def _transfer(course: Course, output: Output) -> Transfer:
+def _transfer(course: DriveCycle, output: Output) -> Transfer:
     track = transfer_function(course, output, course.grid, 1)
     still, uniform = _kind(course, output)
     usual = float(np.median(track))
@@ -318,11 +319,11 @@ def _transfer(course: Course, output: Output) -> Transfer:
     )
 
 
-def _kind(course: Course, output: Output) -> tuple[bool, bool]:
+def _kind(course: DriveCycle, output: Output) -> tuple[bool, bool]:
     """Whether the output never moves, and whether psi' is constant: on each piece on which the motion is analytic."""
-    parts = sampled(lambda drives: transfer_function(course, output, drives, 1)[None], course.samples(1))
+    parts = sample_function(lambda drives: transfer_function(course, output, drives, 1)[None], course.samples(1))
     usual = float(np.median(np.concatenate([part[0] for part in parts])))
-    scale = _STILL * natural(course, output)
+    scale = _STILL * natural_speed(course, output)
     still = all(float(np.quantile(np.abs(part[0]), 0.9)) <= scale for part in parts)
     varies = max(float(np.quantile(np.abs(part[0] - usual), 0.9)) for part in parts)
     return still, not still and varies <= _UNIFORM * abs(usual)

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from gruebler.analysis.events import Dwell
     from gruebler.analysis.measures import Measures
-    from gruebler.analysis.transmission import Extreme
+    from gruebler.analysis.transmission import TransmissionExtremum
 
-__all__ = ["explain", "plain"]
+__all__ = ["explain_measures", "measures_as_dict"]
 
 _CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
 
@@ -103,7 +103,7 @@ _TEXTS = {
 }
 
 
-def explain(found: Measures, lang: str) -> Iterator[str]:
+def explain_measures(found: Measures, lang: str) -> Iterator[str]:
     """See `Measures.explain`."""
     column = 1 if lang == "de" else 0
 
@@ -199,7 +199,7 @@ def _output(found: Measures, value: float) -> str:
     return f"{0.0 if abs(value) < 1e-12 * found.linkage.size else value:.7g} {found.linkage.unit}"
 
 
-def plain(found: Measures) -> dict[str, Any]:
+def measures_as_dict(found: Measures) -> dict[str, Any]:
     """See `Measures.to_json`."""
     turn = degrees if found.turning_drive else float
     out = degrees if found.output.turning else float
@@ -212,7 +212,7 @@ def plain(found: Measures) -> dict[str, Any]:
     def crossing(c: Any, scale: float) -> dict[str, Any]:
         return {"drive": turn(c.drive), "value": c.value * scale, "kind": c.kind}
 
-    def extreme(e: Extreme) -> dict[str, Any]:
+    def extreme(e: TransmissionExtremum) -> dict[str, Any]:
         return {"drive": turn(e.drive), "mu": degrees(e.mu), "deviation": degrees(e.deviation), "links": list(e.links)}
 
     return {

@@ -11,23 +11,23 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.analysis.drive_cycle import Course
+from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output, find_output
-from gruebler.assur import Group
+from gruebler.assur import SolvedGroup
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Complexes, Motion, Reals
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.root_finding import zeros
+from gruebler.kinematics.root_finding import find_zeros
 
 __all__ = [
     "GOOD",
-    "Extreme",
-    "Leg",
     "NoTransmissionAngleError",
-    "Transmission",
+    "PushingLink",
+    "TransmissionExtremes",
+    "TransmissionExtremum",
     "deviation_angle",
-    "driving_legs",
     "measure_transmission",
+    "pushing_links",
     "transmission_angle",
 ]
 
@@ -50,7 +50,7 @@ Element = tuple[str, complex, complex]
 """A joint on a link: the link, the point, the direction."""
 
 
-class Leg(NamedTuple):
+class PushingLink(NamedTuple):
     """A link (or a body of several) that pushes another at one joint."""
 
     links: tuple[str, ...]
@@ -64,7 +64,7 @@ class Leg(NamedTuple):
     """How the pushed link hangs on the frame, if by one joint: R or P, and the joint on the frame."""
 
 
-class Extreme(NamedTuple):
+class TransmissionExtremum(NamedTuple):
     """The transmission angle somewhere."""
 
     drive: float
@@ -79,13 +79,13 @@ class Extreme(NamedTuple):
         return pi / 2 - self.mu
 
 
-class Transmission(NamedTuple):
+class TransmissionExtremes(NamedTuple):
     """The extremes of the transmission angle."""
 
-    extremes: tuple[Extreme, ...]
+    extremes: tuple[TransmissionExtremum, ...]
     """All local extremes and the values at the ends of a range, leg by leg, in the order of the drive."""
-    smallest: Extreme
-    largest: Extreme
+    smallest: TransmissionExtremum
+    largest: TransmissionExtremum
     """The largest for the leg that has the smallest."""
     legs: tuple[tuple[str, ...], ...]
     """The driving legs; with several the smallest angle counts."""
@@ -96,7 +96,7 @@ class Transmission(NamedTuple):
         return self.smallest.mu >= GOOD
 
 
-def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
+def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     """The legs by which the group of the output is driven.
 
     A leg is a body of the group with one outer and one inner joint. It drives if it hangs on a link that moves, or has
@@ -134,11 +134,11 @@ def driving_legs(plan: Plan, output: Output) -> tuple[Leg, ...]:
     return tuple(chosen.values())
 
 
-def _bodies(group: Group) -> list[tuple[str, ...]]:
+def _bodies(group: SolvedGroup) -> list[tuple[str, ...]]:
     return [(*own, *carried) for own, carried in zip(group.bodies, group.carried, strict=True)]
 
 
-def _is_driven(plan: Plan, group: Group, body: int) -> bool:
+def _is_driven(plan: Plan, group: SolvedGroup, body: int) -> bool:
     mechanism, links = plan.lower.mechanism, _bodies(group)[body]
     if set(mechanism.drives[0].between) <= set(links):
         return True
@@ -150,7 +150,7 @@ def _is_driven(plan: Plan, group: Group, body: int) -> bool:
     return False
 
 
-def _leg(plan: Plan, group: Group, body: int) -> Leg | None:
+def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
     mine = [(n, m) for n, m in group.joints if body in m.links]
     outer, inner = ([(n, m) for n, m in mine if m.outer == side] for side in (True, False))
     if len(outer) != 1 or len(inner) != 1:
@@ -161,7 +161,7 @@ def _leg(plan: Plan, group: Group, body: int) -> Leg | None:
     other = next(k for k in inner[0][1].links if k != body)
     form = "".join("R" if m.pair.name == "revolute" else "P" for _, m in (outer[0], inner[0]))
     pushed = _element(plan, inner[0][0], links[other])[0]
-    return Leg(
+    return PushingLink(
         group.bodies[body],
         _element(plan, outer[0][0], links[body]),
         _element(plan, inner[0][0], links[body]),
@@ -171,7 +171,7 @@ def _leg(plan: Plan, group: Group, body: int) -> Leg | None:
     )
 
 
-def _guide(plan: Plan, group: Group, body: int) -> tuple[str, Element] | None:
+def _guide(plan: Plan, group: SolvedGroup, body: int) -> tuple[str, Element] | None:
     frame = plan.lower.mechanism.frame
     held = [(n, m) for n, m in group.joints if m.outer and body in m.links]
     at_frame = [(n, m) for n, m in held if frame in plan.lower.mechanism.chain.joints[n].links]
@@ -197,7 +197,7 @@ class _Lines(NamedTuple):
     way_rate: Complexes
 
 
-def _lines(motion: Motion, leg: Leg) -> _Lines:
+def _lines(motion: Motion, leg: PushingLink) -> _Lines:
     """Force and way of a leg; the motion is of order 2."""
     outer, inner = _point(motion, leg.outer), _point(motion, leg.inner)
     if leg.form == "RR":
@@ -261,7 +261,7 @@ def transmission_angle(motion: Motion, output: str | None = None) -> Reals:
     """
     if motion.order < 2:
         raise LinkageError("the transmission angle needs a motion with accelerations: move(..., order=2)")
-    legs = driving_legs(motion.plan, find_output(motion.linkage, output))
+    legs = pushing_links(motion.plan, find_output(motion.linkage, output))
     return np.asarray(np.min([_folded(_lines(motion, leg)) for leg in legs], axis=0))
 
 
@@ -270,7 +270,7 @@ def deviation_angle(motion: Motion, output: str | None = None) -> Reals:
     return pi / 2 - transmission_angle(motion, output)
 
 
-def measure_transmission(course: Course, output: Output) -> Transmission:
+def measure_transmission(course: DriveCycle, output: Output) -> TransmissionExtremes:
     """The extremes of the transmission angle over the whole range of the drive.
 
     They are zeros of three functions: of the turning of the force against the way, of their sine (mu = 90 degrees)
@@ -278,22 +278,23 @@ def measure_transmission(course: Course, output: Output) -> Transmission:
 
     Raises `LinkageError` if there is no transmission angle, with the reason.
     """
-    legs = driving_legs(course.plan, output)
+    legs = pushing_links(course.plan, output)
     found = []
     for leg in legs:
         places, ends = _stationary(course, leg)
         values = _folded(_lines(course.at(places, 2), leg)) if len(places) else places
         found += [
-            Extreme(course.span.wrapped(float(x)), float(mu), leg.links) for x, mu in zip(places, values, strict=True)
+            TransmissionExtremum(course.span.wrapped(float(x)), float(mu), leg.links)
+            for x, mu in zip(places, values, strict=True)
         ]
-        found += [Extreme(x, mu, leg.links) for x, mu in ends]
+        found += [TransmissionExtremum(x, mu, leg.links) for x, mu in ends]
     smallest = min(found, key=lambda extreme: extreme.mu)
     mine = [extreme for extreme in found if extreme.links == smallest.links]
     largest = max(mine, key=lambda extreme: extreme.mu)
-    return Transmission(tuple(sorted(found)), smallest, largest, tuple(leg.links for leg in legs))
+    return TransmissionExtremes(tuple(sorted(found)), smallest, largest, tuple(leg.links for leg in legs))
 
 
-def _stationary(course: Course, leg: Leg) -> tuple[Reals, list[tuple[float, float]]]:
+def _stationary(course: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
     """Where the folded angle has a local extreme, and its values at the ends of a range."""
 
     def product(motion: Motion) -> Complexes:
@@ -317,7 +318,7 @@ def _stationary(course: Course, leg: Leg) -> tuple[Reals, list[tuple[float, floa
     places = [
         zero.at
         for jet, floor in ((turning, slow), (sine, _LEAST), (cosine, _LEAST))
-        for zero in (() if constant else zeros(jet, course.samples(2), floor))
+        for zero in (() if constant else find_zeros(jet, course.samples(2), floor))
     ]
     if course.span.full:
         return np.array(places or [course.span.low]), []

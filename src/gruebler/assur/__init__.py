@@ -5,7 +5,7 @@ from any mechanism, `assur_groups` lists those of turning joints. Definitions an
 """
 
 from gruebler.assur.choices import drive_choices
-from gruebler.assur.decomposition import Decomposition, Group, Share, decompose
+from gruebler.assur.decomposition import Decomposition, JointShare, SolvedGroup, decompose
 from gruebler.assur.forms import DYADS
 from gruebler.assur.groups import AssurGroup
 from gruebler.assur.listing import assur_groups, group_of_truss
@@ -16,8 +16,8 @@ __all__ = [
     "AssurError",
     "AssurGroup",
     "Decomposition",
-    "Group",
-    "Share",
+    "JointShare",
+    "SolvedGroup",
     "assur_groups",
     "decompose",
     "drive_choices",

@@ -12,20 +12,20 @@ from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 
-from gruebler.assur.forms import Member, class_number, form_name
+from gruebler.assur.forms import GroupJoint, class_number, form_name
 from gruebler.assur.groups import AssurGroup
-from gruebler.assur.locking import Locked, independent, locked, whole_locks
-from gruebler.assur.splitting import Part, split
+from gruebler.assur.locking import LockedMechanism, independent, lock_drives, whole_joint_locks
+from gruebler.assur.splitting import BodyGroup, split_into_groups
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.notebook import Brief
 
-__all__ = ["Decomposition", "Group", "Share", "decompose"]
+__all__ = ["Decomposition", "JointShare", "SolvedGroup", "decompose"]
 
 
 @dataclass(frozen=True)
-class Group:
+class SolvedGroup:
     """An Assur group in its mechanism."""
 
     bodies: tuple[tuple[str, ...], ...]
@@ -34,7 +34,7 @@ class Group:
     """For each body the links that earlier groups have fixed against it, and that are found with it."""
     base: tuple[str, ...]
     """The body against which it is found: the frame's, or one that a later group places with all that it carries."""
-    joints: tuple[tuple[int, Member], ...]
+    joints: tuple[tuple[int, GroupJoint], ...]
     """Its joints: the number of the chain's joint, the pair that drives leave of it, the bodies that carry it."""
     after: tuple[int, ...]
     """The groups (by place in the decomposition) on which it hangs directly."""
@@ -55,7 +55,7 @@ class Group:
         return tuple(number for number, member in self.joints if member.outer)
 
     @property
-    def members(self) -> tuple[Member, ...]:
+    def members(self) -> tuple[GroupJoint, ...]:
         """The joints as members of a group without names."""
         return tuple(member for _, member in self.joints)
 
@@ -91,7 +91,7 @@ class Group:
 
 
 @dataclass(frozen=True, slots=True)
-class Share:
+class JointShare:
     """How often a joint counts in one part: the shares of a joint of k links add up to k - 1."""
 
     joint: int
@@ -107,7 +107,7 @@ class Decomposition(Brief):
     mechanism: Mechanism
     driven: tuple[str, ...]
     """The links that the drives move directly against the frame."""
-    groups: tuple[Group, ...]
+    groups: tuple[SolvedGroup, ...]
     rest: tuple[str, ...]
     """The links in no group; empty exactly if the decomposition is complete."""
     report: DriveReport | None
@@ -126,35 +126,35 @@ class Decomposition(Brief):
         return max((group.class_number for group in self.groups), default=1)
 
     @cached_property
-    def shares(self) -> tuple[Share, ...]:
+    def shares(self) -> tuple[JointShare, ...]:
         """Which part each joint belongs to, drives first; none for joints of links that are not determined.
 
         A joint that a drive holds only in part (a roll-slide joint) belongs to its group.
         """
-        held = Counter(drive.joint for drive in whole_locks(self.mechanism, {}))
-        out = [Share(number, None, count) for number, count in sorted(held.items())]
+        held = Counter(drive.joint for drive in whole_joint_locks(self.mechanism, {}))
+        out = [JointShare(number, None, count) for number, count in sorted(held.items())]
         for part, group in enumerate(self.groups):
             for number, member in group.joints:
-                out.append(Share(number, part, len(member.links) - (not member.outer)))
+                out.append(JointShare(number, part, len(member.links) - (not member.outer)))
         return tuple(out)
 
     def formula(self, lang: str = "en") -> str:
         """The structural formula, such as ``drive R(frame-crank) -> RRR{coupler, rocker}``."""
-        from gruebler.assur.messages import formula
+        from gruebler.assur.messages import decomposition_formula
 
-        return formula(self, lang)
+        return decomposition_formula(self, lang)
 
     def message(self, lang: str = "en") -> str:
         """What keeps it from being complete: links left free, drives or constraints against one another; else empty."""
-        from gruebler.assur.messages import message
+        from gruebler.assur.messages import open_groups_message
 
-        return " ".join(message(self, lang))
+        return " ".join(open_groups_message(self, lang))
 
     def explain(self, lang: str = "en") -> str:
         """The decomposition as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.assur.messages import explain
+        from gruebler.assur.messages import explain_decomposition
 
-        return explain(self, lang)
+        return explain_decomposition(self, lang)
 
 
 def decompose(mechanism: Mechanism) -> Decomposition:
@@ -170,13 +170,13 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     >>> decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")).formula()
     'drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}'
     """
-    rest = locked(mechanism)
+    rest = lock_drives(mechanism)
     if rest.counted < 0 or not independent(mechanism, rest):
         links = tuple(link for body in rest.bodies[1:] for link in body)
         return Decomposition(mechanism, rest.bodies[0][:0], (), links, check_drives(mechanism), True)
     bodies = range(len(rest.bodies))
     first = {k: mechanism.chain.index(rest.bodies[k][0]) for k in bodies}
-    parts, loose = split(rest.joints, bodies, 0, first, [k for k in bodies if len(rest.bodies[k]) > 1])
+    parts, loose = split_into_groups(rest.joints, bodies, 0, first, [k for k in bodies if len(rest.bodies[k]) > 1])
     return Decomposition(
         mechanism,
         tuple(link for link in rest.bodies[0] if link != mechanism.frame),
@@ -187,8 +187,8 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     )
 
 
-def _group(rest: Locked, part: Part) -> Group:
-    return Group(
+def _group(rest: LockedMechanism, part: BodyGroup) -> SolvedGroup:
+    return SolvedGroup(
         tuple(rest.bodies[element[0]] for element in part.elements),
         tuple(tuple(link for body in element[1:] for link in rest.bodies[body]) for element in part.elements),
         rest.bodies[part.base],

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from gruebler.chain.pairs import Alphabet, Pair, Space
 
-__all__ = ["DYADS", "Member", "class_number", "form_name", "roman"]
+__all__ = ["DYADS", "GroupJoint", "class_number", "form_name", "roman"]
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP stays loose."""
@@ -20,7 +20,7 @@ DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 _Vertex = tuple[str, int]  # a link or a joint, with its number
 
 
-class Member(NamedTuple):
+class GroupJoint(NamedTuple):
     """A joint of a group: its pair, the links of the group that carry it, whether links outside carry it too."""
 
     pair: Pair
@@ -39,7 +39,7 @@ _LETTERS = {
 _RANK = {letter: k for k, letter in enumerate(letters[0] for letters in _LETTERS.values())}
 
 
-def form_name(links: int, joints: Sequence[Member], alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str | None:
+def form_name(links: int, joints: Sequence[GroupJoint], alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str | None:
     """The name of the form, or None where a form has none and is known by its code only.
 
     One link: its joints. Two links: the outer joints of one, the joints between, the outer joints of the other. A link
@@ -99,7 +99,7 @@ def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alpha
     return "+".join(parts + [_said(x, alphabet) for x in _sorted(outer[hub])])
 
 
-def class_number(links: int, joints: Sequence[Member]) -> int:
+def class_number(links: int, joints: Sequence[GroupJoint]) -> int:
     """The class: the most joints of a contour, at least 2.
 
     A contour is a link with its inner joints, or a closed loop of inner joints that is not composed of shorter ones.
@@ -110,7 +110,7 @@ def class_number(links: int, joints: Sequence[Member]) -> int:
     return max(2, *carried.values(), _longest_contour(inner)) if inner else 2
 
 
-def _inner_joints(links: int, joints: Sequence[Member]) -> list[tuple[int, ...]]:
+def _inner_joints(links: int, joints: Sequence[GroupJoint]) -> list[tuple[int, ...]]:
     """The links of each inner joint, after every joint of two freedoms has become a link with two joints."""
     out: list[tuple[int, ...]] = []
     new = links

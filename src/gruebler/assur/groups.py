@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from gruebler._numeric.modular import echelon
-from gruebler.assur.forms import DYADS, Member, class_number, form_name
+from gruebler.assur.forms import DYADS, GroupJoint, class_number, form_name
 from gruebler.assur.locking import AssurError
-from gruebler.assur.splitting import Bound, split
+from gruebler.assur.splitting import BodyJoint, split_into_groups
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Alphabet, Space
 from gruebler.isomorphism import canonical_order, code, decode
-from gruebler.mobility.placement import place
+from gruebler.mobility.placement import random_placement
 
 __all__ = ["AssurGroup"]
 
@@ -73,11 +73,11 @@ class AssurGroup:
         return tuple(link for link, degree in self.chain.degrees.items() if degree > 1)
 
     @cached_property
-    def joints(self) -> tuple[Member, ...]:
+    def joints(self) -> tuple[GroupJoint, ...]:
         """The joints, with the numbers of the group's links that carry them."""
         number = {link: k for k, link in enumerate(self.links)}
         return tuple(
-            Member(
+            GroupJoint(
                 joint.pair,
                 tuple(number[link] for link in joint.links if link in number),
                 any(link not in number for link in joint.links),
@@ -172,11 +172,11 @@ def _check(group: AssurGroup) -> None:
 def _first_part(group: AssurGroup) -> list[str]:
     """The links of the first part that can be found by itself: all of them if the group is one."""
     joints = [
-        Bound(k, j.pair, (*([0] if j.outer else []), *(link + 1 for link in j.links)))
+        BodyJoint(k, j.pair, (*([0] if j.outer else []), *(link + 1 for link in j.links)))
         for k, j in enumerate(group.joints)
     ]
     bodies = range(len(group.links) + 1)
-    first = split(joints, bodies, 0, dict(enumerate(bodies)), ()).parts[0]
+    first = split_into_groups(joints, bodies, 0, dict(enumerate(bodies)), ()).parts[0]
     return [group.links[element[0] - 1] for element in first.elements]
 
 
@@ -187,7 +187,8 @@ def _rigid(group: AssurGroup) -> bool:
     wanted = 3 * len(group.links)
     for seed in _SEEDS:
         rows = [
-            {column - held: value for column, value in row.items() if column >= held} for row in place(chain, seed).rows
+            {column - held: value for column, value in row.items() if column >= held}
+            for row in random_placement(chain, seed).rows
         ]
         if echelon(rows, wanted).rank == wanted:
             return True

@@ -14,7 +14,7 @@ from gruebler.assur.locking import AssurError
 from gruebler.chain import Chain
 from gruebler.isomorphism import symmetry
 
-__all__ = ["assur_groups", "expected_seconds", "group_of_truss"]
+__all__ = ["assur_groups", "expected_seconds_of_groups", "group_of_truss"]
 
 _GROUP = 1e-3  # seconds on one core
 
@@ -36,10 +36,10 @@ def assur_groups(links: int) -> Iterator[AssurGroup]:
             yield AssurGroup.known(_without(truss, orbit[0])).canonical()
 
 
-def expected_seconds(links: int) -> float:
+def expected_seconds_of_groups(links: int) -> float:
     """About how long `assur_groups` takes for all of them, to a factor of three.
 
-    >>> expected_seconds(8) < 5, expected_seconds(12) > 100
+    >>> expected_seconds_of_groups(8) < 5, expected_seconds_of_groups(12) > 100
     (True, True)
     """
     from gruebler.enumeration.estimates import expected_chains

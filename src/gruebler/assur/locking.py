@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from gruebler.assur.splitting import Bound
+from gruebler.assur.splitting import BodyJoint
 from gruebler.chain.pairs import Space, pair
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic, pebble_rank
-from gruebler.mobility.placement import Lock
+from gruebler.mobility.placement import LockedFreedom
 
-__all__ = ["AssurError", "Locked", "independent", "locked", "whole_locks"]
+__all__ = ["AssurError", "LockedMechanism", "independent", "lock_drives", "whole_joint_locks"]
 
 
 class AssurError(GrueblerError):
     """A question about Assur groups that has no answer: not planar, or not a group."""
 
 
-class Locked(NamedTuple):
+class LockedMechanism(NamedTuple):
     """The locked mechanism."""
 
     bodies: tuple[tuple[str, ...], ...]
     """The links that drives lock together, the frame's body first."""
-    joints: tuple[Bound, ...]
+    joints: tuple[BodyJoint, ...]
     clean: bool
     """Whether no constraint is seen to be redundant already when the bodies are put together."""
 
@@ -42,7 +42,7 @@ _LEFT = {
 }
 
 
-def locked(mechanism: Mechanism) -> Locked:
+def lock_drives(mechanism: Mechanism) -> LockedMechanism:
     """The mechanism with its drives locked.
 
     Raises `AssurError` for a chain that is not planar, and for a driven single freedom of a double slide that more than
@@ -54,7 +54,7 @@ def locked(mechanism: Mechanism) -> Locked:
     root = {link: link for link in chain.links}
     effective, clean = [0] * len(chain.joints), True
     partial: dict[int, Drive] = {}
-    for drive in whole_locks(mechanism, partial):
+    for drive in whole_joint_locks(mechanism, partial):
         a, b = (_find(root, link) for link in drive.between)
         clean = clean and a != b
         effective[drive.joint] += a != b
@@ -71,11 +71,11 @@ def locked(mechanism: Mechanism) -> Locked:
             left = joint.pair
             if number in partial:
                 left = pair(_LEFT[joint.pair.name, partial[number].direction])
-            joints.append(Bound(number, left, mine))
-    return Locked(tuple(tuple(body) for body in bodies.values()), tuple(joints), clean)
+            joints.append(BodyJoint(number, left, mine))
+    return LockedMechanism(tuple(tuple(body) for body in bodies.values()), tuple(joints), clean)
 
 
-def independent(mechanism: Mechanism, rest: Locked) -> bool:
+def independent(mechanism: Mechanism, rest: LockedMechanism) -> bool:
     """Whether the constraints of the locked mechanism are generically independent.
 
     Simple turning, rolling and roll-slide joints: by the pebble game on bodies. Otherwise by exact rank.
@@ -85,11 +85,11 @@ def independent(mechanism: Mechanism, rest: Locked) -> bool:
     if all(len(j.bodies) == 2 and j.pair.name in {"revolute", "rolling", "roll_slide"} for j in rest.joints):
         edges = [(j.bodies[0], j.bodies[1]) for j in rest.joints for _ in range(j.constraints)]
         return pebble_rank(len(rest.bodies), edges, 3, 3) == len(edges)
-    locks = [Lock(d.joint, d.direction, d.between) for d in mechanism.drives]
+    locks = [LockedFreedom(d.joint, d.direction, d.between) for d in mechanism.drives]
     return generic(mechanism.chain, locks).redundancy == 0
 
 
-def whole_locks(mechanism: Mechanism, partial: dict[int, Drive]) -> list[Drive]:
+def whole_joint_locks(mechanism: Mechanism, partial: dict[int, Drive]) -> list[Drive]:
     """One drive for each two links that all their drives together hold fast; the others go into `partial`."""
     chain = mechanism.chain
     together: dict[tuple[int, frozenset[str]], list[Drive]] = {}

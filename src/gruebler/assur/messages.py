@@ -10,9 +10,9 @@ from gruebler.chain.pairs import Alphabet
 from gruebler.mobility import generic, overconstrained
 
 if TYPE_CHECKING:
-    from gruebler.assur.decomposition import Decomposition, Group
+    from gruebler.assur.decomposition import Decomposition, SolvedGroup
 
-__all__ = ["explain", "formula", "message"]
+__all__ = ["decomposition_formula", "explain_decomposition", "open_groups_message"]
 
 _WORDS = {
     "en": {
@@ -50,7 +50,7 @@ def _alphabet(lang: str) -> Alphabet:
     return Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
 
 
-def formula(found: Decomposition, lang: str) -> str:
+def decomposition_formula(found: Decomposition, lang: str) -> str:
     """The structural formula."""
     words, alphabet = _WORDS[lang], _alphabet(lang)
     drives = found.mechanism.drive_names(alphabet)
@@ -64,11 +64,11 @@ def formula(found: Decomposition, lang: str) -> str:
     return " -> ".join([head, *groups, *rest])
 
 
-def explain(found: Decomposition, lang: str) -> str:
+def explain_decomposition(found: Decomposition, lang: str) -> str:
     """The whole decomposition, a line for each part."""
     words, alphabet = _WORDS[lang], _alphabet(lang)
     names = found.mechanism.chain.joint_names(alphabet)
-    lines = [formula(found, lang)]
+    lines = [decomposition_formula(found, lang)]
     if found.driven:
         drives = found.mechanism.drive_names(alphabet)
         word = words["drive"] if len(drives) == 1 else words["drives"]
@@ -90,10 +90,10 @@ def explain(found: Decomposition, lang: str) -> str:
         )
     if found.complete:
         lines.append(words["class"].format(number=roman(found.class_number)) if found.groups else words["only"])
-    return "\n".join([*lines, *message(found, lang)])
+    return "\n".join([*lines, *open_groups_message(found, lang)])
 
 
-def message(found: Decomposition, lang: str) -> list[str]:
+def open_groups_message(found: Decomposition, lang: str) -> list[str]:
     """What keeps the decomposition from being complete, a sentence or two a line; nothing if it is."""
     words = _WORDS[lang]
     if found.report is None:
@@ -110,7 +110,7 @@ def message(found: Decomposition, lang: str) -> list[str]:
     return lines
 
 
-def _bodies(group: Group) -> str:
+def _bodies(group: SolvedGroup) -> str:
     """The bodies of a group, each with what it carries in square brackets."""
     return ", ".join(
         "+".join(body) + (f"[{_some(carried)}]" if carried else "")
@@ -118,7 +118,7 @@ def _bodies(group: Group) -> str:
     )
 
 
-def _base(group: Group, words: dict[str, str]) -> str:
+def _base(group: SolvedGroup, words: dict[str, str]) -> str:
     return words["on"].format(base="+".join(group.base))
 
 

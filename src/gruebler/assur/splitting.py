@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from typing import NamedTuple
 
-from gruebler.assur.forms import Member, class_number
+from gruebler.assur.forms import GroupJoint, class_number
 from gruebler.assur.matching import components, dependencies, orientation
 from gruebler.chain.pairs import Pair, Space
 from gruebler.mobility import pebble_rank
 
-__all__ = ["Bound", "Part", "Split", "split"]
+__all__ = ["BodyGroup", "BodyJoint", "GroupSplit", "split_into_groups"]
 
 
-class Bound(NamedTuple):
+class BodyJoint(NamedTuple):
     """A joint between bodies: the number of the chain's joint, the pair that its drives leave, the bodies."""
 
     joint: int
@@ -32,29 +32,29 @@ class Bound(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Part:
+class BodyGroup:
     """A group among numbered bodies."""
 
     elements: tuple[tuple[int, ...], ...]
     """Its rigid parts: a body alone, or a body with those that earlier parts have fixed against it."""
     base: int
     """The body against which it is found: the frame's, or the first body of a rigid part of a later group."""
-    members: tuple[tuple[int, Member], ...]
+    members: tuple[tuple[int, GroupJoint], ...]
     """Its joints: number of the chain's joint, and the elements that carry it."""
     after: tuple[int, ...]
     """The parts (by place) on which it hangs directly."""
 
 
-class Split(NamedTuple):
+class GroupSplit(NamedTuple):
     """Parts in an order in which they can be found, and the bodies that nothing determines."""
 
-    parts: list[Part]
+    parts: list[BodyGroup]
     loose: list[int]
 
 
-def split(
-    joints: Sequence[Bound], bodies: Collection[int], base: int, first: Mapping[int, int], driven: Collection[int]
-) -> Split:
+def split_into_groups(
+    joints: Sequence[BodyJoint], bodies: Collection[int], base: int, first: Mapping[int, int], driven: Collection[int]
+) -> GroupSplit:
     """Split these bodies, seen from one of them.
 
     Args:
@@ -74,7 +74,7 @@ def split(
             before[k] |= {other for other in meeting if other < k}
     known = {base}
     place: dict[int, int] = {}
-    parts: list[Part] = []
+    parts: list[BodyGroup] = []
     ready = [(min(first[b] for b in blocks[k]), k) for k in range(len(blocks)) if not before[k]]
     heapify(ready)
     while ready:
@@ -83,15 +83,15 @@ def split(
         after = {place[other] for other in before[k]} | {len(parts) + end for end in _ends(below)}
         parts += [_moved(part, len(parts)) for part in below]
         place[k] = len(parts)
-        parts.append(Part(elements, base, _members(inner, elements, known), tuple(sorted(after))))
+        parts.append(BodyGroup(elements, base, _members(inner, elements, known), tuple(sorted(after))))
         known.update(blocks[k])
         for other in range(k + 1, len(blocks)):
             if k in before[other] and before[other] <= place.keys():
                 heappush(ready, (min(first[b] for b in blocks[other]), other))
-    return Split(parts, loose)
+    return GroupSplit(parts, loose)
 
 
-def _restricted(joints: Sequence[Bound], bodies: Collection[int]) -> list[Bound]:
+def _restricted(joints: Sequence[BodyJoint], bodies: Collection[int]) -> list[BodyJoint]:
     """The joints among these bodies."""
     inside = bodies if isinstance(bodies, set | frozenset) else set(bodies)
     out = []
@@ -100,11 +100,11 @@ def _restricted(joints: Sequence[Bound], bodies: Collection[int]) -> list[Bound]
         if len(mine) == len(joint.bodies):
             out.append(joint)
         elif len(mine) > 1:
-            out.append(Bound(joint.joint, joint.pair, mine))
+            out.append(BodyJoint(joint.joint, joint.pair, mine))
     return out
 
 
-def _blocks(joints: Sequence[Bound], bodies: Collection[int], base: int) -> tuple[list[list[int]], list[int]]:
+def _blocks(joints: Sequence[BodyJoint], bodies: Collection[int], base: int) -> tuple[list[list[int]], list[int]]:
     """What lies between neighbouring tight sets that contain the base, each block after those it needs; and the rest.
 
     The vertices of the orientation are the bodies and the joints of more than two bodies.
@@ -137,14 +137,14 @@ def _blocks(joints: Sequence[Bound], bodies: Collection[int], base: int) -> tupl
 
 
 def _elements(
-    joints: Sequence[Bound], block: list[int], first: Mapping[int, int], driven: Collection[int]
-) -> tuple[tuple[tuple[int, ...], ...], list[Part]]:
+    joints: Sequence[BodyJoint], block: list[int], first: Mapping[int, int], driven: Collection[int]
+) -> tuple[tuple[tuple[int, ...], ...], list[BodyGroup]]:
     """The maximal rigid parts of a block, and how the bodies of each are found from one of them."""
     inner = _restricted(joints, block)
     if len(block) < 2 or _nowhere_tight(inner, block):
         return tuple((body,) for body in block), []
     elements: list[tuple[int, ...]] = []
-    below: list[Part] = []
+    below: list[BodyGroup] = []
     done: set[int] = set()
     for body in block:
         if body in done:
@@ -156,14 +156,14 @@ def _elements(
             elements.append((body,))
             continue
         candidates = [b for b in rigid if b in driven] or rigid
-        ways = {b: split(inner, rigid, b, first, driven).parts for b in candidates}
+        ways = {b: split_into_groups(inner, rigid, b, first, driven).parts for b in candidates}
         chosen = min(candidates, key=lambda b: (_effort(ways[b]), first[b]))
         elements.append((chosen, *(b for b in rigid if b != chosen)))
         below += [_moved(part, len(below)) for part in ways[chosen]]
     return tuple(elements), below
 
 
-def _nowhere_tight(joints: Sequence[Bound], block: list[int]) -> bool:
+def _nowhere_tight(joints: Sequence[BodyJoint], block: list[int]) -> bool:
     """Whether no two or more of these bodies are surely rigid: then v of them hold 3v - 4 constraints at most.
 
     Joints of more than two bodies are left to the search.
@@ -177,7 +177,7 @@ def _nowhere_tight(joints: Sequence[Bound], block: list[int]) -> bool:
     return pebble_rank(len(block), edges, 3, 4) == len(edges)
 
 
-def _effort(parts: Sequence[Part]) -> list[tuple[int, int]]:
+def _effort(parts: Sequence[BodyGroup]) -> list[tuple[int, int]]:
     """Classes and sizes, the highest first: what makes one base of a rigid part better than another."""
     found = (
         (class_number(len(part.elements), [member for _, member in part.members]), len(part.elements)) for part in parts
@@ -186,23 +186,23 @@ def _effort(parts: Sequence[Part]) -> list[tuple[int, int]]:
 
 
 def _members(
-    joints: Sequence[Bound], elements: Sequence[tuple[int, ...]], known: Collection[int]
-) -> tuple[tuple[int, Member], ...]:
+    joints: Sequence[BodyJoint], elements: Sequence[tuple[int, ...]], known: Collection[int]
+) -> tuple[tuple[int, GroupJoint], ...]:
     element = {body: k for k, bodies in enumerate(elements) for body in bodies}
     out = []
     for joint in joints:
         mine = tuple(dict.fromkeys(element[body] for body in joint.bodies if body in element))
         outer = bool(mine) and any(body in known for body in joint.bodies)
         if outer or len(mine) > 1:
-            out.append((joint.joint, Member(joint.pair, mine, outer)))
+            out.append((joint.joint, GroupJoint(joint.pair, mine, outer)))
     return tuple(out)
 
 
-def _ends(parts: Sequence[Part]) -> set[int]:
+def _ends(parts: Sequence[BodyGroup]) -> set[int]:
     """The parts on which no other part hangs."""
     return set(range(len(parts))) - {other for part in parts for other in part.after}
 
 
-def _moved(part: Part, by: int) -> Part:
+def _moved(part: BodyGroup, by: int) -> BodyGroup:
     """The same part, its place counted from further back."""
-    return Part(part.elements, part.base, part.members, tuple(k + by for k in part.after)) if by else part
+    return BodyGroup(part.elements, part.base, part.members, tuple(k + by for k in part.after)) if by else part

@@ -1,36 +1,36 @@
 """Cams: laws of motion, profiles for given lifts, and the motion that a given contour gives."""
 
-from gruebler.cams.cam import Cam, Extreme, Findings
-from gruebler.cams.contour import Arc, ArcContour, FollowerMotion, follow, tangent_cam
+from gruebler.cams.cam import Cam, CamExtremum, CamReport
+from gruebler.cams.contour import ArcContour, ContourArc, FollowerMotion, follower_motion, tangent_cam
 from gruebler.cams.follower import Flat, Follower, Roller
-from gruebler.cams.laws import LAWS, CamError, Law, Peaks, Piece, boundary_law, law, polynomial_law
-from gruebler.cams.lift import Jump, Lift, Segment, dwell, motion, read_lift
+from gruebler.cams.laws import LAWS, CamError, LawPeaks, LawPiece, MotionLaw, boundary_law, motion_law, polynomial_law
+from gruebler.cams.lift import DerivativeJump, Lift, LiftSegment, dwell, motion, read_lift
 from gruebler.cams.smooth import SmoothContour
 
 __all__ = [
     "LAWS",
-    "Arc",
     "ArcContour",
     "Cam",
     "CamError",
-    "Extreme",
-    "Findings",
+    "CamExtremum",
+    "CamReport",
+    "ContourArc",
+    "DerivativeJump",
     "Flat",
     "Follower",
     "FollowerMotion",
-    "Jump",
-    "Law",
+    "LawPeaks",
+    "LawPiece",
     "Lift",
-    "Peaks",
-    "Piece",
+    "LiftSegment",
+    "MotionLaw",
     "Roller",
-    "Segment",
     "SmoothContour",
     "boundary_law",
     "dwell",
-    "follow",
-    "law",
+    "follower_motion",
     "motion",
+    "motion_law",
     "polynomial_law",
     "read_lift",
     "tangent_cam",

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler import notebook
 from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
-from gruebler.cams.laws import CamError, finite
+from gruebler.cams.laws import CamError, finite_array
 from gruebler.cams.lift import Lift
 from gruebler.notebook import Brief
 
-__all__ = ["Cam", "Extreme", "Findings"]
+__all__ = ["Cam", "CamExtremum", "CamReport"]
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -37,7 +37,7 @@ class _Contact(NamedTuple):
     """The pitch curve: the roller's centre; for a face the contact itself."""
 
 
-class Extreme(NamedTuple):
+class CamExtremum(NamedTuple):
     """A value and the cam's angle where it occurs, in radians."""
 
     value: float
@@ -45,18 +45,18 @@ class Extreme(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Findings:
+class CamReport:
     """What decides whether a cam is good; each extreme found exactly, jumps of acceleration taken from both sides."""
 
-    pressure: tuple[Extreme, Extreme]
+    pressure: tuple[CamExtremum, CamExtremum]
     """The least and the greatest signed pressure angle in radians: from the follower's motion to the normal."""
-    convex: Extreme | None
+    convex: CamExtremum | None
     """The smallest radius of curvature where the profile is convex."""
-    hollow: Extreme | None
+    hollow: CamExtremum | None
     """The smallest radius of curvature where it is hollow, if it is: no larger grinding wheel has room there."""
-    room: Extreme
+    room: CamExtremum
     """Not positive: undercut. 1 - r k for a roller on a pitch curve of curvature k; for a face the radius."""
-    face: tuple[Extreme, Extreme]
+    face: tuple[CamExtremum, CamExtremum]
     """How far a flat face must reach to both sides (0 for rollers)."""
 
     @property
@@ -123,22 +123,22 @@ class Cam(Brief):
         """Where along a flat face the cam touches (length)."""
         return self._at(angle).face
 
-    def findings(self) -> Findings:
+    def findings(self) -> CamReport:
         """All extremes over a turn."""
 
-        def both(pick: Callable[[_Contact], FloatArray], scale: float = 0.0) -> tuple[Extreme, Extreme]:
-            places: list[Extreme] = []
+        def both(pick: Callable[[_Contact], FloatArray], scale: float = 0.0) -> tuple[CamExtremum, CamExtremum]:
+            places: list[CamExtremum] = []
             for span in self.lift.spans():
 
                 def value(phi: FloatArray, span: object = span) -> FloatArray:
                     return pick(self._contact(phi, *(order(phi) for order in span.orders[:3])))  # type: ignore[attr-defined]
 
-                places += [Extreme(y, x) for x, y in extremes(value, span.start, span.end, scale)]
+                places += [CamExtremum(y, x) for x, y in extremes(value, span.start, span.end, scale)]
             return min(places), max(places)
 
         low, high = both(lambda contact: contact.shape)
         convex, hollow, room = _radii(self.follower, low, high)
-        return Findings(
+        return CamReport(
             pressure=both(lambda contact: contact.pressure, scale=1.0),
             convex=convex,
             hollow=hollow,
@@ -148,10 +148,10 @@ class Cam(Brief):
 
     def _repr_svg_(self) -> str | None:
         """The cam with its follower, to scale, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def _at(self, angle: ArrayLike) -> _Contact:
-        phi = finite(angle, "the cam's angles")
+        phi = finite_array(angle, "the cam's angles")
         return self._contact(phi, *(self.lift.at(phi, order) for order in range(3)))
 
     def _contact(self, phi: FloatArray, s: FloatArray, s1: FloatArray, s2: FloatArray) -> _Contact:
@@ -161,14 +161,16 @@ class Cam(Brief):
             return _flat_contact(self.follower, phi, self.start + s, s1, s2)
 
 
-def _radii(follower: Follower, low: Extreme, high: Extreme) -> tuple[Extreme | None, Extreme | None, Extreme]:
+def _radii(
+    follower: Follower, low: CamExtremum, high: CamExtremum
+) -> tuple[CamExtremum | None, CamExtremum | None, CamExtremum]:
     """The least convex and hollow radius and the room, from the extremes of the shape."""
     if isinstance(follower, Flat):
         return (low if low.value > 0 else None), None, low
     # The radius 1 / k - r of the profile grows as the pitch curve's curvature k falls, on either side of k = 0.
-    r, room = follower.radius, Extreme(1 - follower.radius * high.value, high.at)
-    convex = Extreme(1 / high.value - r, high.at) if high.value > 0 and room.value > 0 else None
-    hollow = Extreme(r - 1 / low.value, low.at) if low.value < -1e-12 * abs(high.value) else None
+    r, room = follower.radius, CamExtremum(1 - follower.radius * high.value, high.at)
+    convex = CamExtremum(1 / high.value - r, high.at) if high.value > 0 and room.value > 0 else None
+    hollow = CamExtremum(r - 1 / low.value, low.at) if low.value < -1e-12 * abs(high.value) else None
     return convex, hollow, room
 
 

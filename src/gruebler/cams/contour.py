@@ -16,17 +16,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.cams.follower import Flat, Follower, Roller
-from gruebler.cams.laws import CamError, finite
+from gruebler.cams.laws import CamError, finite_array
 
 __all__ = [
-    "Arc",
     "ArcContour",
+    "ContactSamples",
     "Contour",
+    "ContourArc",
     "FollowerMotion",
-    "Touch",
-    "angle_of",
+    "arm_coordinate",
     "face_coordinate",
-    "follow",
+    "follower_motion",
     "tangent_cam",
 ]
 
@@ -34,7 +34,7 @@ FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 
-class Touch(NamedTuple):
+class ContactSamples(NamedTuple):
     """Contacts at cam's angles: the follower's coordinate, and the contour's outward normal in the fixed frame.
 
     ``radius`` is the contour's radius of curvature at the contact: 0 at a corner, infinite on a straight line.
@@ -58,22 +58,22 @@ class FollowerMotion(NamedTuple):
 class Contour(Protocol):
     """A closed contour around the cam's axis."""
 
-    def touch(self, follower: Follower, angle: FloatArray) -> Touch:
+    def touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
         """The outermost contact at each angle."""
         ...
 
 
-def follow(contour: Contour, follower: Follower, angle: ArrayLike) -> FollowerMotion:
+def follower_motion(contour: Contour, follower: Follower, angle: ArrayLike) -> FollowerMotion:
     """The motion of a follower that a contour gives, at cam's angles of any shape.
 
     Where the curvature jumps the acceleration is that of one side. Raises CamError if the follower misses the contour.
 
-    >>> eccentric = ArcContour([Arc(0.0, 10 + 0j, 30.0)])
-    >>> moved = follow(eccentric, Flat(), [0.0, math.pi / 2])  # 30 + 10 sin(phi)
+    >>> eccentric = ArcContour([ContourArc(0.0, 10 + 0j, 30.0)])
+    >>> moved = follower_motion(eccentric, Flat(), [0.0, math.pi / 2])  # 30 + 10 sin(phi)
     >>> [one.round(9).tolist() for one in moved]
     [[30.0, 40.0], [10.0, 0.0], [0.0, -10.0]]
     """
-    phi = finite(angle, "the cam's angles")
+    phi = finite_array(angle, "the cam's angles")
     touch = contour.touch(follower, phi.ravel())
     if not np.isfinite(touch.coordinate).all():
         lost = math.degrees(phi.ravel()[~np.isfinite(touch.coordinate)][0])
@@ -86,7 +86,7 @@ def follow(contour: Contour, follower: Follower, angle: ArrayLike) -> FollowerMo
     return FollowerMotion(*(one.reshape(phi.shape) for one in (touch.coordinate, *rates)))
 
 
-def _roller_rates(roller: Roller, touch: Touch) -> tuple[FloatArray, FloatArray]:
+def _roller_rates(roller: Roller, touch: ContactSamples) -> tuple[FloatArray, FloatArray]:
     """From c = e^(i phi) z(sigma), z the offset curve by arc length: c' = w s', c'' = w s'' + w2 s'^2."""
     path, n = roller.path(touch.coordinate), touch.normal
     bend = 1 / (touch.radius + roller.radius)
@@ -97,7 +97,7 @@ def _roller_rates(roller: Roller, touch: Touch) -> tuple[FloatArray, FloatArray]
     return first, -(held + 2 * sigma + bend * sigma**2) / along
 
 
-def _flat_rates(flat: Flat, touch: Touch) -> tuple[FloatArray, FloatArray]:
+def _flat_rates(flat: Flat, touch: ContactSamples) -> tuple[FloatArray, FloatArray]:
     """From the support function of the contour: p = dh/dtheta and radius = h + dp/dtheta."""
     line, p = flat.line(touch.coordinate), touch.along
     first = -p / (line.first - p * line.turn)
@@ -105,7 +105,7 @@ def _flat_rates(flat: Flat, touch: Touch) -> tuple[FloatArray, FloatArray]:
     return first, (line.second * first**2 * turn - (touch.radius - line.distance) * turn**3) / line.first
 
 
-class Arc(NamedTuple):
+class ContourArc(NamedTuple):
     """A part of a convex contour: an arc about a centre (complex), its outward normals beginning at an angle.
 
     It ends where the next arc begins; a gap between the two is a straight line. Radius 0 is a corner.
@@ -125,10 +125,10 @@ class ArcContour:
     [(-61.315, 8.0), (61.315, 20.0)]
     """
 
-    arcs: tuple[Arc, ...]
+    arcs: tuple[ContourArc, ...]
 
-    def __init__(self, arcs: Iterable[Arc]) -> None:
-        object.__setattr__(self, "arcs", tuple(Arc(float(s), complex(c), float(r)) for s, c, r in arcs))
+    def __init__(self, arcs: Iterable[ContourArc]) -> None:
+        object.__setattr__(self, "arcs", tuple(ContourArc(float(s), complex(c), float(r)) for s, c, r in arcs))
         if not self.arcs:
             raise CamError("a contour has at least one arc")
         for arc in self.arcs:
@@ -146,7 +146,7 @@ class ArcContour:
                     f"the arcs that meet at the normal of {degrees:.6g} degrees have no common tangent there"
                 )
 
-    def _neighbours(self) -> Iterator[tuple[Arc, Arc]]:
+    def _neighbours(self) -> Iterator[tuple[ContourArc, ContourArc]]:
         return zip(self.arcs, (*self.arcs[1:], self.arcs[0]), strict=True)
 
     @classmethod
@@ -154,7 +154,7 @@ class ArcContour:
         """The contour around circles (centre, radius), as a band would lie: two circles give a tangent cam."""
         if not circles:
             raise CamError("a contour around circles has at least one circle")
-        finite([(c.real, c.imag, r) for c, r in circles], "circles (centre, radius)")
+        finite_array([(c.real, c.imag, r) for c, r in circles], "circles (centre, radius)")
         angles: set[float] = set()
         for k, (m, r) in enumerate(circles):
             for n, q in circles[k + 1 :]:
@@ -162,20 +162,20 @@ class ArcContour:
                     half = math.acos((q - r) / abs(m - n))
                     angles |= {math.remainder(np.angle(m - n) + sign * half, math.tau) for sign in (-1, 1)}
         places = sorted(angles) or [0.0]
-        arcs: list[Arc] = []
+        arcs: list[ContourArc] = []
         for start, end in zip(places, [*places[1:], places[0] + math.tau], strict=True):
             direction = np.exp(-1j * (start + end) / 2)
             m, r = max(circles, key=lambda circle: (circle[0] * direction).real + circle[1])
             if not arcs or (arcs[-1].centre, arcs[-1].radius) != (m, r):
-                arcs.append(Arc(start, m, r))
+                arcs.append(ContourArc(start, m, r))
         if len(arcs) > 1 and arcs[0][1:] == arcs[-1][1:]:
             arcs = arcs[1:]
         return cls(arcs)
 
-    def touch(self, follower: Follower, angle: FloatArray) -> Touch:
+    def touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
         """The outermost contact at each angle; -inf where there is none."""
         turn = np.exp(1j * angle)
-        best = Touch(*(np.full(angle.shape, -np.inf, dtype=kind) for kind in (float, complex, float, float)))
+        best = ContactSamples(*(np.full(angle.shape, -np.inf, dtype=kind) for kind in (float, complex, float, float)))
         for arc, after in self._neighbours():
             span = (after.start - arc.start) % math.tau or math.tau
             for found in _arc_contacts(follower, turn, arc):
@@ -194,25 +194,25 @@ def tangent_cam(base: float, nose: float, distance: float) -> ArcContour:
     return ArcContour.hull([(0j, base), (complex(distance), nose)])
 
 
-def _higher(best: Touch, found: Touch, valid: NDArray[np.bool_]) -> Touch:
+def _higher(best: ContactSamples, found: ContactSamples, valid: NDArray[np.bool_]) -> ContactSamples:
     with np.errstate(invalid="ignore"):
         better = valid & (found.coordinate > best.coordinate)
-    return Touch(*(np.where(better, new, old) for new, old in zip(found, best, strict=True)))
+    return ContactSamples(*(np.where(better, new, old) for new, old in zip(found, best, strict=True)))
 
 
-def _arc_contacts(follower: Follower, turn: ComplexArray, arc: Arc) -> Iterator[Touch]:
+def _arc_contacts(follower: Follower, turn: ComplexArray, arc: ContourArc) -> Iterator[ContactSamples]:
     """Contacts with the whole circle."""
     middle = arc.centre * turn
     radius = np.full(turn.shape, arc.radius)
     if isinstance(follower, Flat):
         s = face_coordinate(follower, middle, arc.radius)
         normal = np.exp(1j * follower.line(s).angle)
-        yield Touch(s, normal, radius, np.imag(np.conj(normal) * middle))
+        yield ContactSamples(s, normal, radius, np.imag(np.conj(normal) * middle))
         return
     reach = arc.radius + follower.radius
     if reach > 0:
         for s in _guide_circle(follower, middle, reach):
-            yield Touch(s, (follower.path(s).at - middle) / reach, radius, np.zeros(turn.shape))
+            yield ContactSamples(s, (follower.path(s).at - middle) / reach, radius, np.zeros(turn.shape))
 
 
 def face_coordinate(flat: Flat, point: ComplexArray, radius: float) -> FloatArray:
@@ -236,10 +236,10 @@ def _guide_circle(roller: Roller, middle: ComplexArray, reach: float) -> Iterato
         along = (roller.arm**2 - reach**2 + length**2) / (2 * length)
         across = np.sqrt(roller.arm**2 - along**2)
         for sign in (1j, -1j):
-            yield angle_of(roller, (along + sign * across) * lever / length)
+            yield arm_coordinate(roller, (along + sign * across) * lever / length)
 
 
-def angle_of(roller: Roller, arm: ComplexArray) -> FloatArray:
+def arm_coordinate(roller: Roller, arm: ComplexArray) -> FloatArray:
     """The coordinate of a swinging follower whose arm lies so; NaN below the line of centres."""
     side = math.copysign(1.0, roller.distance)
     found = -side * np.angle(-side * arm)
@@ -248,17 +248,17 @@ def angle_of(roller: Roller, arm: ComplexArray) -> FloatArray:
 
 def _line_contacts(
     roller: Roller, turn: ComplexArray, ends: tuple[complex, complex], normal: complex
-) -> Iterator[tuple[Touch, FloatArray]]:
+) -> Iterator[tuple[ContactSamples, FloatArray]]:
     """Contacts with a straight line and where on it they are, 0 to 1."""
     start, way = (ends[0] + roller.radius * normal) * turn, (ends[1] - ends[0]) * turn
     flat, zero = np.full(turn.shape, np.inf), np.zeros(turn.shape)
     with np.errstate(invalid="ignore", divide="ignore"):
         if not roller.swings:
             place = (roller.offset - start.real) / way.real
-            yield Touch((start + place * way).imag, normal * turn, flat, zero), place
+            yield ContactSamples((start + place * way).imag, normal * turn, flat, zero), place
             return
         lever, length = start - roller.distance, abs(ends[1] - ends[0])
         foot = -np.real(np.conj(way) * lever) / length**2
         across = np.sqrt(roller.arm**2 - np.abs(lever + foot * way) ** 2) / length
         for place in (foot + across, foot - across):
-            yield Touch(angle_of(roller, lever + place * way), normal * turn, flat, zero), place
+            yield ContactSamples(arm_coordinate(roller, lever + place * way), normal * turn, flat, zero), place

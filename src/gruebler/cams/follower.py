@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler.cams.laws import CamError
 
-__all__ = ["Flat", "Follower", "Line", "Path", "Roller"]
+__all__ = ["FaceLine", "Flat", "Follower", "Path", "Roller"]
 
 FloatArray = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
@@ -30,7 +30,7 @@ class Path(NamedTuple):
     second: ComplexArray
 
 
-class Line(NamedTuple):
+class FaceLine(NamedTuple):
     """The face: its normal's angle away from the cam, its distance from the axis, and their derivatives."""
 
     angle: FloatArray
@@ -137,13 +137,13 @@ class Flat:
             return np.asarray(lift)
         return np.asarray(2 * abs(self.distance) * np.cos(start + lift / 2) * np.sin(lift / 2))
 
-    def line(self, s: FloatArray) -> Line:
+    def line(self, s: FloatArray) -> FaceLine:
         """The face."""
         if not self.swings:
             one = np.ones_like(s)
-            return Line(math.pi / 2 * one, 0.0, s, one, 0 * one)
+            return FaceLine(math.pi / 2 * one, 0.0, s, one, 0 * one)
         side, d = math.copysign(1.0, self.distance), abs(self.distance)
-        return Line(math.pi / 2 - side * s, -side, d * np.sin(s) - self.face, d * np.cos(s), -d * np.sin(s))
+        return FaceLine(math.pi / 2 - side * s, -side, d * np.sin(s) - self.face, d * np.cos(s), -d * np.sin(s))
 
 
 Follower = Roller | Flat

@@ -20,7 +20,17 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.cams.extremes import extremes
 from gruebler.errors import GrueblerError, nearest
 
-__all__ = ["LAWS", "CamError", "Law", "Peaks", "Piece", "boundary_law", "finite", "law", "polynomial_law"]
+__all__ = [
+    "LAWS",
+    "CamError",
+    "LawPeaks",
+    "LawPiece",
+    "MotionLaw",
+    "boundary_law",
+    "finite_array",
+    "motion_law",
+    "polynomial_law",
+]
 
 FloatArray = NDArray[np.float64]
 
@@ -29,7 +39,7 @@ class CamError(GrueblerError):
     """A cam, a law or a contour that cannot be."""
 
 
-def finite(values: ArrayLike, what: str) -> FloatArray:
+def finite_array(values: ArrayLike, what: str) -> FloatArray:
     """Numbers of any shape as an array; CamError if one is not finite, or none at all."""
     try:
         found = np.asarray(values, dtype=np.float64)
@@ -40,7 +50,7 @@ def finite(values: ArrayLike, what: str) -> FloatArray:
     return found
 
 
-class Piece(NamedTuple):
+class LawPiece(NamedTuple):
     """From ``start`` on: sum of ``polynomial[k] t^k`` plus ``amplitude * sin(frequency t + phase)``, t = x - start."""
 
     start: float
@@ -60,7 +70,7 @@ def _derived(polynomial: Sequence[float], order: int) -> FloatArray:
     return np.asarray(np.polynomial.polynomial.polyder(polynomial, order), dtype=np.float64)
 
 
-class Peaks(NamedTuple):
+class LawPeaks(NamedTuple):
     """The greatest magnitudes of the normalised law's derivatives: C_v, C_a, C_j, and of C_a C_v, the torque."""
 
     velocity: float
@@ -70,10 +80,10 @@ class Peaks(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Law:
+class MotionLaw:
     """A normalised lift on [0, 1], written as pieces in order.
 
-    >>> cycloid = law("cycloidal")
+    >>> cycloid = motion_law("cycloidal")
     >>> [round(float(cycloid.at(0.25, order)), 6) for order in range(4)]
     [0.090845, 1.0, 6.283185, 0.0]
     >>> [round(peak, 4) for peak in cycloid.peaks()]
@@ -81,11 +91,11 @@ class Law:
     """
 
     name: str
-    pieces: tuple[Piece, ...]
+    pieces: tuple[LawPiece, ...]
 
     def at(self, x: ArrayLike, order: int = 0) -> FloatArray:
         """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
-        places = finite(x, "places on a law")
+        places = finite_array(x, "places on a law")
         found = np.zeros(places.shape)
         index = np.searchsorted([piece.start for piece in self.pieces[1:]], places, side="right")
         for k, piece in enumerate(self.pieces):
@@ -101,15 +111,15 @@ class Law:
         """A derivative at x = 1."""
         return float(self.pieces[-1].at(np.array(1.0), order))
 
-    def peaks(self) -> Peaks:
+    def peaks(self) -> LawPeaks:
         """C_v, C_a, C_j and the peak of C_a C_v (the torque of a mass); jumps of acceleration are no jerk here."""
 
-        def greatest(function: Callable[[Piece, FloatArray], FloatArray]) -> float:
+        def greatest(function: Callable[[LawPiece, FloatArray], FloatArray]) -> float:
             spans = zip(self.pieces, self.joints, self.joints[1:], strict=False)
             found = (extremes(partial(function, piece), a, b) for piece, a, b in spans)
             return max(abs(value) for places in found for _, value in places)
 
-        return Peaks(
+        return LawPeaks(
             velocity=greatest(lambda piece, x: piece.at(x, 1)),
             acceleration=greatest(lambda piece, x: piece.at(x, 2)),
             jerk=greatest(lambda piece, x: piece.at(x, 3)),
@@ -117,7 +127,7 @@ class Law:
         )
 
 
-def polynomial_law(*powers: int) -> Law:
+def polynomial_law(*powers: int) -> MotionLaw:
     """The rest-to-rest polynomial with these powers: as many derivatives as there is room for vanish at both ends.
 
     For m powers, the lift at the end is 1 and its first m - 1 derivatives vanish there (at the beginning all below the
@@ -133,10 +143,10 @@ def polynomial_law(*powers: int) -> Law:
     polynomial = [0.0] * (max(powers) + 1)
     for p in powers:
         polynomial[p] = math.prod(q / (q - p) for q in powers if q != p)
-    return Law("-".join(map(str, sorted(powers))), (Piece(0.0, tuple(polynomial)),))
+    return MotionLaw("-".join(map(str, sorted(powers))), (LawPiece(0.0, tuple(polynomial)),))
 
 
-def boundary_law(start: Sequence[float], end: Sequence[float]) -> Law:
+def boundary_law(start: Sequence[float], end: Sequence[float]) -> MotionLaw:
     """The polynomial of least degree with given lift, velocity, acceleration, ... at both ends (of the unit of angle).
 
     >>> [round(c, 9) for c in boundary_law((0, 0, 0), (1, 0, 0)).pieces[0].polynomial]
@@ -148,7 +158,7 @@ def boundary_law(start: Sequence[float], end: Sequence[float]) -> Law:
     if len(values) > 16:
         raise CamError(f"at most 16 boundary values are taken, not {len(values)}")
     coefficients = _hermite([Fraction(v) for v in start], [Fraction(v) for v in end])
-    return Law("polynomial", (Piece(0.0, tuple(map(float, coefficients))),))
+    return MotionLaw("polynomial", (LawPiece(0.0, tuple(map(float, coefficients))),))
 
 
 def _hermite(start: Sequence[Fraction], end: Sequence[Fraction]) -> list[Fraction]:
@@ -171,18 +181,18 @@ def _bernstein(power: int, other: int) -> list[tuple[int, int]]:
     return [(power + i, (-1) ** i * math.comb(other, i)) for i in range(other + 1)]
 
 
-def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, float, float]]) -> Law:
+def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, float, float]]) -> MotionLaw:
     """A law from its acceleration: parts (length, constant, amplitude, frequency, phase), integrated, scaled to 1."""
     pieces, start, lift, velocity = [], 0.0, 0.0, 0.0
     for length, constant, amplitude, frequency, phase in parts:
         wave = -amplitude / frequency**2 if frequency else 0.0
-        piece = Piece(start, (0.0, 0.0, constant / 2), wave, frequency, phase)
+        piece = LawPiece(start, (0.0, 0.0, constant / 2), wave, frequency, phase)
         begin = np.array(start)
         polynomial = (lift - float(piece.at(begin, 0)), velocity - float(piece.at(begin, 1)), constant / 2)
         pieces.append(piece._replace(polynomial=polynomial))
         start += length
         lift, velocity = (float(pieces[-1].at(np.array(start), order)) for order in (0, 1))
-    return Law(
+    return MotionLaw(
         name,
         tuple(
             piece._replace(polynomial=tuple(c / lift for c in piece.polynomial), amplitude=piece.amplitude / lift)
@@ -226,10 +236,10 @@ LAWS = MappingProxyType({name: name for name in (*_ACCELERATIONS, *_POLYNOMIALS)
 
 
 @lru_cache(maxsize=64)
-def law(name: str) -> Law:
+def motion_law(name: str) -> MotionLaw:
     """The law with a name: cycloidal (inclined sine), modified-sine, harmonic, 3-4-5, ...
 
-    >>> law("poly345") == law("3-4-5")
+    >>> motion_law("poly345") == motion_law("3-4-5")
     True
     """
     if not isinstance(name, str):

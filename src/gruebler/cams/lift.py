@@ -12,22 +12,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.cams.extremes import Function, extremes
-from gruebler.cams.laws import CamError, Law, boundary_law, finite, law
+from gruebler.cams.laws import CamError, MotionLaw, boundary_law, finite_array, motion_law
 from gruebler.errors import nearest
 
-__all__ = ["Jump", "Lift", "Segment", "Span", "dwell", "motion", "read_lift"]
+__all__ = ["DerivativeJump", "Lift", "LiftSegment", "SmoothSpan", "dwell", "motion", "read_lift"]
 
 FloatArray = NDArray[np.float64]
 
 _LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
 
 
-class Segment(NamedTuple):
+class LiftSegment(NamedTuple):
     """A part of the turn: the lift goes on by ``scale`` times the law; angle in radians. A dwell has no law."""
 
     angle: float
     scale: float = 0.0
-    law: Law | None = None
+    law: MotionLaw | None = None
 
     @property
     def change(self) -> float:
@@ -35,7 +35,7 @@ class Segment(NamedTuple):
         return self.scale * (self.law.end(0) - float(self.law.at(0.0))) if self.law else 0.0
 
 
-class Jump(NamedTuple):
+class DerivativeJump(NamedTuple):
     """A jump of a derivative at an angle; 1: velocity, a blow; 2: acceleration, infinite jerk."""
 
     at: float
@@ -43,7 +43,7 @@ class Jump(NamedTuple):
     size: float
 
 
-class Span(NamedTuple):
+class SmoothSpan(NamedTuple):
     """A stretch on which the lift is smooth: its ends, and the derivatives, at the ends as seen from within."""
 
     start: float
@@ -52,21 +52,21 @@ class Span(NamedTuple):
     orders: tuple[Function, ...]
 
 
-def dwell(angle: float) -> Segment:
+def dwell(angle: float) -> LiftSegment:
     """A rest of so many radians."""
-    return Segment(_angle(angle))
+    return LiftSegment(_angle(angle))
 
 
 _LARGEST = 1e70  # of lengths, as everywhere: their squares and quotients by the square of an angle stay finite
 
 
-def motion(change: float, angle: float, name: str | Law = "3-4-5") -> Segment:
+def motion(change: float, angle: float, name: str | MotionLaw = "3-4-5") -> LiftSegment:
     """A rise (or fall, if negative) by a law."""
     if not isinstance(change, int | float) or not math.isfinite(change) or change == 0:
         raise CamError(f"a rise or fall has a finite lift that is not zero, not {change!r}")
     if not 1 / _LARGEST < abs(change) < _LARGEST:
         raise CamError(f"a lift lies between {1 / _LARGEST:g} and {_LARGEST:g}, not {change!r}: choose another unit")
-    return Segment(_angle(angle), float(change), name if isinstance(name, Law) else law(name))
+    return LiftSegment(_angle(angle), float(change), name if isinstance(name, MotionLaw) else motion_law(name))
 
 
 def _angle(angle: float) -> float:
@@ -87,9 +87,9 @@ class Lift:
     23.873241
     """
 
-    segments: tuple[Segment, ...]
+    segments: tuple[LiftSegment, ...]
 
-    def __init__(self, segments: Iterable[Segment]) -> None:
+    def __init__(self, segments: Iterable[LiftSegment]) -> None:
         object.__setattr__(self, "segments", tuple(segments))
         if not self.segments:
             raise CamError("a lift has at least one part")
@@ -110,24 +110,26 @@ class Lift:
         angles = np.cumsum([0.0, *(segment.angle for segment in self.segments[:-1])])
         return tuple(map(float, angles))
 
-    def spans(self) -> Iterator[Span]:
+    def spans(self) -> Iterator[SmoothSpan]:
         """The stretches on which the lift is smooth, with lift, velocity, acceleration, jerk per radian."""
         lift = 0.0
         for k, (segment, start) in enumerate(zip(self.segments, self.starts, strict=True)):
             if segment.law is None:
-                yield Span(start, start + segment.angle, k, tuple(_constant(lift if n == 0 else 0.0) for n in range(4)))
+                yield SmoothSpan(
+                    start, start + segment.angle, k, tuple(_constant(lift if n == 0 else 0.0) for n in range(4))
+                )
                 continue
             base = lift - segment.scale * float(segment.law.at(0.0))
             for piece, a, b in zip(segment.law.pieces, segment.law.joints, segment.law.joints[1:], strict=False):
                 orders = tuple(_scaled(piece.at, n, segment, start, base if n == 0 else 0.0) for n in range(4))
-                yield Span(start + a * segment.angle, start + b * segment.angle, k, orders)
+                yield SmoothSpan(start + a * segment.angle, start + b * segment.angle, k, orders)
             lift += segment.change
 
     def at(self, angle: ArrayLike, order: int = 0) -> FloatArray:
         """The lift, or its derivative (1 to 3) by the cam's angle, at any angles; at a jump the value after it."""
         if order not in range(4):
             raise CamError(f"a lift has derivatives 0 to 3 here, not {order!r}")
-        phi = np.mod(finite(angle, "the cam's angles"), math.tau)
+        phi = np.mod(finite_array(angle, "the cam's angles"), math.tau)
         spans = list(self.spans())
         index = np.searchsorted([span.start for span in spans[1:]], phi, side="right")
         found = np.zeros(phi.shape)
@@ -135,7 +137,7 @@ class Lift:
             found[index == k] = span.orders[order](phi[index == k])
         return found
 
-    def jumps(self) -> list[Jump]:
+    def jumps(self) -> list[DerivativeJump]:
         """Where velocity or acceleration jump; below a jump of one order the higher ones are not told."""
         spans = list(self.spans())
         scales = [max(abs(value) for span in spans for _, value in extremes(span.orders[n], *span[:2])) for n in (1, 2)]
@@ -144,7 +146,7 @@ class Lift:
             for order, scale in zip((1, 2), scales, strict=True):
                 size = float(after.orders[order](np.array(after.start)) - before.orders[order](np.array(before.end)))
                 if abs(size) > 1e-9 * scale:
-                    found.append(Jump(after.start, order, size))
+                    found.append(DerivativeJump(after.start, order, size))
                     break
         return found
 
@@ -157,7 +159,7 @@ def _constant(value: float) -> Function:
     return lambda phi: np.full(np.shape(phi), value)
 
 
-def _scaled(piece: object, order: int, segment: Segment, start: float, base: float) -> Function:
+def _scaled(piece: object, order: int, segment: LiftSegment, start: float, base: float) -> Function:
     factor = segment.scale / segment.angle**order
     return lambda phi: base + factor * piece((phi - start) / segment.angle, order)  # type: ignore[operator]
 
@@ -172,7 +174,7 @@ def read_lift(text: str) -> Lift:
     >>> [round(math.degrees(segment.angle), 9) for segment in lift.segments]
     [60.0, 30.0, 90.0, 180.0]
     """
-    parts: list[Segment | None] = []
+    parts: list[LiftSegment | None] = []
     for statement in (
         " ".join(part.split()) for line in text.splitlines() for part in line.partition("#")[0].split(";")
     ):
@@ -188,7 +190,7 @@ def read_lift(text: str) -> Lift:
     return Lift(dwell(rest) if part is None else part for part in parts)
 
 
-def _read_part(statement: str) -> Segment | None:
+def _read_part(statement: str) -> LiftSegment | None:
     word, *rest = statement.split()
     if word not in ("rise", "fall", "dwell"):
         raise CamError(f"'{statement}': expected rise, fall or dwell{nearest(word, ('rise', 'fall', 'dwell'))}")
@@ -201,13 +203,13 @@ def _read_part(statement: str) -> Segment | None:
     sign = 1 if word == "rise" else -1
     change, angle = sign * _number(rest[0], statement), math.radians(_number(rest[1], statement))
     if len(rest) > 2 and "=" in rest[2]:
-        return Segment(_angle(angle), 1.0, _bounded(change, angle, rest[2:], statement))
+        return LiftSegment(_angle(angle), 1.0, _bounded(change, angle, rest[2:], statement))
     if len(rest) > 3:
         raise CamError(f"'{statement}': one law is enough, not {' '.join(rest[2:])!r}")
     return motion(change, angle, rest[2] if len(rest) > 2 else "3-4-5")
 
 
-def _bounded(change: float, angle: float, words: list[str], statement: str) -> Law:
+def _bounded(change: float, angle: float, words: list[str], statement: str) -> MotionLaw:
     """The polynomial with velocities v0, v1, accelerations a0, a1, jerks j0, j1 per radian; the others are free."""
     ends: tuple[dict[int, float], dict[int, float]] = ({0: 0.0}, {0: change})
     for word in words:

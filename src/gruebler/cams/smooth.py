@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler.cams.contour import Touch, angle_of, face_coordinate
+from gruebler.cams.contour import ContactSamples, arm_coordinate, face_coordinate
 from gruebler.cams.follower import Flat, Follower, Roller
-from gruebler.cams.laws import CamError, finite
+from gruebler.cams.laws import CamError, finite_array
 from gruebler.notebook import Brief
 
 __all__ = ["SmoothContour"]
@@ -43,11 +43,11 @@ class SmoothContour(Brief):
 
         >>> angles = np.linspace(0, 2 * math.pi, 60, endpoint=False)
         >>> circle = SmoothContour.through(np.stack([10 + 30 * np.cos(angles), 30 * np.sin(angles)], axis=1))
-        >>> from gruebler.cams import Flat, follow
-        >>> [round(float(one), 3) for one in follow(circle, Flat(), 0.5)]
+        >>> from gruebler.cams import Flat, follower_motion
+        >>> [round(float(one), 3) for one in follower_motion(circle, Flat(), 0.5)]
         [34.794, 8.776, -4.793]
         """
-        table = finite(points, "points of a contour")
+        table = finite_array(points, "points of a contour")
         if table.ndim != 2 or table.shape[1] != 2:
             raise CamError("a contour is given by rows of two finite numbers, x and y")
         if (np.abs(table) >= _MOST).any():
@@ -64,7 +64,7 @@ class SmoothContour(Brief):
     def of(cls, curve: Callable[[FloatArray], ArrayLike], samples: int = 1440, resolution: int = 2048) -> SmoothContour:
         """The contour of a function from angles in [0, 2 pi) to points of shape (n, 2); a quintic spline."""
         u = np.linspace(0, math.tau, samples + 1)
-        table = finite(curve(u[:-1]), "points of a contour")
+        table = finite_array(curve(u[:-1]), "points of a contour")
         if table.shape != (samples, 2):
             raise CamError(
                 f"the function gives {samples} points x, y for {samples} angles, not the shape {table.shape}"
@@ -88,13 +88,13 @@ class SmoothContour(Brief):
         pair = self.spline(np.mod(u, self.period), order)
         return np.asarray(pair[..., 0] + 1j * pair[..., 1])
 
-    def touch(self, follower: Follower, angle: FloatArray) -> Touch:
+    def touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
         """The outermost contact at each angle; NaN where there is none."""
         rows = max(1, _CHUNK // self.resolution)
         parts = [self._touch(follower, angle[k : k + rows]) for k in range(0, len(angle), rows)]
-        return Touch(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+        return ContactSamples(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
-    def _touch(self, follower: Follower, angle: FloatArray) -> Touch:
+    def _touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
         turn = np.exp(1j * angle)
         table = np.linspace(0, self.period, self.resolution + 1)
         find = self._roller_place if isinstance(follower, Roller) else self._flat_place
@@ -108,9 +108,9 @@ class SmoothContour(Brief):
             s, along = face_coordinate(follower, z * turn, 0.0), np.imag(np.conj(normal) * z * turn)
         else:
             centre = z * turn + follower.radius * normal
-            s = angle_of(follower, centre - follower.distance) if follower.swings else centre.imag
+            s = arm_coordinate(follower, centre - follower.distance) if follower.swings else centre.imag
             along = np.zeros(len(angle))
-        return Touch(np.where(np.isnan(u), np.nan, s), normal, radius, along)
+        return ContactSamples(np.where(np.isnan(u), np.nan, s), normal, radius, along)
 
     def _roller_place(self, roller: Roller, turn: ComplexArray, table: FloatArray) -> FloatArray:
         """Where the offset curve meets the guide of the roller's centre, farthest out."""
@@ -126,7 +126,7 @@ class SmoothContour(Brief):
 
         centres = offset(table)[None, :] * turn[:, None]
         side = beside(centres)
-        s = angle_of(roller, centres - roller.distance) if roller.swings else centres.imag
+        s = arm_coordinate(roller, centres - roller.distance) if roller.swings else centres.imag
         crossing = (side[:, :-1] <= 0) != (side[:, 1:] <= 0)
         height = np.where(crossing & np.isfinite(s[:, :-1]), s[:, :-1], -np.inf)
         k = np.argmax(height, axis=1)

@@ -1,6 +1,6 @@
 """The machines and exercises of the seeds as data, and every claim they make checked."""
 
-from gruebler.catalog.claims import Checked, WrongClaim, check
+from gruebler.catalog.claims import CheckedEntry, WrongClaim, check_claims
 from gruebler.catalog.loader import (
     Query,
     catalog_folder,
@@ -14,12 +14,12 @@ from gruebler.catalog.loader import (
 )
 
 __all__ = [
-    "Checked",
+    "CheckedEntry",
     "Query",
     "WrongClaim",
     "catalog_folder",
-    "check",
     "check_all",
+    "check_claims",
     "check_entry",
     "check_exercise",
     "entries",

@@ -11,7 +11,7 @@ from gruebler.linkages import Linkage
 from gruebler.mobility import Count, MobilityReport, counted, mobility_report
 from gruebler.screws import Freedoms, SpatialLinkage, freedoms
 
-__all__ = ["Checked", "WrongClaim", "check"]
+__all__ = ["CheckedEntry", "WrongClaim", "check_claims"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class WrongClaim:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class CheckedEntry:
     """A chain with its report and the claims made of it."""
 
     id: str
@@ -45,7 +45,7 @@ class Checked:
         return not self.wrong
 
 
-def check(
+def check_claims(
     chain: Chain,
     claims: Claims,
     *,
@@ -53,7 +53,7 @@ def check(
     frame: str | None = None,
     origin: str = "",
     linkage: Linkage | SpatialLinkage | None = None,
-) -> Checked:
+) -> CheckedEntry:
     """Derive every claim again.
 
     A claimed mobility is what special dimensions give. With dimensions it is derived: it must be the finite mobility,
@@ -61,7 +61,7 @@ def check(
     than the generic one. Where it differs from that, a reason must be given.
 
     >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
-    >>> [str(w) for w in check(four_bar, Claims(n=4, counted=2), id="four-bar").wrong]
+    >>> [str(w) for w in check_claims(four_bar, Claims(n=4, counted=2), id="four-bar").wrong]
     ['claims.counted: printed 2, derived 1']
     """
     report = mobility_report(chain, frame=frame)
@@ -88,7 +88,7 @@ def check(
     idle = tuple(link for freedom in report.idle_freedoms for link in freedom.links)
     if claims.idle and set(claims.idle) != set(idle):
         wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or "none"))
-    return Checked(id, origin, report, claims, tuple(wrong), found)
+    return CheckedEntry(id, origin, report, claims, tuple(wrong), found)
 
 
 def _joint_counts(count: Count) -> dict[str, object]:

@@ -16,9 +16,9 @@ from gruebler.chain.pairs import Pair, Space, read_symbols
 from gruebler.errors import GrueblerError, PairError
 from gruebler.formats.catalog_records import Entry
 from gruebler.mechanism import Mechanism, check_drives
-from gruebler.mechanism.inversion import Driven, driven_mechanisms, inversions
+from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.mobility import counted
-from gruebler.type_synthesis import Requirements, expected_seconds, typed_chains
+from gruebler.type_synthesis import Requirements, expected_seconds_of_variants, typed_chains
 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 
@@ -130,7 +130,7 @@ def features_to_json(features: AccessFeatures) -> dict[str, Any]:
 # --- every structure ---------------------------------------------------------------------------------
 
 
-def structures(query: FeatureQuery) -> Iterator[Driven]:
+def structures(query: FeatureQuery) -> Iterator[DrivenMechanism]:
     """Every planar mechanism that fits, each once, lazily.
 
     Inversions if nothing is asked of drives and outputs; else mechanisms with as many drives as their mobility (1 if
@@ -156,7 +156,7 @@ def structures(query: FeatureQuery) -> Iterator[Driven]:
 def structures_time(query: FeatureQuery) -> float:
     """About how many seconds `structures` takes for all of them."""
     wanted = _requirements(query)
-    return expected_seconds(wanted, mechanisms=True, drives=_about_drives(query))
+    return expected_seconds_of_variants(wanted, mechanisms=True, drives=_about_drives(query))
 
 
 def _about_output(query: FeatureQuery) -> bool:
@@ -168,13 +168,13 @@ def _about_drives(query: FeatureQuery) -> bool:
     return about and query.drive_joints != 0
 
 
-def _outputs(driven: Driven) -> tuple[str, ...]:
+def _outputs(driven: DrivenMechanism) -> tuple[str, ...]:
     return () if driven.output is None else (driven.output,)
 
 
-def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Driven]:
+def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[DrivenMechanism]:
     if not _about_drives(query):
-        yield from (Driven(mechanism) for mechanism in inversions(chain))
+        yield from (DrivenMechanism(mechanism) for mechanism in inversions(chain))
         return
     at_frame = query.drive_joints_at_frame == mobility
     fixed: dict[Mechanism, bool] = {}

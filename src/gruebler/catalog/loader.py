@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from gruebler.catalog.claims import Checked, check
+from gruebler.catalog.claims import CheckedEntry, check_claims
 from gruebler.chain.pairs import PAIRS, Pair, pair
 from gruebler.errors import CatalogError
 from gruebler.formats.catalog_records import Entry, Exercise, Record, read_entry, read_exercise
@@ -79,19 +79,21 @@ def entry(id: str) -> Entry:
         raise CatalogError(f"the catalog has no entry {id!r}{hint}") from None
 
 
-def check_all() -> list[Checked]:
+def check_all() -> list[CheckedEntry]:
     """Every claim of the catalog derived again: the machines, then the exercises' cases."""
     machines = [check_entry(e) for e in entries().values()]
     return machines + [one for exercise in exercises().values() for one in check_exercise(exercise)]
 
 
-def check_entry(record: Entry, origin: str | None = None) -> Checked:
+def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:
     """Every claim of a machine derived again; ``origin`` is its file, the catalog's own if left out."""
     where = str(catalog_folder() / "machines" / f"{record.id}.toml") if origin is None else origin
-    return check(record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed())
+    return check_claims(
+        record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed()
+    )
 
 
-def check_exercise(record: Exercise, origin: str | None = None) -> list[Checked]:
+def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedEntry]:
     """Every claim of an exercise's cases derived again."""
     where = str(catalog_folder() / "exercises" / f"{record.id}.toml") if origin is None else origin
     checked = []
@@ -99,7 +101,7 @@ def check_exercise(record: Exercise, origin: str | None = None) -> list[Checked]
         machine = entry(case.machine)
         placed = None if case.claims.mobility is None else machine.placed()
         checked.append(
-            check(machine.chain(), case.claims, id=case.id, frame=machine.frame, origin=where, linkage=placed)
+            check_claims(machine.chain(), case.claims, id=case.id, frame=machine.frame, origin=where, linkage=placed)
         )
     return checked
 

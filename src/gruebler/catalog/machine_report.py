@@ -160,13 +160,13 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     """Transfer functions of order 1 by each drive, at home."""
     from gruebler.analysis.outputs import find_output
     from gruebler.kinematics import move
-    from gruebler.kinematics.reference_pose import at_home
-    from gruebler.kinematics.solve import planned
+    from gruebler.kinematics.reference_pose import pose_at_reference
+    from gruebler.kinematics.solve import cached_plan
 
-    names, plan = linkage.mechanism.drive_names(), planned(linkage)
+    names, plan = linkage.mechanism.drive_names(), cached_plan(linkage)
     if plan.lower.home is None:
         return ()
-    home = at_home(plan, np.zeros(len(names))).drives
+    home = pose_at_reference(plan, np.zeros(len(names))).drives
     output = find_output(linkage)
     values = [output.track(move(linkage, [home], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
     return tuple(Partial(output.name, *row) for row in zip(names, home.tolist(), map(float, values), strict=True))

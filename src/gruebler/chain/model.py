@@ -19,7 +19,7 @@ from gruebler.chain import notation
 from gruebler.chain.documents import read_document, read_graph6
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Alphabet, Pair, Space
-from gruebler.chain.soundness import checked_joint, checked_links, whole
+from gruebler.chain.soundness import check_connected, checked_joint, checked_links
 from gruebler.errors import ChainError, nearest
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ class Chain:
         made = tuple(checked_joint(j, where) for j in joints)
         named = tuple(dict.fromkeys(link for j in made for link in j.links))
         declared = named if links is None else checked_links(links, named, made)
-        whole(declared, made)
+        check_connected(declared, made)
         object.__setattr__(self, "links", declared)
         object.__setattr__(self, "joints", made)
         object.__setattr__(self, "space", where)
@@ -149,7 +149,7 @@ class Chain:
 
     def _repr_svg_(self) -> str | None:
         """The structure picture, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a chain does not change; build another one instead of setting {name!r}")

@@ -9,7 +9,7 @@ from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Pair, Space, pair
 from gruebler.errors import ChainError, PairError, nearest
 
-__all__ = ["checked_joint", "checked_links", "whole"]
+__all__ = ["check_connected", "checked_joint", "checked_links"]
 
 _LONGEST_NAME = 200
 
@@ -68,7 +68,7 @@ def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tu
     return declared
 
 
-def whole(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
+def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
     """Refuse what is too small or in several parts."""
     if len(links) < 3:
         raise ChainError(f"a kinematic chain has at least three links, this one has {_links(len(links))}")

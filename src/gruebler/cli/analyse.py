@@ -21,11 +21,11 @@ from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.formats.linkages import to_json
+from gruebler.formats.linkages import linkage_to_json
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import read_branch
-from gruebler.kinematics.solve import all_branches, planned
-from gruebler.linkages import Linkage, Named
+from gruebler.kinematics.solve import all_branches, cached_plan
+from gruebler.linkages import Linkage, LinkPoint
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
@@ -64,11 +64,13 @@ def run(arguments: argparse.Namespace) -> int:
     check_csv(arguments.csv)
     linkage, shown_range = linkage_of(arguments.linkage)
     added = {
-        text: (point.link, point.x, point.y) for text in arguments.point if isinstance(point := point_of(text), Named)
+        text: (point.link, point.x, point.y)
+        for text in arguments.point
+        if isinstance(point := point_of(text), LinkPoint)
     }
     linkage = linkage.with_points(added) if added else linkage
     turning = turning_drives(linkage)
-    plan = planned(linkage)
+    plan = cached_plan(linkage)
     speeds = _speeds(arguments, turning)
     accelerations = _higher("--acceleration", arguments.acceleration, speeds)
     jerks = _higher("--jerk", arguments.jerk, speeds)
@@ -105,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
         message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
         if arguments.json:
             none = {"columns": [], "rows": [], "complete": False, "message": message}
-            print_json({"linkage": to_json(linkage), **none})
+            print_json({"linkage": linkage_to_json(linkage), **none})
         else:
             print(message)
         return 1
@@ -182,7 +184,7 @@ def _listed(arguments: argparse.Namespace) -> bool:
 
 
 def _others(linkage: Linkage, found: Measures) -> list[str]:
-    branches = all_branches(planned(linkage), np.array([found.start]))
+    branches = all_branches(cached_plan(linkage), np.array([found.start]))
     others = [_label(branch) for branch in islice(branches, _MOST_BRANCHES) if branch != tuple(found.branch)]
     return [*others, "…"] if next(branches, None) is not None else others
 
@@ -265,7 +267,7 @@ def _plain_row(row: Rotatability, unit: str) -> dict[str, Any]:
 def _document(
     linkage: Linkage, found: Measures | None, motion: Motion, made: Sequence[Column], lang: str
 ) -> dict[str, Any]:
-    document: dict[str, Any] = {"linkage": to_json(linkage)}
+    document: dict[str, Any] = {"linkage": linkage_to_json(linkage)}
     if found is not None:
         document |= {"measures": found.to_json(), "other_branches": _others(linkage, found)}
         around = _circuit(linkage, found)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import argparse
 
-from gruebler.cli.draw import entry_of, picture_suffix, sized
+from gruebler.cli.draw import entry_of, linkage_and_range, picture_suffix
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.output import print_svg, write_file
-from gruebler.drawing.linkage.animation import Options, animated_svg
+from gruebler.drawing.linkage.animation import AnimationOptions, animated_svg
 from gruebler.drawing.linkage.animation_page import animated_page
 from gruebler.linkages import Linkage
 
@@ -20,9 +20,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the animation into a file, or as SVG on standard output."""
     dark = getattr(arguments, "dark", False)
     suffix = picture_suffix(arguments.output, dark, _SUFFIXES)
-    linkage, between = sized(arguments.linkage)
+    linkage, between = linkage_and_range(arguments.linkage)
     record = entry_of(arguments.linkage)
-    options = Options(
+    options = AnimationOptions(
         branch=arguments.branch,
         between=between,
         drives=driven_path(arguments.drive, linkage),
@@ -39,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _content(linkage: Linkage, suffix: str, options: Options, dark: bool) -> bytes:
+def _content(linkage: Linkage, suffix: str, options: AnimationOptions, dark: bool) -> bytes:
     if suffix in ("svg", "html"):
         text = animated_svg(linkage, **options) if suffix == "svg" else animated_page(linkage, **options)
         return text.encode("utf-8")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from gruebler.assur import AssurGroup, Decomposition, Group, assur_groups, decompose, drive_choices
+from gruebler.assur import AssurGroup, Decomposition, SolvedGroup, assur_groups, decompose, drive_choices
 from gruebler.assur.forms import roman
-from gruebler.assur.listing import expected_seconds
+from gruebler.assur.listing import expected_seconds_of_groups
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
@@ -27,7 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     if (arguments.list is None) == (arguments.mechanism is None):
         raise GrueblerError("name one mechanism, or ask for --list N: all groups with N links")
     if arguments.list is not None:
-        ask_before(expected_seconds(arguments.list), arguments.yes)
+        ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
         found = list(progress(assur_groups(arguments.list), _PROGRESS[arguments.lang]))
         _print([_group_item(group) for group in found], arguments, lambda: _list(found, arguments.lang))
         return 0
@@ -66,7 +66,7 @@ def _verdict(one: Decomposition) -> dict[str, Any]:
     return {"formula": one.formula(), "class": one.class_number, "complete": one.complete}
 
 
-def _item(group: Group, names: tuple[str, ...]) -> dict[str, Any]:
+def _item(group: SolvedGroup, names: tuple[str, ...]) -> dict[str, Any]:
     return {
         **_group_item(group.shape),
         "links": list(group.links),

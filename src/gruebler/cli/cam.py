@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from gruebler.cams import (
     LAWS,
     Cam,
-    Extreme,
+    CamExtremum,
     Flat,
     Follower,
+    LiftSegment,
     Roller,
-    Segment,
     SmoothContour,
-    follow,
-    law,
+    follower_motion,
+    motion_law,
     read_lift,
 )
 from gruebler.cli.machine_pictures import angle_of, refuse_picture, write_picture
@@ -119,8 +119,8 @@ def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
 
 
 def _laws(as_json: bool, words: dict[str, Any]) -> int:
-    names = list(dict.fromkeys(law(name).name for name in LAWS))
-    found = [(name, law(name).peaks()) for name in names]
+    names = list(dict.fromkeys(motion_law(name).name for name in LAWS))
+    found = [(name, motion_law(name).peaks()) for name in names]
     if as_json:
         print_json([{"law": name, **peaks._asdict()} for name, peaks in found])
     else:
@@ -160,7 +160,7 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
             if len(cells) != 2:
                 raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}")
     degrees = turn_degrees(10 if arguments.step is None else arguments.step)
-    found = follow(SmoothContour.through(points), follower, np.radians(degrees))
+    found = follower_motion(SmoothContour.through(points), follower, np.radians(degrees))
     scale = 180 / math.pi if follower.swings else 1.0
     rows = np.stack([degrees, *(one * scale for one in found)], axis=1).tolist()
     if arguments.json:
@@ -172,7 +172,7 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
     return 0
 
 
-def _parts(cam: Cam) -> list[tuple[Segment, float, float]]:
+def _parts(cam: Cam) -> list[tuple[LiftSegment, float, float]]:
     scale = 180 / math.pi if cam.follower.swings else 1.0
     return [(one, start, one.change * scale) for one, start in zip(cam.lift.segments, cam.lift.starts, strict=True)]
 
@@ -203,7 +203,7 @@ def _print(cam: Cam, table: list[list[float]] | None, words: dict[str, Any]) -> 
         print(words["jump"].format(at=_degrees(jump.at), what=what, size=size, square=square, effect=effect))
     print()
     found = cam.findings()
-    lines: list[tuple[str, Extreme | None, bool]] = [
+    lines: list[tuple[str, CamExtremum | None, bool]] = [
         ("pressure_least", found.pressure[0], True),
         ("pressure_greatest", found.pressure[1], True),
         ("convex", found.convex, False),
@@ -232,7 +232,7 @@ def _said(value: float, angle: bool) -> str:
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     found = cam.findings()
 
-    def told(one: Extreme | None, angle: bool = False) -> dict[str, float] | None:
+    def told(one: CamExtremum | None, angle: bool = False) -> dict[str, float] | None:
         return one and {"value": math.degrees(one.value) if angle else one.value, "at_deg": math.degrees(one.at)}
 
     document: dict[str, Any] = {
@@ -251,6 +251,6 @@ def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     return document
 
 
-def _part(one: Segment, start: float, change: float) -> dict[str, Any]:
+def _part(one: LiftSegment, start: float, change: float) -> dict[str, Any]:
     name = one.law.name if one.law else None
     return {"from_deg": math.degrees(start), "angle_deg": math.degrees(one.angle), "lift": change, "law": name}

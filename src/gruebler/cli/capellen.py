@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from gruebler.cli.measured import in_language
+from gruebler.cli.measured import numbers_in_language
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
         found = one.contact()
         print("\n" * (number > 0), end="")
         said = words["about"].format(**_about(one), points=found.points, coefficient=found.coefficient)
-        print(in_language(said, arguments.lang))
+        print(numbers_in_language(said, arguments.lang))
         rows = [_row(words[key], lever, arguments.lang) for key, lever in _levers(one)]
         print_table(words["headers"], rows, numbers=range(1, 8))
     return 0
@@ -75,7 +75,7 @@ def _lengths(lever: CouplerLever) -> dict[str, float]:
 
 def _row(name: str, lever: CouplerLever, lang: str) -> tuple[str, ...]:
     values = [*(f"{length:.6f}" for length in _lengths(lever).values()), f"{math.degrees(lever.kappa):.6f}°"]
-    return name, *(in_language(value, lang) for value in values), lever.size.type.name(lang)
+    return name, *(numbers_in_language(value, lang) for value in values), lever.size.type.name(lang)
 
 
 def _about(one: SymmetricRocker) -> dict[str, float]:

@@ -9,12 +9,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import Checked, check_all, check_entry, check_exercise, entries, entry, exercises
+from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
 from gruebler.chain import Chain
-from gruebler.cli.inputs import chain_of, is_text
+from gruebler.cli.inputs import chain_from_word, is_text
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
-from gruebler.documents import load
+from gruebler.documents import load_document
 from gruebler.errors import CatalogError, GrueblerError, NotationError
 from gruebler.formats import Claims, read_entry
 from gruebler.formats.catalog_records import entry_of_data
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Check what the arguments name; 1 if a claim fails."""
     found = [one for word in arguments.chains for one in _checked(word, arguments)] if arguments.chains else check_all()
     if arguments.json:
-        print_json([to_json(one) for one in found])
+        print_json([checked_as_dict(one) for one in found])
     elif arguments.explain:
         print_text("\n\n".join(explanation(one, arguments.lang) for one in found))
     else:
@@ -63,14 +63,14 @@ def run(arguments: argparse.Namespace) -> int:
     return int(any(not one.holds for one in found))
 
 
-def to_json(one: Checked) -> dict[str, Any]:
+def checked_as_dict(one: CheckedEntry) -> dict[str, Any]:
     """One object of the list that --json prints."""
     holds = None if one.claims == Claims() else one.holds
     finite = None if one.freedoms is None else one.freedoms.to_json()["finite"]
     return {"name": one.id, **one.report.to_json(), "finite": finite, "claims_hold": holds}
 
 
-def print_checked(found: Iterable[Checked], lang: str) -> None:
+def print_checked(found: Iterable[CheckedEntry], lang: str) -> None:
     """The table, and a line that sums it up where there are claims."""
     rows = []
     claims = []
@@ -95,7 +95,7 @@ def print_checked(found: Iterable[Checked], lang: str) -> None:
         print("\n" + _SUMMARY[lang][wrong > 0].format(n=len(rows), wrong=wrong))
 
 
-def explanation(one: Checked, lang: str) -> str:
+def explanation(one: CheckedEntry, lang: str) -> str:
     """The report in words under the entry's name, with what the entry adds to it."""
     known = entries().get(one.id) if one.origin else None
     title = f"{known.name.said(lang)} ({one.id})" if known else one.id
@@ -120,23 +120,23 @@ def explanation(one: Checked, lang: str) -> str:
     return "\n".join(lines)
 
 
-def _moves_otherwise(one: Checked) -> bool:
+def _moves_otherwise(one: CheckedEntry) -> bool:
     """Whether the entry claims a mobility that only its special dimensions give."""
     return one.claims.mobility is not None and one.claims.mobility != one.report.generic
 
 
-def _complain(found: Iterable[Checked]) -> None:
+def _complain(found: Iterable[CheckedEntry]) -> None:
     for one in found:
         for claim in one.wrong:
             print(f"{one.origin or one.id}: {claim}", file=sys.stderr)
 
 
-def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
+def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     """What one argument names: a chain, a catalog entry, an exercise or a file."""
     if word == "-":
         yield from _lines(sys.stdin.read(), "standard input", arguments)
     elif is_text(word):
-        yield _plain(chain_of(word, arguments.space), word, arguments)
+        yield _plain(chain_from_word(word, arguments.space), word, arguments)
     elif (path := Path(word)).is_file() or path.suffix.lower() in _ENDINGS:
         yield from _file(path, arguments)
     elif word in exercises():
@@ -149,13 +149,13 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[Checked]:
             yield _plain(record.chain(), word, arguments)
 
 
-def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> Checked:
+def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> CheckedEntry:
     """A chain that claims nothing."""
     report = mobility_report(chain, b=arguments.b, frame=arguments.frame, large=arguments.yes)
-    return Checked(name, "", report, Claims(), ())
+    return CheckedEntry(name, "", report, Claims(), ())
 
 
-def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
+def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     ending = path.suffix.lower()
     if ending not in ("", *_ENDINGS):
         raise CatalogError(f"{path}: expected a file that ends with {', '.join(_ENDINGS)}, not with {path.suffix}")
@@ -181,11 +181,11 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[Checked]:
 
 def _is_linkage(path: Path) -> bool:
     """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
-    document = load(path, lambda text: CatalogError(f"{path}: {text}"))
+    document = load_document(path, lambda text: CatalogError(f"{path}: {text}"))
     return isinstance(document, dict) and "id" not in document and ("unit" in document or "screws" in document)
 
 
-def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Checked]:
+def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     try:
         document = json.loads(text)
     except RecursionError:
@@ -211,7 +211,7 @@ def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Chec
 def _chain_of_json(document: Any) -> Chain:
     """The chain of an object: of a list of mechanisms, a linkage with dimensions or screws, a report, or its own."""
     if isinstance(document, dict) and isinstance(document.get("text"), str):
-        return chain_of(document["text"])
+        return chain_from_word(document["text"])
     if isinstance(document, dict) and "screws" in document:
         return spatial_from_json(document).mechanism.chain
     if isinstance(document, dict) and "unit" in document:
@@ -219,14 +219,14 @@ def _chain_of_json(document: Any) -> Chain:
     return Chain.from_json(document)
 
 
-def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Checked]:
+def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     empty = True
     for number, line in enumerate(text.splitlines(), 1):
         if not line.strip() or line.lstrip().startswith("#"):
             continue
         empty = False
         try:
-            chain = chain_of(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
+            chain = chain_from_word(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
             yield _plain(chain, line.strip(), arguments)
         except GrueblerError as error:
             raise NotationError(f"{source}, line {number}: {error}") from None

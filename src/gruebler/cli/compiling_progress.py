@@ -30,10 +30,10 @@ def show_compiling(lang: str = "en") -> None:
         wanted_tier()
     except ValueError as error:
         raise GrueblerError(str(error)) from None
-    on_compiling(_Bar(_WORDS[lang]).draw if sys.stderr.isatty() else None)
+    on_compiling(_ProgressBar(_WORDS[lang]).draw if sys.stderr.isatty() else None)
 
 
-class _Bar:
+class _ProgressBar:
     """A bar while something is compiled in this process; workers are silent.
 
     It has no thread of its own, so that worker processes can be forked.

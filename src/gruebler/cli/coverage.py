@@ -19,10 +19,10 @@ import msgspec
 from gruebler.catalog import catalog_folder, entries
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
-from gruebler.documents import fitted, load
+from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError
 
-__all__ = ["Outcome", "Row", "execute", "find_function", "rows", "run"]
+__all__ = ["Outcome", "Row", "coverage_rows", "execute", "find_function", "run"]
 
 
 class Concept(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -79,14 +79,14 @@ class Outcome(NamedTuple):
 
 
 @cache
-def rows() -> tuple[Row, ...]:
+def coverage_rows() -> tuple[Row, ...]:
     """The concepts, then the machines; every machine of the catalog is there, at least with nothing."""
     path: Path = catalog_folder() / "coverage.toml"
 
     def fail(text: str) -> CatalogError:
         return CatalogError(f"{path}: {text}")
 
-    table = fitted(load(path, fail), Coverage, fail)
+    table = convert_document(load_document(path, fail), Coverage, fail)
     told = {machine.id: machine.commands for machine in table.machines}
     if strange := sorted(set(told) - set(entries())):
         raise fail(f"machines: the catalog has no entry {strange[0]!r}")
@@ -157,7 +157,7 @@ _WORDS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the table; with --run execute what is in it."""
-    chosen = [row for row in rows() if all(_has(row, word) for word in arguments.words)]
+    chosen = [row for row in coverage_rows() if all(_has(row, word) for word in arguments.words)]
     outcomes: dict[str, Outcome] = {}
     if arguments.execute:
         wanted = {command: status for row in chosen for command, status in row.commands}

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.analysis.drive_cycle import PathCourse
+from gruebler.analysis.drive_cycle import PathCycle
 from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
@@ -17,7 +17,7 @@ from gruebler.cli.output import print_json, write_file
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
-from gruebler.geometry import Contact, CouplerCurve, coupler_curve
+from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
 
 __all__ = ["run"]
 
@@ -107,7 +107,7 @@ def _polygon(found: CouplerCurve) -> list[Column]:
 def _values(found: CouplerCurve, at: Reals) -> Reals:
     """The values of all drives, turning ones in degrees; (n, drives)."""
     course = found.trail.course
-    values = course.values(at) if isinstance(course, PathCourse) else np.asarray(at)[:, None]
+    values = course.values(at) if isinstance(course, PathCycle) else np.asarray(at)[:, None]
     turning = [drive.direction.startswith("R") for drive in course.linkage.mechanism.drives]
     return np.where(turning, np.degrees(values), values)
 
@@ -115,7 +115,9 @@ def _values(found: CouplerCurve, at: Reals) -> Reals:
 # --- what is said ----------------------------------------------------------------------------------
 
 
-def _say(found: CouplerCurve, contacts: list[tuple[float, Contact]], directions: tuple[float, ...], lang: str) -> None:
+def _say(
+    found: CouplerCurve, contacts: list[tuple[float, TangentContact]], directions: tuple[float, ...], lang: str
+) -> None:
     words, unit = _WORDS[lang], found.trail.course.linkage.unit
     if found.area is not None:
         print(words["closed"].format(length=found.length, area=round(found.area, 9) + 0.0, unit=unit))
@@ -176,8 +178,8 @@ def _drive(found: CouplerCurve, value: float) -> str:
     return " / ".join(said)
 
 
-def _document(found: CouplerCurve, contacts: list[Contact], directions: tuple[float, ...]) -> dict[str, Any]:
-    path = isinstance(found.trail.course, PathCourse)
+def _document(found: CouplerCurve, contacts: list[TangentContact], directions: tuple[float, ...]) -> dict[str, Any]:
+    path = isinstance(found.trail.course, PathCycle)
 
     def told(one: Any) -> dict[str, Any]:
         """An event as its fields, drives in degrees."""

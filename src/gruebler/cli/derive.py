@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from gruebler.cli.inputs import chain_of
+from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_text
 from gruebler.isomorphism import code
@@ -15,7 +15,7 @@ __all__ = ["run"]
 
 def run(arguments: argparse.Namespace) -> int:
     """Tell how the chain grows."""
-    growth = derive(chain_of(arguments.chain))
+    growth = derive(chain_from_word(arguments.chain))
     if not arguments.json:
         print_text(growth.explain(arguments.lang))
         return 0

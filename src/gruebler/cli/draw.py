@@ -16,7 +16,7 @@ from typing import Any
 
 from gruebler.catalog import entries
 from gruebler.chain import Chain
-from gruebler.cli.inputs import chain_of, is_text, mechanism_of
+from gruebler.cli.inputs import chain_from_word, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_svg, write_file
 from gruebler.drawing.canvas import Figure
@@ -27,7 +27,7 @@ from gruebler.formats import Entry
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["entry_of", "german", "picture_suffix", "run", "sized", "subject", "told_picture"]
+__all__ = ["entry_of", "german", "linkage_and_range", "picture_suffix", "run", "subject", "told_picture"]
 
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
@@ -126,7 +126,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
                 f"a linkage with sizes has its own frame and drives: it is drawn without --{option}",
                 f"ein Getriebe mit Maßen hat sein Gestell und seine Antriebe: es wird ohne --{option} gezeichnet",
             )
-    linkage, between = sized(arguments.chain)
+    linkage, between = linkage_and_range(arguments.chain)
     record = entry_of(arguments.chain)
     return draw_linkage(
         linkage,
@@ -144,7 +144,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
     )
 
 
-def sized(word: str) -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_and_range(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
     linkage, shown = linkage_of(word)
     drives = linkage.mechanism.drives
@@ -196,7 +196,7 @@ def subject(word: str, space: str | None, frame: str | None, drives: list[str]) 
     marked = ";" in word if record is None else record.frame is not None
     if marked and space is None:
         return mechanism_of(word, frame, drives)
-    chain = chain_of(word, space)
+    chain = chain_from_word(word, space)
     if frame is None and not drives:
         return chain
     return Mechanism(chain, chain.links[0] if frame is None else frame, drives)

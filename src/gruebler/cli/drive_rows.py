@@ -14,7 +14,7 @@ from gruebler.kinematics import degrees
 from gruebler.linkages import Linkage
 
 if TYPE_CHECKING:
-    from gruebler.analysis.drive_cycle import Span
+    from gruebler.analysis.drive_cycle import CycleSpan
 
 __all__ = ["default_rows", "driven_path", "given_rows", "turning_drives"]
 
@@ -81,7 +81,7 @@ def _way(text: str, turning: bool) -> Reals:
     return rows if turning else np.degrees(rows)
 
 
-def default_rows(span: Span, shown_range: tuple[float, float] | None, turning: bool) -> Reals:
+def default_rows(span: CycleSpan, shown_range: tuple[float, float] | None, turning: bool) -> Reals:
     """A full turn by 15 degrees, or round numbers in the range; (rows, 1)."""
     if shown_range is None and span.full:
         return degrees(0, 360 * span.turns, _STEP).reshape(-1, 1)

@@ -20,8 +20,8 @@ from gruebler.cli.tables import print_table
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.run_request import run_count, run_list
-from gruebler.enumeration.work_units import Listing
-from gruebler.enumeration.worker_pool import Processes, Progress
+from gruebler.enumeration.work_units import PieceListing
+from gruebler.enumeration.worker_pool import ProcessPools, Progress
 from gruebler.errors import GrueblerError, RunError
 
 __all__ = ["run"]
@@ -90,7 +90,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise RunError(f"--output {str(arguments.output)!r} names no file")
     if arguments.output is not None and not arguments.output.parent.is_dir():
         raise RunError(f"{arguments.output} cannot be written: there is no directory {arguments.output.parent}")
-    executor = None if arguments.jobs == 1 else Processes(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
+    executor = None if arguments.jobs == 1 else ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
     size = estimate(request, form)
     _check_size(size, arguments)
     if form is None:
@@ -216,7 +216,7 @@ def _list(
     return 0
 
 
-def _write(listings: Iterator[Listing], form: str, request: Request, file: BinaryIO) -> int:
+def _write(listings: Iterator[PieceListing], form: str, request: Request, file: BinaryIO) -> int:
     """Write the chains; returns their number. Text says in a comment where chains of another class begin."""
     number = 0
     last = ""

@@ -8,22 +8,22 @@ from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.exercises import (
+    Grade,
     Mark,
-    Marked,
     all_exercises,
+    ascii_key,
     exercise,
-    fresh,
-    mark,
-    plain_key,
-    plain_marks,
+    generate,
+    grade,
+    grades_as_list,
     plain_name,
-    plain_solution,
-    plain_task,
-    said_source,
-    said_value,
+    solution_as_dict,
     solution_text,
     solve,
+    source_text,
+    task_as_dict,
     task_text,
+    value_text,
 )
 from gruebler.formats import Exercise
 from gruebler.text import Text
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(f"--count is a number from 1 to {_MOST}, not {arguments.count}")
             seeds = range(arguments.seed, arguments.seed + arguments.count)
-            made = [fresh(arguments.kind, seed, arguments.level) for seed in seeds]
+            made = [generate(arguments.kind, seed, arguments.level) for seed in seeds]
             _tell(made, arguments, solved=arguments.solutions)
         case "check":
             return _mark(exercise(arguments.id), arguments)
@@ -64,15 +64,15 @@ def run(arguments: argparse.Namespace) -> int:
 def _list(arguments: argparse.Namespace) -> None:
     found = all_exercises().values()
     if arguments.json:
-        print_json([plain_task(one) for one in found])
+        print_json([task_as_dict(one) for one in found])
         return
     lang = arguments.lang
-    print_table(_HEADERS[lang], [(one.id, one.name.said(lang), said_source(one.source, lang)) for one in found])
+    print_table(_HEADERS[lang], [(one.id, one.name.said(lang), source_text(one.source, lang)) for one in found])
 
 
 def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
     if arguments.json:
-        print_json([plain_solution(one, solve(one)) if solved else plain_task(one) for one in found])
+        print_json([solution_as_dict(one, solve(one)) if solved else task_as_dict(one) for one in found])
         return
     texts = [
         solution_text(one, solve(one), arguments.lang) if solved else task_text(one, arguments.lang, solve(one))
@@ -90,20 +90,20 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
         if key.strip() in answers:
             raise GrueblerError(f"{key.strip()} is answered twice: give one answer for each")
         answers[key.strip()] = answer
-    marks = mark(task, answers)
+    marks = grade(task, answers)
     right = all(one.mark is Mark.RIGHT for one in marks)
     if arguments.json:
-        print_json({"id": task.id, "right": right, "answers": plain_marks(marks)})
+        print_json({"id": task.id, "right": right, "answers": grades_as_list(marks)})
     else:
         _say(task, marks, arguments.lang)
     return 0 if right else 1
 
 
-def _say(task: Exercise, marks: list[Marked], lang: str) -> None:
+def _say(task: Exercise, marks: list[Grade], lang: str) -> None:
     for one in marks:
-        line = f"{plain_key(one.key)} = {one.answer}: {_MARKS[one.mark].said(lang)}"
+        line = f"{ascii_key(one.key)} = {one.answer}: {_MARKS[one.mark].said(lang)}"
         if one.mark is Mark.RIGHT:
-            line += f" ({said_value(one.result.value, one.result.unit, lang)})"
+            line += f" ({value_text(one.result.value, one.result.unit, lang)})"
         print(line + (f". {one.hint.said(lang)}" if one.hint else ""))
     answered = {one.key for one in marks}
     results = solve(task).results

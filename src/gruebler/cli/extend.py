@@ -6,11 +6,11 @@ import argparse
 from typing import Any
 
 from gruebler.chain import Chain
-from gruebler.cli.inputs import chain_of
+from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.mobility import mobility_report
-from gruebler.transformations import Extension, Place, extend
+from gruebler.transformations import Attachment, Extension, extend
 
 __all__ = ["run"]
 
@@ -22,7 +22,7 @@ _HEADERS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count the extensions."""
-    chain = chain_of(arguments.chain)
+    chain = chain_from_word(arguments.chain)
     found = extend(chain, dyad=arguments.dyad, coupler=arguments.coupler, at_joints=arguments.at_joints)
     if arguments.json:
         document: dict[str, Any] = {"count": len(found)}
@@ -62,6 +62,6 @@ def _row(chain: Chain, one: Extension, lang: str) -> tuple[str, str, str, str, s
     )
 
 
-def _places(chain: Chain, pair: tuple[Place, Place], alphabet: str = "international") -> list[str]:
+def _places(chain: Chain, pair: tuple[Attachment, Attachment], alphabet: str = "international") -> list[str]:
     names = chain.joint_names(alphabet)
     return [place if isinstance(place, str) else names[place] for place in pair]

@@ -34,10 +34,10 @@ def _linkage(word: str) -> Linkage | SpatialLinkage:
     if word in entries() and not path.is_file():
         record = entries()[word]
     elif path.suffix.lower() in (".toml", ".json") and path.is_file():
-        from gruebler.documents import load
+        from gruebler.documents import load_document
         from gruebler.formats.screws import read_any_linkage
 
-        document = load(path, lambda text: GrueblerError(f"{path}: {text}"))
+        document = load_document(path, lambda text: GrueblerError(f"{path}: {text}"))
         if not (isinstance(document, dict) and "id" in document):
             return read_any_linkage(path)
         record = read_entry(path)

@@ -11,9 +11,20 @@ from gruebler.cli.machine_pictures import is_few, write_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
-from gruebler.gears import Balance, Reading, Speeds, Unit, assembly, balance, explain, read_toml, read_train, speeds
+from gruebler.gears import (
+    Balance,
+    Speeds,
+    TrainReading,
+    Unit,
+    assembly,
+    balance,
+    explain_train,
+    read_toml,
+    read_train,
+    speeds,
+)
 from gruebler.gears.assembly import axes
-from gruebler.gears.messages import number, writable
+from gruebler.gears.messages import fraction_text, writable
 
 __all__ = ["run"]
 
@@ -45,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(_document(reading, found, forces))
     else:
-        print_text(explain(reading, arguments.lang))
+        print_text(explain_train(reading, arguments.lang))
         if reading.drives:
             print()
             _print_speeds(reading, found, forces, arguments.lang)
@@ -55,10 +66,10 @@ def run(arguments: argparse.Namespace) -> int:
 _FEW = 6  # turns of the fastest link in a file of pictures
 
 
-def _picture(arguments: argparse.Namespace, reading: Reading) -> None:
-    from gruebler.drawing.machines.train_picture import Options, animate_train, draw_train
+def _picture(arguments: argparse.Namespace, reading: TrainReading) -> None:
+    from gruebler.drawing.machines.train_picture import TrainPictureOptions, animate_train, draw_train
 
-    options = Options(planets=reading.planets, teeth=arguments.teeth, lang=arguments.lang)
+    options = TrainPictureOptions(planets=reading.planets, teeth=arguments.teeth, lang=arguments.lang)
     most = {"most": _FEW} if is_few(arguments) else {}
     write_picture(
         arguments,
@@ -67,7 +78,7 @@ def _picture(arguments: argparse.Namespace, reading: Reading) -> None:
     )
 
 
-def _read(word: str) -> Reading:
+def _read(word: str) -> TrainReading:
     path = Path(word)
     if "\n" in word or ";" in word or ":" in word or path.suffix not in (".toml", ".txt"):
         return read_train(word)
@@ -78,28 +89,28 @@ def _read(word: str) -> Reading:
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 
 
-def _driver(reading: Reading) -> str | None:
+def _driver(reading: TrainReading) -> str | None:
     """The one drive that moves, if there is exactly one."""
     moving = [link for link, speed in reading.drives.items() if speed]
     return moving[0] if len(moving) == 1 else None
 
 
-def _print_speeds(reading: Reading, found: Speeds, forces: Balance | None, lang: str) -> None:
+def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, lang: str) -> None:
     driver = _driver(reading)
     columns = [True, True, driver is not None, forces is not None, forces is not None]
     units = reading.train.units()
     rows = []
     for link, speed in found.values.items():
-        cells = [link + _UNITS[lang][units[link]], "?" if speed is None else number(speed)]
-        cells.append(number(speed / reading.drives[driver]) if driver and speed is not None else "")
+        cells = [link + _UNITS[lang][units[link]], "?" if speed is None else fraction_text(speed)]
+        cells.append(fraction_text(speed / reading.drives[driver]) if driver and speed is not None else "")
         torques = (forces.torques, forces.powers) if forces else ({}, {})
-        cells += [number(one[link]) if link in one else "" for one in torques]
+        cells += [fraction_text(one[link]) if link in one else "" for one in torques]
         rows.append([cell for cell, shown in zip(cells, columns, strict=True) if shown])
     headers = [head.format(drive=driver) for head, shown in zip(_HEADERS[lang], columns, strict=True) if shown]
     print_table(headers, rows, numbers=range(1, len(headers)))
 
 
-def _document(reading: Reading, found: Speeds, forces: Balance | None) -> dict[str, Any]:
+def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> dict[str, Any]:
     train, units = reading.train, reading.train.units()
     document: dict[str, Any] = {
         "meshes": [str(mesh) for mesh in train.meshes],

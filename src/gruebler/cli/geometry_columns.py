@@ -13,7 +13,7 @@ from gruebler.cli.point_inputs import point_name
 from gruebler.geometry import inflection_circle, path_curvature, poles
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 
 __all__ = ["curvature_columns", "pole_columns", "pole_list"]
 
@@ -73,7 +73,7 @@ def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], li
 
 
 def curvature_columns(
-    motion: Motion, points: Sequence[str | Named], links: Iterable[str] = (), lang: str = "en"
+    motion: Motion, points: Sequence[str | LinkPoint], links: Iterable[str] = (), lang: str = "en"
 ) -> list[Column]:
     """Signed radius and centre of curvature of the points' paths; diameters of inflection circles.
 
@@ -95,7 +95,7 @@ def curvature_columns(
         for axis, values in zip("xy", _parts(path.centre), strict=True):
             known = np.isfinite(path.radius)
             out.append(Column(f"{name} {words['centre']} {axis}", linkage.unit, np.where(known, values, np.nan)))
-        places = [point] if isinstance(point, Named) else reversed(linkage.named(point))
+        places = [point] if isinstance(point, LinkPoint) else reversed(linkage.named(point))
         moving.append(next(place.link for place in places if place.link != frame))
     moving += [link for link in links if not _pivoted(linkage, link)]
     for link in dict.fromkeys([*moving, *_floating(linkage)]):

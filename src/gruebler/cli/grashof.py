@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
-from gruebler.fourbar.extremes import Arc
+from gruebler.fourbar.extremes import CrankRange
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 
@@ -136,7 +136,7 @@ def _say(four_bar: FourBar, lang: str) -> None:
         print(f"{words[key]}: {value}")
 
 
-def _arc(arc: Arc, full: str) -> str:
+def _arc(arc: CrankRange, full: str) -> str:
     return full if arc.full else f"{math.degrees(arc.start):.4f}°..{math.degrees(arc.end):.4f}°"
 
 

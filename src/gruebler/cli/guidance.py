@@ -8,7 +8,7 @@ import re
 from typing import Any
 
 from gruebler.cli import capellen
-from gruebler.cli.measured import in_language, length_of, same_unit
+from gruebler.cli.measured import length_of, numbers_in_language, same_unit
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
@@ -87,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
     print(f"\n{words['proportions'].format(text=one.proportions.said(arguments.lang))}")
     if one.contact:
         said = words["contact"].format(at=round(one.degrees[1], 4), n=one.contact.points, c=one.contact.coefficient)
-        print(in_language(said, arguments.lang))
+        print(numbers_in_language(said, arguments.lang))
     if task and found:
         _say_size(one, found, task, arguments.lang)
     return 0
@@ -118,7 +118,7 @@ def _row(one: Guidance, lang: str) -> tuple[str, ...]:
         str(one.linkage.mechanism.chain.n),
         words["exact" if one.is_exact else "approximate"],
         words["points"].format(n=one.contact.points) if one.contact else "",
-        *(in_language(number, lang) for number in numbers),
+        *(numbers_in_language(number, lang) for number in numbers),
     )
 
 
@@ -134,11 +134,11 @@ def _say_size(one: Guidance, found: Sizing, task: tuple[float, float, str], lang
         end=math.degrees(found.piece.end),
         used=found.piece.length,
     )
-    print(in_language(said, lang))
+    print(numbers_in_language(said, lang))
     lengths = ("; " if lang == "de" else ", ").join(
         f"{_named(name, lang)} = {value:.6g}" for name, value in _lengths(one, found.factor).items()
     )
-    print(in_language(words["lengths"].format(text=lengths + (f" {unit}" if unit else "")), lang))
+    print(numbers_in_language(words["lengths"].format(text=lengths + (f" {unit}" if unit else "")), lang))
 
 
 def _named(key: str, lang: str) -> str:

@@ -13,7 +13,7 @@ from gruebler.isomorphism import decode
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["assortment_of", "chain_of", "is_text", "mechanism_of", "outputs_of"]
+__all__ = ["assortment_of", "chain_from_word", "is_text", "mechanism_of", "outputs_of"]
 
 
 def is_text(word: str) -> bool:
@@ -37,7 +37,7 @@ def _of_file(word: str) -> Mechanism | None:
     return read_any_linkage(path).mechanism
 
 
-def chain_of(word: str, space: str | None = None) -> Chain:
+def chain_from_word(word: str, space: str | None = None) -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
     if (found := _of_file(word)) is not None:
         return found.chain
@@ -59,7 +59,7 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
     elif "(" in word and not (_is_code(word) and ";frame=" not in word):
         found = Mechanism.parse(word)
     else:
-        chain = chain_of(word)
+        chain = chain_from_word(word)
         found = Mechanism(chain, chain.links[0])
     return Mechanism(found.chain, found.frame if frame is None else frame, drives or found.drives)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
-from gruebler.cli.inputs import chain_of
+from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
-from gruebler.mechanism.inversion import Driven, driven_mechanisms, family, inversions
+from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
 
 __all__ = ["item", "run"]
 
@@ -21,7 +21,7 @@ _HEADERS = {
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count the inversions of one chain."""
-    chain = chain_of(arguments.chain, arguments.space)
+    chain = chain_from_word(arguments.chain, arguments.space)
     if not arguments.drives:
         for option, given in (
             ("--output", arguments.output),
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
             driven_mechanisms(chain, drives=arguments.number, at_frame=not arguments.anywhere, output=arguments.output)
         )
     else:
-        found = [Driven(mechanism) for mechanism in inversions(chain)]
+        found = [DrivenMechanism(mechanism) for mechanism in inversions(chain)]
     if arguments.json:
         document: dict[str, object] = {"count": len(found)}
         if not arguments.count:
@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def item(driven: Driven) -> dict[str, object]:
+def item(driven: DrivenMechanism) -> dict[str, object]:
     """One item of a JSON list: code, text, and family and output if there are any."""
     mechanism = driven.mechanism
     out: dict[str, object] = {"code": mechanism.code(), "text": driven.text()}
@@ -62,7 +62,7 @@ def item(driven: Driven) -> dict[str, object]:
     return out
 
 
-def _row(driven: Driven, lang: str) -> dict[str, str]:
+def _row(driven: DrivenMechanism, lang: str) -> dict[str, str]:
     mechanism = driven.mechanism
     return {
         "frame": mechanism.frame,
@@ -72,7 +72,7 @@ def _row(driven: Driven, lang: str) -> dict[str, str]:
     }
 
 
-def _print(found: Sequence[Driven], lang: str) -> None:
+def _print(found: Sequence[DrivenMechanism], lang: str) -> None:
     """The table, without a column that is empty in every row."""
     rows = [_row(driven, lang) for driven in found]
     keys = [key for key in _HEADERS[lang] if key == "frame" or any(row[key] for row in rows)]

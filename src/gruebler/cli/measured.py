@@ -7,7 +7,7 @@ import re
 
 from gruebler.errors import GrueblerError
 
-__all__ = ["in_language", "length_of", "same_unit"]
+__all__ = ["length_of", "numbers_in_language", "same_unit"]
 
 _METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
 _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")
@@ -44,10 +44,10 @@ def same_unit(value: float, unit: str, wanted: str) -> float:
     return float(f"{value * _METRES[unit] / _METRES[wanted]:.15g}")
 
 
-def in_language(text: str, lang: str) -> str:
+def numbers_in_language(text: str, lang: str) -> str:
     """Numbers with a decimal comma in German; in lists of numbers a semicolon stands between them then.
 
-    >>> in_language("a = 1.5, 2.5", "de")
+    >>> numbers_in_language("a = 1.5, 2.5", "de")
     'a = 1,5; 2,5'
     """
     if lang != "de":

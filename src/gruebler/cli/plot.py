@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.cli.draw import entry_of, german, picture_suffix, sized, told_picture
+from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, told_picture
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Plot into a file, or as SVG on standard output."""
     suffix = picture_suffix(arguments.file, arguments.dark)
     _check(arguments)
-    linkage, between = sized(arguments.linkage)
+    linkage, between = linkage_and_range(arguments.linkage)
     record = entry_of(arguments.linkage)
     name = "" if record is None else record.name.said(arguments.lang)
     figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))
@@ -143,7 +143,7 @@ def _place(key: str, text: str | None) -> complex | None:
 def _ratio(asked: _Asked) -> Figure:
     """Q_G and L/l1 of windows about a crank angle, against the tangent there."""
     from gruebler.drawing.structure.messages import title
-    from gruebler.geometry.straight import Piece, linkage_path, piece, piece_of_ratio
+    from gruebler.geometry.straight import PathPiece, linkage_path, path_piece, piece_of_ratio
     from gruebler.kinematics import move
 
     given, linkage = asked.arguments, asked.linkage
@@ -155,8 +155,8 @@ def _ratio(asked: _Asked) -> Figure:
     path = linkage_path(linkage, point, given.branch)
     tangent = cmath.phase(complex(motion.complex_point(point, 1)[0]))
 
-    def within(windows: Iterable[float]) -> list[Piece]:
-        pieces = (piece(path, middle - w / 2, middle + w / 2, tangent, samples=361) for w in windows)
+    def within(windows: Iterable[float]) -> list[PathPiece]:
+        pieces = (path_piece(path, middle - w / 2, middle + w / 2, tangent, samples=361) for w in windows)
         return [p for p in pieces if _LEAST <= p.ratio <= _MOST]
 
     rough = [p.end - p.start for p in within(_STEP * np.arange(1, round(2 * math.pi / _STEP) + 1))]

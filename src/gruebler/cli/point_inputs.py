@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 
 from gruebler.errors import GrueblerError
-from gruebler.linkages import Named
+from gruebler.linkages import LinkPoint
 
 __all__ = ["point_name", "point_of"]
 
 
-def point_of(text: str) -> str | Named:
+def point_of(text: str) -> str | LinkPoint:
     """A name as it is, or a point of a link in its coordinates.
 
     >>> point_of("coupler:45,40"), point_of("R(0-1)")
-    (Named(link='coupler', x=45.0, y=40.0), 'R(0-1)')
+    (LinkPoint(link='coupler', x=45.0, y=40.0), 'R(0-1)')
     """
     link, colon, place = text.rpartition(":")
     if not colon or "(" in place:
@@ -25,9 +25,9 @@ def point_of(text: str) -> str | Named:
         raise GrueblerError(f"expected a point LINK:X,Y such as coupler:45,40, but found {text!r}") from None
     if not (math.isfinite(x) and math.isfinite(y)):
         raise GrueblerError(f"a point has finite coordinates, but found {text!r}")
-    return Named(link, x, y)
+    return LinkPoint(link, x, y)
 
 
-def point_name(point: str | Named) -> str:
+def point_name(point: str | LinkPoint) -> str:
     """What a table calls it."""
     return point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}"

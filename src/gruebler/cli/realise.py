@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.output import print_json, say_written
-from gruebler.formats.linkages import check_linkage_path, to_json, to_toml, write_linkage
+from gruebler.formats.linkages import check_linkage_path, linkage_to_json, linkage_to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
 __all__ = ["run"]
@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 0 if found.found else 1
     print(found.message(arguments.lang))
     if found.linkage is not None and arguments.output is None:
-        print("\n" + to_toml(found.linkage).rstrip())
+        print("\n" + linkage_to_toml(found.linkage).rstrip())
     return 0 if found.found else 1
 
 
@@ -57,7 +57,7 @@ def _document(found: Realisation, lang: str) -> dict[str, object]:
                     strict=True,
                 )
             ],
-            "linkage": to_json(found.linkage),
+            "linkage": linkage_to_json(found.linkage),
         }
     return out
 

@@ -28,7 +28,7 @@ from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
-from gruebler.mechanism.inversion import Driven, family
+from gruebler.mechanism.inversion import DrivenMechanism, family
 from gruebler.mobility import counted, mobility_report
 
 __all__ = ["run"]
@@ -186,7 +186,7 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
         print(words["more" if more else "found"].format(n=number) if number else words["none"])
 
 
-def _text(driven: Driven, lang: str) -> str:
+def _text(driven: DrivenMechanism, lang: str) -> str:
     text = driven.mechanism.text("german" if lang == "de" else "international")
     if driven.output is not None:
         text += f"; {_WORDS[lang]['output']} {driven.output}"

@@ -10,8 +10,8 @@ from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
-from gruebler.sheets import Sheet, Sized, Told, sheet, sheets
-from gruebler.sheets.messages import Number, explained
+from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
+from gruebler.sheets.messages import LocalNumber, explanation_paragraphs
 
 __all__ = ["run"]
 
@@ -106,14 +106,14 @@ def _show(one: Sheet, arguments: argparse.Namespace) -> int:
     print()
     told = [*one.dimensions, *one.quantities, *one.example_values]
     print_table(words["values"], [_row(value, lang) for value in told], numbers=(3,))
-    for text in explained(one, lang):
+    for text in explanation_paragraphs(one, lang):
         print(f"\n{text}")
     print()
     _say_size(one, one.example, one.record.guide.unit, lang)
     return int(bool(one.wrong))
 
 
-def _row(told: Told, lang: str) -> tuple[str, ...]:
+def _row(told: StatedValue, lang: str) -> tuple[str, ...]:
     words = _WORDS[lang]
     meaning = told.name.said(lang) if told.name else words["of"].format(of="".join(told.of))
     remark = "" if told.printed is None or told.of else words["right"]
@@ -127,7 +127,7 @@ def _row(told: Told, lang: str) -> tuple[str, ...]:
         told.symbol,
         meaning,
         told.exact.typeset if told.exact else "",
-        format(Number(told.derived, lang), "g" if whole else ".6f") + told.unit,
+        format(LocalNumber(told.derived, lang), "g" if whole else ".6f") + told.unit,
         printed.replace(".", ",") if lang == "de" else printed,
         remark if told.holds else words["wrong"],
     )
@@ -153,7 +153,7 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
         },
         "dimensions": [_value(told) for told in one.dimensions],
         "quantities": [_value(told) for told in (*one.quantities, *one.example_values)],
-        "explanation": explained(one, lang),
+        "explanation": explanation_paragraphs(one, lang),
         "diagram": {
             "phi_G_deg": [math.degrees(angle) for angle in one.curve.widths],
             "ratio": one.curve.ratios.tolist(),
@@ -164,7 +164,7 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
     }
 
 
-def _value(told: Told) -> dict[str, Any]:
+def _value(told: StatedValue) -> dict[str, Any]:
     return {
         "symbol": told.symbol,
         "exact": told.exact.text if told.exact else None,
@@ -199,12 +199,12 @@ def _size(one: Sheet, arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _say_size(one: Sheet, found: Sized, unit: str, lang: str) -> None:
+def _say_size(one: Sheet, found: SizedMechanism, unit: str, lang: str) -> None:
     start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
     behind = f" {unit}" if unit else ""
 
     def said(value: float, form: str) -> str:
-        return format(Number(value, lang), form)
+        return format(LocalNumber(value, lang), form)
 
     text = _WORDS[lang]["size"].format(
         length=said(found.length, "g"),
@@ -223,7 +223,7 @@ def _say_size(one: Sheet, found: Sized, unit: str, lang: str) -> None:
         print(f"{symbol} = {exact}{said(value, '.4f')}{behind}")
 
 
-def _sized_item(found: Sized, unit: str) -> dict[str, Any]:
+def _sized_item(found: SizedMechanism, unit: str) -> dict[str, Any]:
     start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
     return {
         "length": found.length,

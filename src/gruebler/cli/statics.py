@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.analysis.drive_cycle import follow
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
@@ -136,7 +136,7 @@ def _motion(
         raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
     if rows is not None:
         return move(linkage, rows, branch=arguments.branch, order=1)
-    course = follow(linkage, arguments.branch)
+    course = drive_cycle(linkage, arguments.branch)
     values = default_rows(course.span, shown_range, turning[0])[:, 0]
     if not course.span.full:
         margin = _FROM_LIMITS * course.span.width

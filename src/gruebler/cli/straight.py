@@ -8,7 +8,7 @@ import math
 from gruebler.cli.coupler_inputs import coupler_point, sizes
 from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
-from gruebler.geometry.straight import Piece, coupler_path, longest_piece, piece, piece_of_ratio
+from gruebler.geometry.straight import PathPiece, coupler_path, longest_piece, path_piece, piece_of_ratio
 
 __all__ = ["run"]
 
@@ -65,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _found(arguments: argparse.Namespace) -> Piece | None:
+def _found(arguments: argparse.Namespace) -> PathPiece | None:
     size = sizes(arguments.lengths)
     path = coupler_path(size, *coupler_point(arguments.point), branch=arguments.branch)
     direction = None if arguments.direction is None else math.radians(arguments.direction)
@@ -80,7 +80,7 @@ def _found(arguments: argparse.Namespace) -> Piece | None:
                 f"{arguments.window[0]:g} and {arguments.window[1]:g}"
             )
         start, end = (math.radians(angle) for angle in arguments.window)
-        return piece(path, start, end, direction)
+        return path_piece(path, start, end, direction)
     if direction is not None:
         raise GrueblerError("--direction does not go with --band: the line of the longest piece is found")
     if not size.limits:

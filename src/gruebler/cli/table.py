@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gruebler.cli.output import print_json
-from gruebler.exercises import lines_of_table, plain_table, teaching_table
+from gruebler.exercises import lines_of_table, table_as_dict, teaching_table
 
 __all__ = ["run"]
 
@@ -14,7 +14,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Print the tables of a name."""
     found = teaching_table(arguments.name)
     if arguments.json:
-        print_json([plain_table(table) for table in found])
+        print_json([table_as_dict(table) for table in found])
     else:
         print("\n\n".join("\n".join(lines_of_table(table, arguments.lang)) for table in found))
     return 0

@@ -13,8 +13,8 @@ from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import code
-from gruebler.mechanism.inversion import Driven
-from gruebler.type_synthesis import Requirements, Wanted, expected_seconds, variants
+from gruebler.mechanism.inversion import DrivenMechanism
+from gruebler.type_synthesis import JointRequirement, Requirements, expected_seconds_of_variants, variants
 
 __all__ = ["run"]
 
@@ -32,13 +32,13 @@ def run(arguments: argparse.Namespace) -> int:
         roll_slide=arguments.roll_slide,
         assortment=assortment_of(arguments.assortment),
         multiple_joints=arguments.multiple_joints,
-        drives=tuple(Wanted.parse(text) for text in arguments.drive),
+        drives=tuple(JointRequirement.parse(text) for text in arguments.drive),
         at_frame=tuple(_at_frame(text) for text in arguments.at_frame),
         frame_joints=arguments.frame_joints,
-        output=None if arguments.output is None else Wanted.parse(arguments.output),
+        output=None if arguments.output is None else JointRequirement.parse(arguments.output),
         output_at_drive={"yes": True, "no": False, None: None}[arguments.output_at_drive],
     )
-    seconds = expected_seconds(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
+    seconds = expected_seconds_of_variants(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
     ask_before(seconds, arguments.yes)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     all_found = progress(variants(wanted), _PROGRESS[arguments.lang] if quiet else "")
@@ -58,12 +58,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _item(one: Chain | Driven) -> dict[str, object]:
-    return item(one) if isinstance(one, Driven) else {"code": code(one), "text": str(one)}
+def _item(one: Chain | DrivenMechanism) -> dict[str, object]:
+    return item(one) if isinstance(one, DrivenMechanism) else {"code": code(one), "text": str(one)}
 
 
-def _at_frame(text: str) -> tuple[Wanted, int]:
+def _at_frame(text: str) -> tuple[JointRequirement, int]:
     symbol, _, number = text.partition(":")
     if number and not number.isdecimal():
         raise GrueblerError(f"--at-frame {text!r}: expected a pair, or a pair and a number such as P:2")
-    return Wanted.parse(f"{symbol}@frame"), int(number or 1)
+    return JointRequirement.parse(f"{symbol}@frame"), int(number or 1)

@@ -4,7 +4,7 @@ from gruebler.enumeration.assortment import Assortment, assortment_number, assor
 from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
 from gruebler.enumeration.counting import ChainCount, count_chains
-from gruebler.enumeration.listing import chains, count
+from gruebler.enumeration.listing import chains, count_request
 from gruebler.enumeration.multiple_assortment import each_joint_assortment, joint_assortment_number, joint_assortments
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.simple_chains import chains_of, edge_blocks, graph6_blocks
@@ -20,8 +20,8 @@ __all__ = [
     "chains",
     "chains_of",
     "contracted_graphs",
-    "count",
     "count_chains",
+    "count_request",
     "each_assortment",
     "each_joint_assortment",
     "edge_blocks",

@@ -20,9 +20,9 @@ __all__ = [
     "assortment_number",
     "assortments",
     "each_assortment",
-    "joint_number",
+    "joint_count",
     "largest_degree",
-    "loop_number",
+    "loop_count",
     "numbers_of",
 ]
 
@@ -30,13 +30,13 @@ Assortment = tuple[int, ...]
 """(n_2, n_3, n_4, ...): how many links have two, three, four ... joints, without zeros at the end."""
 
 
-def loop_number(links: int, mobility: int) -> int | None:
+def loop_count(links: int, mobility: int) -> int | None:
     """The number of independent loops, L = (n - 1 - F)/2; None if no closed chain has these numbers.
 
     Raises:
         GrueblerError: links < 1 or mobility < 0.
 
-    >>> loop_number(8, 1), loop_number(8, 2), loop_number(4, 3)
+    >>> loop_count(8, 1), loop_count(8, 2), loop_count(4, 3)
     (3, None, None)
     """
     if links < 1 or mobility < 0:
@@ -47,13 +47,13 @@ def loop_number(links: int, mobility: int) -> int | None:
     return twice // 2 if twice >= 2 and twice % 2 == 0 else None
 
 
-def joint_number(links: int, mobility: int) -> int | None:
+def joint_count(links: int, mobility: int) -> int | None:
     """The number of joints, g = (3(n - 1) - F)/2; None if no closed chain has these numbers.
 
-    >>> joint_number(8, 1)
+    >>> joint_count(8, 1)
     10
     """
-    loops = loop_number(links, mobility)
+    loops = loop_count(links, mobility)
     return None if loops is None else links - 1 + loops
 
 
@@ -66,7 +66,7 @@ def largest_degree(links: int, mobility: int, *, fractionated: bool = False) -> 
     >>> largest_degree(8, 1), largest_degree(9, 2), largest_degree(9, 2, fractionated=True)
     (4, 4, 5)
     """
-    loops = loop_number(links, mobility)
+    loops = loop_count(links, mobility)
     if loops is None:
         return None
     return loops + (max(1, min(loops, mobility)) if fractionated else 1)
@@ -101,7 +101,7 @@ def each_assortment(links: int, mobility: int = 1, *, fractionated: bool = False
     >>> next(each_assortment(1000))[:2]
     (4, 996)
     """
-    loops, largest = loop_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    loops, largest = loop_count(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
     if loops is None or largest is None:
         return
     # A link of i joints is a part i - 2 of 2(L - 1); what has no part is a binary link.
@@ -129,7 +129,7 @@ def assortment_number(links: int, mobility: int = 1, *, fractionated: bool = Fal
     >>> assortment_number(8), assortment_number(100)
     (3, 117343357)
     """
-    loops, largest = loop_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    loops, largest = loop_count(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
     if loops is None or largest is None:
         return 0
     total = 2 * (loops - 1)

@@ -175,10 +175,10 @@ def packed_graphs(loops: int) -> Iterator[Packed]:
     if not 2 <= loops <= MOST_LOOPS:
         raise GrueblerError(f"contracted graphs are made for 2 to {MOST_LOOPS} loops, not for {loops}")
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.contracted import grow
+    from gruebler._numeric.counting.contracted import add_loop
     from gruebler._numeric.work_estimates import growing
 
-    return _grown(loops, for_work(grow, growing(loops)))
+    return _grown(loops, for_work(add_loop, growing(loops)))
 
 
 def _grown(loops: int, grow: Callable[..., tuple[int, int]]) -> Iterator[Packed]:
@@ -188,9 +188,9 @@ def _grown(loops: int, grow: Callable[..., tuple[int, int]]) -> Iterator[Packed]
         theta[0, :2] = 3 << 4, 3
         yield theta
         return
-    from gruebler._numeric.counting.contracted import make_nursery
+    from gruebler._numeric.counting.contracted import make_growth_memory
 
-    memory = make_nursery()
+    memory = make_growth_memory()
     for parents in _grown(loops - 1, grow):
         k = 0
         while k < len(parents):

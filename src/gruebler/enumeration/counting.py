@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from gruebler.enumeration.assortment import Assortment, loop_number
-from gruebler.enumeration.pieces import PieceCount, count_piece, pieces, run
+from gruebler.enumeration.assortment import Assortment, loop_count
+from gruebler.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
 
 __all__ = ["ChainCount", "count_chains"]
 
@@ -70,8 +70,8 @@ def count_chains(
                inversions=71, drives=153, joint_orbits=84)
     """
     work = pieces(links, mobility, assortment=assortment)
-    counts = [count for done in run(partial(count_piece, orbits=orbits), work, executor) for count in done]
-    if loop_number(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
+    counts = [count for done in run_pieces(partial(count_piece, orbits=orbits), work, executor) for count in done]
+    if loop_count(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
         counts.append(PieceCount((links,), 1, 1, 1, 1))  # one loop: all links alike, all joints alike
     return add_counts(links, mobility, counts, orbits)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from gruebler.enumeration.assortment import joint_number, loop_number
+from gruebler.enumeration.assortment import joint_count, loop_count
 from gruebler.enumeration.pieces import refuse_too_large
 from gruebler.enumeration.request import Request
 
@@ -56,7 +56,7 @@ def expected_chains(request: Request) -> tuple[int, bool]:
     >>> expected_chains(Request(16)), expected_chains(Request(20))[0] > 10**11
     ((19819281, True), True)
     """
-    loops = loop_number(request.links, request.mobility)
+    loops = loop_count(request.links, request.mobility)
     if loops is None:
         return 0, True
     f = request.mobility
@@ -94,7 +94,7 @@ def estimate(request: Request, form: str | None) -> Estimate:
     """
     refuse_too_large(request.links, request.mobility)
     chains, exact = expected_chains(request)
-    links, joints = request.links, joint_number(request.links, request.mobility) or 0
+    links, joints = request.links, joint_count(request.links, request.mobility) or 0
     width = 2 if links <= 10 else 3
     line = {
         None: 0,
@@ -116,4 +116,4 @@ def estimate(request: Request, form: str | None) -> Estimate:
 
 
 def _loops(request: Request) -> int:
-    return loop_number(request.links, request.mobility) or 1
+    return loop_count(request.links, request.mobility) or 1

@@ -17,7 +17,7 @@ from functools import cached_property
 from gruebler.chain import Chain
 from gruebler.isomorphism import code, symmetry
 
-__all__ = ["Parts", "Plain", "fractionated_chains", "parts"]
+__all__ = ["BlockAddition", "Plain", "block_additions", "fractionated_chains"]
 
 Plain = Callable[[int, int], Iterator[Chain]]
 """The chains of so many links and this mobility that do not fall apart, each once."""
@@ -26,7 +26,7 @@ _Edges = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Parts:
+class BlockAddition:
     """One way in which the last block can be added; the chains of different ones are different."""
 
     links: int
@@ -38,7 +38,7 @@ class Parts:
     """The smallest leaf block."""
 
 
-def parts(links: int, mobility: int, kind: str) -> list[Parts]:
+def block_additions(links: int, mobility: int, kind: str) -> list[BlockAddition]:
     """All the ways, as independent pieces of work.
 
     Args:
@@ -46,7 +46,7 @@ def parts(links: int, mobility: int, kind: str) -> list[Parts]:
         mobility: F of the whole chain.
         kind: ``link``: some link separates the chain and no joint does; ``joint``: some joint does.
 
-    >>> [(p.last_links, p.last_mobility) for p in parts(9, 2, "link")]
+    >>> [(p.last_links, p.last_mobility) for p in block_additions(9, 2, "link")]
     [(4, 1)]
     """
     found = []
@@ -55,7 +55,7 @@ def parts(links: int, mobility: int, kind: str) -> list[Parts]:
             for f in range(1, min(mobility - bridges - 1, h - 3) + 1):
                 # The other leaf is not smaller, and blocks share one link where no bridge is between them.
                 if (3 * (h - 1) - f) % 2 == 0:
-                    found.append(Parts(links, mobility, bridges, h, f))
+                    found.append(BlockAddition(links, mobility, bridges, h, f))
     return found
 
 
@@ -65,12 +65,12 @@ def fractionated_chains(plain: Plain, links: int, mobility: int, kind: str) -> I
     `plain` gives the chains they are made of. Cost: about two canonical forms for each link at which a block can
     be added, and two for each chain found.
     """
-    for part in parts(links, mobility, kind):
+    for part in block_additions(links, mobility, kind):
         for compound in composed(plain, part):
             yield compound.chain
 
 
-def composed(plain: Plain, part: Parts) -> Iterator[Compound]:
+def composed(plain: Plain, part: BlockAddition) -> Iterator[Compound]:
     """The chains of one piece of work."""
     blocks = _rooted(plain, part.last_links, part.last_mobility)
     links, mobility = part.links - part.last_links + 1, part.mobility - part.last_mobility

@@ -17,17 +17,17 @@ from math import factorial
 from gruebler.chain import Chain
 from gruebler.isomorphism import symmetry
 
-__all__ = ["Series", "count_fractionated", "cycle_types"]
+__all__ = ["CountSeries", "count_fractionated", "cycle_types"]
 
 Types = Mapping[tuple[int, ...], Fraction]
 """Cycle lengths of automorphisms on the links, ascending -> number of automorphisms divided by the group's order,
 summed over chains."""
 
 
-class Series:
+class CountSeries:
     """A polynomial in x (one for each link) and y (one for each freedom), cut off at given powers.
 
-    >>> s = Series({(0, 0): Fraction(1), (1, 1): Fraction(2)}, 3, 2)
+    >>> s = CountSeries({(0, 0): Fraction(1), (1, 1): Fraction(2)}, 3, 2)
     >>> sorted((s * s).terms.items())
     [((0, 0), Fraction(1, 1)), ((1, 1), Fraction(4, 1)), ((2, 2), Fraction(4, 1))]
     """
@@ -37,51 +37,51 @@ class Series:
         self.mobility = mobility
         self.terms = {(n, f): c for (n, f), c in terms.items() if c and n <= links and f <= mobility}
 
-    def __add__(self, other: Series) -> Series:
+    def __add__(self, other: CountSeries) -> CountSeries:
         total = dict(self.terms)
         for power, c in other.terms.items():
             total[power] = total.get(power, Fraction(0)) + c
-        return Series(total, self.links, self.mobility)
+        return CountSeries(total, self.links, self.mobility)
 
-    def __sub__(self, other: Series) -> Series:
+    def __sub__(self, other: CountSeries) -> CountSeries:
         return self + other.scaled(Fraction(-1))
 
-    def __mul__(self, other: Series) -> Series:
+    def __mul__(self, other: CountSeries) -> CountSeries:
         total: dict[tuple[int, int], Fraction] = {}
         for (n, f), c in self.terms.items():
             for (m, g), d in other.terms.items():
                 if n + m <= self.links and f + g <= self.mobility:
                     total[n + m, f + g] = total.get((n + m, f + g), Fraction(0)) + c * d
-        return Series(total, self.links, self.mobility)
+        return CountSeries(total, self.links, self.mobility)
 
-    def scaled(self, factor: Fraction) -> Series:
+    def scaled(self, factor: Fraction) -> CountSeries:
         """The series times a number."""
-        return Series({power: factor * c for power, c in self.terms.items()}, self.links, self.mobility)
+        return CountSeries({power: factor * c for power, c in self.terms.items()}, self.links, self.mobility)
 
-    def shifted(self, links: int, mobility: int) -> Series:
+    def shifted(self, links: int, mobility: int) -> CountSeries:
         """The series times x^links y^mobility."""
         moved = {(n + links, f + mobility): c for (n, f), c in self.terms.items()}
-        return Series(moved, self.links, self.mobility)
+        return CountSeries(moved, self.links, self.mobility)
 
-    def stretched(self, k: int) -> Series:
+    def stretched(self, k: int) -> CountSeries:
         """x^k and y^k put in for x and y: k equal things instead of one."""
-        return Series({(k * n, k * f): c for (n, f), c in self.terms.items()}, self.links, self.mobility)
+        return CountSeries({(k * n, k * f): c for (n, f), c in self.terms.items()}, self.links, self.mobility)
 
-    def sets(self) -> Series:
+    def sets(self) -> CountSeries:
         """Multisets of what the series counts, none of which has mobility 0."""
-        exponent = Series({}, self.links, self.mobility)
+        exponent = CountSeries({}, self.links, self.mobility)
         for k in range(1, self.mobility + 1):
             exponent += self.stretched(k).scaled(Fraction(1, k))
-        total = power = one(self.links, self.mobility)
+        total = power = unit_series(self.links, self.mobility)
         for k in range(1, self.mobility + 1):
             power *= exponent
             total += power.scaled(Fraction(1, factorial(k)))
         return total
 
 
-def one(links: int, mobility: int) -> Series:
+def unit_series(links: int, mobility: int) -> CountSeries:
     """The series 1."""
-    return Series({(0, 0): Fraction(1)}, links, mobility)
+    return CountSeries({(0, 0): Fraction(1)}, links, mobility)
 
 
 def cycle_types(chains: Iterable[Chain]) -> Types:
@@ -158,7 +158,7 @@ def count_fractionated(
 
 def _composed(links: int, mobility: int, blocks: Mapping[tuple[int, int], Types], *, bridges: bool) -> int:
     """The number of trees of two or more blocks, no bridge ending in a link without another joint."""
-    unit = one(links, mobility)
+    unit = unit_series(links, mobility)
     hung = unit  # what hangs on a link, the link itself not counted
     for _ in range(mobility):
         below = _marked(blocks, hung, root=True)
@@ -176,8 +176,8 @@ def _composed(links: int, mobility: int, blocks: Mapping[tuple[int, int], Types]
     return int(found)
 
 
-def _product(cycles: Iterable[int], hung: Series) -> Series:
-    total = one(hung.links, hung.mobility)
+def _product(cycles: Iterable[int], hung: CountSeries) -> CountSeries:
+    total = unit_series(hung.links, hung.mobility)
     for k, times in Counter(cycles).items():
         factor = hung.stretched(k)
         for _ in range(times):
@@ -185,18 +185,18 @@ def _product(cycles: Iterable[int], hung: Series) -> Series:
     return total
 
 
-def _whole(blocks: Mapping[tuple[int, int], Types], hung: Series) -> Series:
+def _whole(blocks: Mapping[tuple[int, int], Types], hung: CountSeries) -> CountSeries:
     """A block with something hung on each of its links."""
-    total = Series({}, hung.links, hung.mobility)
+    total = CountSeries({}, hung.links, hung.mobility)
     for (h, f), types in blocks.items():
         for cycles, weight in types.items():
             total += _product(cycles, hung).scaled(weight).shifted(h, f)
     return total
 
 
-def _marked(blocks: Mapping[tuple[int, int], Types], hung: Series, *, root: bool) -> Series:
+def _marked(blocks: Mapping[tuple[int, int], Types], hung: CountSeries, *, root: bool) -> CountSeries:
     """A block with one link marked; as a root that link is not counted and nothing hangs on it."""
-    total = Series({}, hung.links, hung.mobility)
+    total = CountSeries({}, hung.links, hung.mobility)
     for (h, f), types in blocks.items():
         for cycles, weight in types.items():
             fixed = cycles.count(1)

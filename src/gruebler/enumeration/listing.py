@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from gruebler.chain import Chain
 from gruebler.enumeration.request import Request, RequestCount
 
-__all__ = ["chains", "count"]
+__all__ = ["chains", "count_request"]
 
 
 def chains(
@@ -41,7 +41,7 @@ def chains(
     return chains_of_request(Request(links, mobility, fractionated, wanted, multiple_joints))
 
 
-def count(
+def count_request(
     links: int,
     mobility: int = 1,
     *,
@@ -64,12 +64,12 @@ def count(
 
     Chains that are not fractionated and have simple joints are counted without being built.
 
-    >>> count(9, 2, fractionated="all").to_json()["by_fractionation"]
+    >>> count_request(9, 2, fractionated="all").to_json()["by_fractionation"]
     {'none': 35, 'link': 5, 'joint': 0}
     """
-    from gruebler.enumeration.work_units import Counter, add_tallies, work_of
-    from gruebler.enumeration.worker_pool import perform
+    from gruebler.enumeration.work_units import PieceCounter, add_tallies, work_units
+    from gruebler.enumeration.worker_pool import run_work
 
     wanted = None if assortment is None else tuple(assortment)
     request = Request(links, mobility, fractionated, wanted, multiple_joints)
-    return add_tallies(request, orbits, perform(Counter(request, orbits), work_of(request), executor))
+    return add_tallies(request, orbits, run_work(PieceCounter(request, orbits), work_units(request), executor))

@@ -21,7 +21,7 @@ from gruebler.chain import Chain, Joint
 from gruebler.enumeration.condition import freedoms_of_sets, joint_masks
 from gruebler.isomorphism import canonical_order, code
 
-__all__ = ["merged", "split", "with_multiple_joints"]
+__all__ = ["merge_joints", "split_multiple_joints", "with_multiple_joints"]
 
 
 def with_multiple_joints(
@@ -52,23 +52,23 @@ def _grown(chain: Chain, name: str, fewest: int, most: int | None, largest: int 
     if len(chain.multiple_joints) >= fewest:
         yield chain
     children: dict[str, Chain] = {}
-    for child in merged(chain, preferred=True):
+    for child in merge_joints(chain, preferred=True):
         if most is not None and len(child.multiple_joints) > most:
             continue
         if largest is not None and max(len(joint.links) for joint in child.joints) > largest:
             continue
         children.setdefault(code(child), child)
     for child_name, child in sorted(children.items()):
-        if code(split(child)) == name:
+        if code(split_multiple_joints(child)) == name:
             yield from _grown(child, child_name, fewest, most, largest)
 
 
-def merged(chain: Chain, *, preferred: bool = False) -> Iterator[Chain]:
+def merge_joints(chain: Chain, *, preferred: bool = False) -> Iterator[Chain]:
     """Every chain that merging a joint with a simple joint at one of its links gives, conditions kept; with doubles.
 
     Merging the joint J with the simple joint {a, b}, a in J, takes two from d(S) exactly where S holds b and a link of
     J but not a, so d(S) >= 3 is asked of these sets. With `preferred`, merges are left out that undo a split which
-    `split` would certainly not choose. Cost O(2^n) for each two joints that share a link.
+    `split_multiple_joints` would certainly not choose. Cost O(2^n) for each two joints that share a link.
     """
     n = chain.n
     joints = joint_masks(chain)
@@ -145,13 +145,13 @@ def _best_splits(n: int, joints: Sequence[int]) -> list[tuple[int, int, int]]:
     return found
 
 
-def split(chain: Chain) -> Chain:
+def split_multiple_joints(chain: Chain) -> Chain:
     """The canonical split of a chain with multiple joints: the same structure gives the same split structure.
 
     One link leaves a multiple joint for a simple joint with another link of it.
 
     >>> chain = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0-4) R(4-5) R(5-1)")
-    >>> len(chain.joints), len(split(chain).joints), len(split(chain).multiple_joints)
+    >>> len(chain.joints), len(split_multiple_joints(chain).joints), len(split_multiple_joints(chain).multiple_joints)
     (6, 7, 0)
     """
     rank = {link: place for place, link in enumerate(canonical_order(chain).links)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from gruebler.enumeration.assortment import Assortment, joint_number, largest_degree, numbers_of
+from gruebler.enumeration.assortment import Assortment, joint_count, largest_degree, numbers_of
 from gruebler.enumeration.partitions import Partition, partition_numbers, partitions, running_sums
 
 __all__ = ["JointAssortment", "each_joint_assortment", "joint_assortment_number", "joint_assortments"]
@@ -41,7 +41,7 @@ def each_joint_assortment(links: int, mobility: int = 1, *, fractionated: bool =
     >>> next(each_joint_assortment(6))
     JointAssortment(links=(4, 2), joints=(7,))
     """
-    joints, largest = joint_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    joints, largest = joint_count(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
     if joints is None or largest is None:
         return
     total = 2 * (joints - links)
@@ -61,7 +61,7 @@ def joint_assortment_number(links: int, mobility: int = 1, *, fractionated: bool
     >>> joint_assortment_number(6), joint_assortment_number(100)
     (3, 930512111350)
     """
-    joints, largest = joint_number(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
+    joints, largest = joint_count(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
     if joints is None or largest is None:
         return 0
     total = 2 * (joints - links)

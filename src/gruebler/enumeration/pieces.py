@@ -17,11 +17,11 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.enumeration.assortment import Assortment, joint_number, loop_number
+from gruebler.enumeration.assortment import Assortment, joint_count, loop_count
 from gruebler.enumeration.contracted import MOST_LOOPS, packed_graphs
 from gruebler.errors import GrueblerError
 
-__all__ = ["Piece", "PieceCount", "count_piece", "list_piece", "pieces", "run"]
+__all__ = ["PieceCount", "WorkPiece", "count_piece", "list_piece", "pieces", "run_pieces"]
 
 MOST_FREEDOMS = 24  # the kernels' products of binomial coefficients stay within 64 bits
 
@@ -30,7 +30,7 @@ P = TypeVar("P")
 R = TypeVar("R")
 
 
-class Piece(NamedTuple):
+class WorkPiece(NamedTuple):
     """A part of an enumeration: contracted graphs of one number of loops."""
 
     links: int
@@ -53,7 +53,7 @@ class PieceCount(NamedTuple):
 
 def refuse_too_large(links: int, mobility: int) -> None:
     """Raise `GrueblerError` for more loops or freedoms than the kernels can hold."""
-    loops = loop_number(links, mobility)
+    loops = loop_count(links, mobility)
     if loops is not None and (loops > MOST_LOOPS or mobility > MOST_FREEDOMS):
         raise GrueblerError(
             f"{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
@@ -63,29 +63,29 @@ def refuse_too_large(links: int, mobility: int) -> None:
 
 def pieces(
     links: int, mobility: int, *, assortment: Sequence[int] | None = None, size: int = 50_000_000
-) -> Iterator[Piece]:
+) -> Iterator[WorkPiece]:
     """The non-fractionated chains of n links and mobility F, at least two loops, in pieces of similar work.
 
     Args:
         links: number of links, n.
         mobility: F.
         assortment: (n_2, n_3, ...), if only chains of this assortment are wanted.
-        size: the work of a piece, as `Piece.work`; a contracted graph is not divided.
+        size: the work of a piece, as `WorkPiece.work`; a contracted graph is not divided.
 
     Chains of one loop have no contracted graph and no piece; impossible numbers give no piece either.
 
     Raises:
         GrueblerError: numbers that make no sense, or more loops or freedoms than the kernels can hold.
     """
-    loops = loop_number(links, mobility)
+    loops = loop_count(links, mobility)
     if loops is None or loops < 2:
         return iter(())
     refuse_too_large(links, mobility)
     return _cut(links, mobility, None if assortment is None else tuple(assortment), size)
 
 
-def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) -> Iterator[Piece]:
-    loops = loop_number(links, mobility)
+def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) -> Iterator[WorkPiece]:
+    loops = loop_count(links, mobility)
     assert loops is not None
     waiting: list[Packed] = []
     load = 0
@@ -100,11 +100,11 @@ def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) ->
             waiting.append(rows[begin:end])
             load, begin = int(total[end - 1]), end
             if load >= size:
-                yield Piece(links, mobility, np.concatenate(waiting), load)
+                yield WorkPiece(links, mobility, np.concatenate(waiting), load)
                 total -= load
                 waiting, load = [], 0
     if waiting:
-        yield Piece(links, mobility, np.concatenate(waiting), load)
+        yield WorkPiece(links, mobility, np.concatenate(waiting), load)
 
 
 def _strings(rows: Packed) -> NDArray[np.int64]:
@@ -147,21 +147,21 @@ def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
     return found
 
 
-def count_piece(piece: Piece, orbits: bool = False) -> tuple[PieceCount, ...]:
+def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...]:
     """The numbers of chains of a piece by assortment, with orbits if asked for.
 
     Raises:
         OverflowError: a number beyond 64 bits.
     """
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.census import COLUMNS, DEGREES, DIGITS, make_bench, take_census
+    from gruebler._numeric.counting.census import COLUMNS, DEGREES, DIGITS, make_census_memory, take_census
     from gruebler._numeric.work_estimates import census
 
-    loops = loop_number(piece.links, piece.mobility)
+    loops = loop_count(piece.links, piece.mobility)
     assert loops is not None
     table = np.zeros((len(piece.graphs), COLUMNS), np.int64)
     count = for_work(take_census, census(len(piece.graphs)))
-    count(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_bench(loops, piece.mobility), table)
+    count(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_census_memory(loops, piece.mobility), table)
     found = []
     for code in np.unique(table[:, DEGREES]):
         higher = []
@@ -174,7 +174,7 @@ def count_piece(piece: Piece, orbits: bool = False) -> tuple[PieceCount, ...]:
     return tuple(found)
 
 
-def list_piece(piece: Piece, form: str = "edges") -> NDArray[np.uint8]:
+def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
     """The chains of a piece in canonical order.
 
     Args:
@@ -185,15 +185,15 @@ def list_piece(piece: Piece, form: str = "edges") -> NDArray[np.uint8]:
     return blocks[0] if len(blocks) == 1 else np.concatenate(blocks)
 
 
-def _blocks(piece: Piece, form: str) -> Iterator[NDArray[np.uint8]]:
+def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.counting.chain_lists import line_length, list_chains, make_desk, write_graph6
+    from gruebler._numeric.counting.chain_lists import line_length, list_chains, make_list_memory, write_graph6
     from gruebler._numeric.work_estimates import census, writing
 
-    loops, joints = loop_number(piece.links, piece.mobility), joint_number(piece.links, piece.mobility)
+    loops, joints = loop_count(piece.links, piece.mobility), joint_count(piece.links, piece.mobility)
     assert loops is not None
     assert joints is not None
-    desk = make_desk(loops, piece.mobility)
+    desk = make_list_memory(loops, piece.mobility)
     graphs = np.ascontiguousarray(piece.graphs)
     room = max(256, min(65536, piece.work // 4))
     listed = for_work(list_chains, census(len(graphs)))
@@ -211,7 +211,7 @@ def _blocks(piece: Piece, form: str) -> Iterator[NDArray[np.uint8]]:
             return
 
 
-def run(
+def run_pieces(
     function: Callable[[P], R], work: Iterable[P], executor: Executor | None = None, ahead: int = 64
 ) -> Iterator[R]:
     """The results of a function for every piece, in order; at most `ahead` pieces are out at a time.

@@ -8,11 +8,19 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gruebler.atomic_files import temporary_directory
-from gruebler.enumeration.assortment import loop_number
+from gruebler.enumeration.assortment import loop_count
 from gruebler.enumeration.checkpoint import Checkpoint, PieceFiles
 from gruebler.enumeration.request import Request, RequestCount
-from gruebler.enumeration.work_units import Counter, Lister, Listing, Tally, Work, add_tallies, work_of
-from gruebler.enumeration.worker_pool import Progress, Watch, perform
+from gruebler.enumeration.work_units import (
+    PieceCounter,
+    PieceLister,
+    PieceListing,
+    PieceTally,
+    Work,
+    add_tallies,
+    work_units,
+)
+from gruebler.enumeration.worker_pool import Progress, ProgressCounter, run_work
 
 __all__ = ["FORMATS", "run_count", "run_list"]
 
@@ -44,25 +52,27 @@ def run_count(
 
     Raises `RunError` where workers or the directory fail, and `GrueblerError` for more loops than can be worked on.
     """
-    watch = Watch(progress, expected)
+    watch = ProgressCounter(progress, expected)
     store = _store(checkpoint, request, {"count": True, "orbits": orbits})
 
-    def known(number: int) -> list[Tally] | None:
+    def known(number: int) -> list[PieceTally] | None:
         kept = store.head(number) if store is not None else None
         try:
-            found = [Tally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (kept or {})["tallies"]]
+            found = [PieceTally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (kept or {})["tallies"]]
         except (KeyError, TypeError, ValueError):  # none, or not the head of a counted piece
             return None
         watch.add(sum(tally.chains for tally in found), fresh=False)
         return found
 
-    def finished(number: int, found: list[Tally]) -> None:
+    def finished(number: int, found: list[PieceTally]) -> None:
         if store is not None:
             store.save(number, {"tallies": found})
         watch.add(sum(tally.chains for tally in found), fresh=True)
 
-    size = _COUNTED_LONG if (loop_number(request.links, request.mobility) or 0) > 7 else _COUNTED
-    results = perform(Counter(request, orbits), work_of(request, size=size), executor, known=known, finished=finished)
+    size = _COUNTED_LONG if (loop_count(request.links, request.mobility) or 0) > 7 else _COUNTED
+    results = run_work(
+        PieceCounter(request, orbits), work_units(request, size=size), executor, known=known, finished=finished
+    )
     found = add_tallies(request, orbits, results)
     if store is not None:
         store.tidy()
@@ -77,15 +87,15 @@ def run_list(
     checkpoint: Path | None = None,
     progress: Callable[[Progress], None] | None = None,
     expected: int | None = None,
-) -> Generator[Listing, None, None]:
+) -> Generator[PieceListing, None, None]:
     """The chains asked for, written out in a format piece by piece; arguments as for `run_count`.
 
     Raises as `run_count`, while it is gone through.
     """
-    watch = Watch(progress, expected)
+    watch = ProgressCounter(progress, expected)
     store = _store(checkpoint, request, {"format": form})
-    lister = Lister(request, form)
-    work = work_of(request, size=_LISTED[form])
+    lister = PieceLister(request, form)
+    work = work_units(request, size=_LISTED[form])
     if store is not None:
         yield from _filed(lister, work, executor, store, watch)
         store.tidy()
@@ -104,10 +114,10 @@ _Head = list[tuple[str, int, int]]
 
 
 @dataclass(frozen=True, slots=True)
-class _Filing:
+class _ListToFile:
     """What a worker does to list a piece: the text goes into a file, only its head is handed back."""
 
-    lister: Lister
+    lister: PieceLister
     files: PieceFiles
 
     def __call__(self, numbered: tuple[int, Work]) -> _Head:
@@ -119,12 +129,12 @@ class _Filing:
 
 
 def _filed(
-    lister: Lister,
+    lister: PieceLister,
     work: Iterable[Work],
     executor: Executor | Callable[[], Executor] | None,
     files: PieceFiles,
-    watch: Watch,
-) -> Iterator[Listing]:
+    watch: ProgressCounter,
+) -> Iterator[PieceListing]:
     def known(number: int) -> _Head | None:
         try:
             head = [(kind, chains, length) for kind, chains, length in (files.head(number) or {})["listings"]]
@@ -136,11 +146,11 @@ def _filed(
     def finished(_: int, head: _Head) -> None:
         watch.add(sum(chains for _, chains, _ in head), fresh=True)
 
-    heads = perform(_Filing(lister, files), enumerate(work), executor, known=known, finished=finished)
+    heads = run_work(_ListToFile(lister, files), enumerate(work), executor, known=known, finished=finished)
     for number, head in enumerate(heads):
         body = files.body(number)
         for kind, chains, length in head:
-            yield Listing(kind, chains, body[:length])
+            yield PieceListing(kind, chains, body[:length])
             body = body[length:]
         if not files.durable:
             files.remove(number)

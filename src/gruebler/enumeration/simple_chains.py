@@ -15,17 +15,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.chain import Chain
-from gruebler.enumeration.assortment import loop_number
+from gruebler.enumeration.assortment import loop_count
 from gruebler.enumeration.contracted import ContractedGraph, pack
-from gruebler.enumeration.pieces import Piece, list_piece, pieces, run
+from gruebler.enumeration.pieces import WorkPiece, list_piece, pieces, run_pieces
 
-__all__ = ["chains", "chains_of", "edge_blocks", "graph6_blocks"]
+__all__ = ["chains_of", "edge_blocks", "graph6_blocks", "simple_chains"]
 
 _LAZY = 100_000  # work of a piece when chains are asked for one by one: a few thousand chains
 _BULK = 200_000  # ... and in bulk: some ten thousand chains, a megabyte or two
 
 
-def chains(
+def simple_chains(
     links: int,
     mobility: int = 1,
     *,
@@ -46,7 +46,7 @@ def chains(
     Raises:
         GrueblerError: links < 1, mobility < 0, or more loops than can be worked on.
 
-    >>> for chain in chains(6):
+    >>> for chain in simple_chains(6):
     ...     print(chain)
     R(0-1) R(0-2) R(2-3) R(3-1) R(0-4) R(4-5) R(5-1)
     R(0-2) R(2-1) R(0-3) R(3-1) R(0-4) R(4-5) R(5-1)
@@ -63,7 +63,7 @@ def chains_of(graph: ContractedGraph, mobility: int = 1) -> Iterator[Chain]:
     3
     """
     links = 2 * graph.loops + 1 + mobility
-    edges = list_piece(Piece(links, mobility, pack([graph]), _BULK))
+    edges = list_piece(WorkPiece(links, mobility, pack([graph]), _BULK))
     return (_chain(links, joints) for joints in edges.tolist())
 
 
@@ -106,9 +106,9 @@ def _blocks(
     links: int, mobility: int, assortment: Sequence[int] | None, executor: Executor | None, form: str, size: int
 ) -> Iterator[NDArray[np.uint8]]:
     work = pieces(links, mobility, assortment=assortment, size=size)
-    if loop_number(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
+    if loop_count(links, mobility) == 1 and (assortment is None or tuple(assortment) == (links,)):
         return iter([_ring(links, form)])
-    return (block for block in run(partial(list_piece, form=form), work, executor) if len(block))
+    return (block for block in run_pieces(partial(list_piece, form=form), work, executor) if len(block))
 
 
 def _ring(links: int, form: str) -> NDArray[np.uint8]:

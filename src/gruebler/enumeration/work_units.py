@@ -1,8 +1,8 @@
 """The work that answers a request, cut into pieces: plain data, in an order that is always the same.
 
 A piece holds contracted graphs (chains that are not fractionated), a way to add the last block (fractionated ones) or
-some chains with simple joints (multiple joints grow from them). `Counter` and `Lister` are pure functions of a piece
-and can be sent to any worker.
+some chains with simple joints (multiple joints grow from them). `PieceCounter` and `PieceLister` are pure functions of
+a piece and can be sent to any worker.
 """
 
 from __future__ import annotations
@@ -14,40 +14,49 @@ from itertools import islice
 from typing import NamedTuple
 
 from gruebler.chain import Chain
-from gruebler.enumeration.assortment import Assortment, loop_number
+from gruebler.enumeration.assortment import Assortment, loop_count
 from gruebler.enumeration.condition import fractionation
-from gruebler.enumeration.fractionated import Parts, composed, fractionated_chains, parts
+from gruebler.enumeration.fractionated import BlockAddition, block_additions, composed, fractionated_chains
 from gruebler.enumeration.multiple import with_multiple_joints
-from gruebler.enumeration.pieces import Piece, count_piece, list_piece, pieces
+from gruebler.enumeration.pieces import WorkPiece, count_piece, list_piece, pieces
 from gruebler.enumeration.request import Request, RequestCount
-from gruebler.enumeration.simple_chains import chains as plain_chains
+from gruebler.enumeration.simple_chains import simple_chains as plain_chains
 from gruebler.isomorphism import orbits as orbits_of
 from gruebler.isomorphism import symmetry
 
-__all__ = ["Counter", "Lister", "Listing", "Tally", "Work", "add_tallies", "chains_of_request", "work_of"]
+__all__ = [
+    "PieceCounter",
+    "PieceLister",
+    "PieceListing",
+    "PieceTally",
+    "Work",
+    "add_tallies",
+    "chains_of_request",
+    "work_units",
+]
 
 _GROWN_AT_ONCE = 32  # chains with simple joints in a piece; at 12 links some thousand chains grow from them
 
 Edges = tuple[tuple[int, int], ...]
 
 
-class Ring(NamedTuple):
+class RingPiece(NamedTuple):
     """The chain of one loop, which has no contracted graph."""
 
     links: int
 
 
-class Grown(NamedTuple):
+class MultipleJointPiece(NamedTuple):
     """Chains with simple joints from which those with multiple joints grow."""
 
     links: int
     simple: tuple[Edges, ...]
 
 
-Work = Piece | Ring | Parts | Grown
+Work = WorkPiece | RingPiece | BlockAddition | MultipleJointPiece
 
 
-class Tally(NamedTuple):
+class PieceTally(NamedTuple):
     """The chains of one class and assortment in a piece, and the orbits on them (0 if not asked for)."""
 
     kind: str
@@ -58,7 +67,7 @@ class Tally(NamedTuple):
     drives: int
 
 
-class Listing(NamedTuple):
+class PieceListing(NamedTuple):
     """The chains of one class in a piece, written out."""
 
     kind: str
@@ -67,7 +76,7 @@ class Listing(NamedTuple):
     """A line for each chain, line ends included: graph6, the text of a chain, or a JSON document."""
 
 
-def work_of(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
+def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
     """The pieces of work, lazily.
 
     Args:
@@ -77,14 +86,14 @@ def work_of(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
     if not request.only_simple:
         simple = chains_of_request(Request(request.links, request.mobility, "all"))
         while some := tuple(_edges(chain) for chain in islice(simple, _GROWN_AT_ONCE)):
-            yield Grown(request.links, some)
+            yield MultipleJointPiece(request.links, some)
         return
     for kind in request.classes:
         if kind != "none":
-            yield from parts(request.links, request.mobility, kind)
-        elif loop_number(request.links, request.mobility) == 1:
+            yield from block_additions(request.links, request.mobility, kind)
+        elif loop_count(request.links, request.mobility) == 1:
             if request.assortment in (None, (request.links,)):
-                yield Ring(request.links)
+                yield RingPiece(request.links)
         else:
             yield from pieces(request.links, request.mobility, assortment=request.assortment, size=size)
 
@@ -102,20 +111,20 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
                 found = fractionated_chains(plain_chains, request.links, request.mobility, kind)
                 yield from (chain for chain in found if request.assortment in (None, chain.assortment))
         return
-    for work in work_of(request):
+    for work in work_units(request):
         yield from (chain for _, chain in _chains(request, work))
 
 
 def _chains(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
     """The chains of a piece with their classes; a piece of contracted graphs is never asked."""
-    if isinstance(work, Ring):
+    if isinstance(work, RingPiece):
         yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
-    elif isinstance(work, Parts):
+    elif isinstance(work, BlockAddition):
         kind = "joint" if work.bridges else "link"
         for compound in composed(plain_chains, work):
             if request.assortment in (None, compound.chain.assortment):
                 yield kind, compound.chain
-    elif isinstance(work, Grown):
+    elif isinstance(work, MultipleJointPiece):
         fewest, most = request.joints_range
         simple = (Chain([("revolute", edge) for edge in edges], links=range(work.links)) for edges in work.simple)
         for chain in with_multiple_joints(simple, fewest=fewest, most=most):
@@ -128,22 +137,22 @@ def _edges(chain: Chain) -> Edges:
 
 
 @dataclass(frozen=True, slots=True)
-class Counter:
+class PieceCounter:
     """What a worker does to count a piece."""
 
     request: Request
     orbits: bool
 
-    def __call__(self, work: Work) -> list[Tally]:
+    def __call__(self, work: Work) -> list[PieceTally]:
         """The numbers of a piece, by class and assortment."""
-        if isinstance(work, Piece):
-            return [Tally("none", *found) for found in count_piece(work, self.orbits)]
+        if isinstance(work, WorkPiece):
+            return [PieceTally("none", *found) for found in count_piece(work, self.orbits)]
         sums: dict[tuple[str, Assortment], list[int]] = {}
         for kind, chain in _chains(self.request, work):
             row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])
             for k, number in enumerate((1, *(_orbits(chain) if self.orbits else ()))):
                 row[k] += number
-        return [Tally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]
+        return [PieceTally(kind, assortment, *row) for (kind, assortment), row in sorted(sums.items())]
 
 
 def _orbits(chain: Chain) -> tuple[int, int, int]:
@@ -160,7 +169,7 @@ def _orbits(chain: Chain) -> tuple[int, int, int]:
     return len(found.link_orbits), len(found.joint_orbits), len(orbits_of(drives, images))
 
 
-def add_tallies(request: Request, orbits: bool, found: Iterable[Iterable[Tally]]) -> RequestCount:
+def add_tallies(request: Request, orbits: bool, found: Iterable[Iterable[PieceTally]]) -> RequestCount:
     """The numbers of all pieces in one."""
     by_assortment: dict[Assortment, int] = {}
     by_kind = dict.fromkeys(request.classes if request.fractionated != "all" else ("none", "link", "joint"), 0)
@@ -185,24 +194,24 @@ def add_tallies(request: Request, orbits: bool, found: Iterable[Iterable[Tally]]
 
 
 @dataclass(frozen=True, slots=True)
-class Lister:
+class PieceLister:
     """What a worker does to write out a piece in a format: graph6, text or json."""
 
     request: Request
     format: str
 
-    def __call__(self, work: Work) -> list[Listing]:
+    def __call__(self, work: Work) -> list[PieceListing]:
         """The chains of a piece by class, written out."""
-        if isinstance(work, Piece) and self.format == "graph6":
+        if isinstance(work, WorkPiece) and self.format == "graph6":
             block = list_piece(work, "graph6")
-            return [Listing("none", len(block), block.tobytes())]
+            return [PieceListing("none", len(block), block.tobytes())]
         found: dict[str, list[str]] = {}
         for kind, joints in self._joints(work):
             found.setdefault(kind, []).append(self._written(kind, joints))
-        return [Listing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(found.items())]
+        return [PieceListing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(found.items())]
 
     def _joints(self, work: Work) -> Iterator[tuple[str, Iterable[Iterable[int]]]]:
-        if isinstance(work, Piece):
+        if isinstance(work, WorkPiece):
             yield from (("none", edges) for edges in list_piece(work).tolist())
         else:
             for kind, chain in _chains(self.request, work):

@@ -19,7 +19,7 @@ from typing import Generic, TypeVar
 
 from gruebler.errors import RunError
 
-__all__ = ["Processes", "Progress", "Watch", "perform"]
+__all__ = ["ProcessPools", "Progress", "ProgressCounter", "run_work"]
 
 P = TypeVar("P")
 R = TypeVar("R")
@@ -57,7 +57,7 @@ class Progress:
         return max(self.expected - self.chains, 0) / self.rate
 
 
-class Processes:
+class ProcessPools:
     """Makes process pools, one after another, whose workers end when this process does.
 
     Workers ignore the interrupt key; each watches a pipe that only this process holds open, so that neither a kill
@@ -102,7 +102,7 @@ def _end_with(watched: Connection) -> None:
         os._exit(1)
 
 
-def perform(
+def run_work(
     function: Callable[[P], R],
     work: Iterable[P],
     executor: Executor | Callable[[], Executor] | None = None,
@@ -138,7 +138,7 @@ def perform(
     told = finished if finished is not None else _nothing
     if executor is None:
         return _done_here(function, work, kept, told)
-    return _done_by(lambda: _Crew(function, executor, retries), work, kept, told, ahead)
+    return _done_by(lambda: _Workers(function, executor, retries), work, kept, told, ahead)
 
 
 def _nothing(*_: object) -> None:
@@ -160,7 +160,7 @@ def _done_here(
 
 
 def _done_by(
-    gather: Callable[[], _Crew[P, R]],
+    gather: Callable[[], _Workers[P, R]],
     work: Iterable[P],
     known: Callable[[int], R | None],
     finished: Callable[[int, R], None],
@@ -191,7 +191,7 @@ def _done_by(
         crew.dismiss()
 
 
-class _Crew(Generic[P, R]):
+class _Workers(Generic[P, R]):
     """An executor with the pieces that are out, and their rescue when workers are lost."""
 
     def __init__(self, function: Callable[[P], R], executor: Executor | Callable[[], Executor], retries: int) -> None:
@@ -244,7 +244,7 @@ class _Crew(Generic[P, R]):
         if callable(self.given):
             self.executor = self.given()
         elif isinstance(self.given, ProcessPoolExecutor):
-            self.given = Processes(getattr(self.given, "_max_workers", None) or os.cpu_count() or 1)
+            self.given = ProcessPools(getattr(self.given, "_max_workers", None) or os.cpu_count() or 1)
             self.executor, self.own = self.given(), True
         else:
             raise RunError(f"the {type(self.given).__name__} broke and cannot be made anew; give a function that can")
@@ -253,18 +253,18 @@ class _Crew(Generic[P, R]):
             self.send(number, piece)
 
     def dismiss(self) -> None:
-        if isinstance(self.given, Processes) and self.out:
+        if isinstance(self.given, ProcessPools) and self.out:
             self.given.stop()
         elif not self.own:
             for future in self.out:
                 future.cancel()
         if self.own:
             self.executor.shutdown(wait=True, cancel_futures=True)
-        if isinstance(self.given, Processes):
+        if isinstance(self.given, ProcessPools):
             self.given.stop()
 
 
-class Watch:
+class ProgressCounter:
     """Counts what is finished and tells how far the run is."""
 
     def __init__(self, tell: Callable[[Progress], None] | None, expected: int | None = None) -> None:

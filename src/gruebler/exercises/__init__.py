@@ -5,12 +5,12 @@ exercises of the seeds, the worked examples and fresh tasks alike; what is print
 as a result. docs/theory/exercises.md has the conventions and the misprints with the computed values.
 """
 
-from gruebler.exercises.generation import KINDS, LEVELS, fresh
-from gruebler.exercises.grading import Mark, Marked, mark, plain_key, plain_name
+from gruebler.exercises.generation import KINDS, LEVELS, generate
+from gruebler.exercises.grading import Grade, Mark, ascii_key, grade, plain_name
 from gruebler.exercises.loader import all_exercises, exercise
-from gruebler.exercises.messages import lines_of_table, said_source, said_value, solution_text, task_text
-from gruebler.exercises.serialisation import plain_marks, plain_solution, plain_table, plain_task
-from gruebler.exercises.solution import Check, Heading, Mistake, Result, Solution, Step, Table
+from gruebler.exercises.messages import lines_of_table, solution_text, source_text, task_text, value_text
+from gruebler.exercises.serialisation import grades_as_list, solution_as_dict, table_as_dict, task_as_dict
+from gruebler.exercises.solution import Check, Heading, Mistake, Result, Solution, SolutionStep, Table
 from gruebler.exercises.solving import Comparison, compare, methods, solve
 from gruebler.exercises.tables import TABLES, teaching_table
 
@@ -20,31 +20,31 @@ __all__ = [
     "TABLES",
     "Check",
     "Comparison",
+    "Grade",
     "Heading",
     "Mark",
-    "Marked",
     "Mistake",
     "Result",
     "Solution",
-    "Step",
+    "SolutionStep",
     "Table",
     "all_exercises",
+    "ascii_key",
     "compare",
     "exercise",
-    "fresh",
+    "generate",
+    "grade",
+    "grades_as_list",
     "lines_of_table",
-    "mark",
     "methods",
-    "plain_key",
-    "plain_marks",
     "plain_name",
-    "plain_solution",
-    "plain_table",
-    "plain_task",
-    "said_source",
-    "said_value",
+    "solution_as_dict",
     "solution_text",
     "solve",
+    "source_text",
+    "table_as_dict",
+    "task_as_dict",
     "task_text",
     "teaching_table",
+    "value_text",
 ]

@@ -10,7 +10,7 @@ from gruebler.errors import GrueblerError
 from gruebler.exercises.solution import Result
 from gruebler.exercises.solving import last_place
 
-__all__ = ["Given", "read_answer", "unit_scale"]
+__all__ = ["GivenAnswer", "read_answer", "unit_scale"]
 
 _NUMBER = re.compile(r"\s*(±?)\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d{1,2})?)\s*(.*?)\s*", re.ASCII)
 _SPELT = {"deg": "°", "degree": "°", "degrees": "°", "grad": "°", "rad/s": "1/s", "s^-1": "1/s", "rad/s²": "1/s²"}
@@ -27,7 +27,7 @@ _WORTH = {
 """What a unit is worth in the first of its kind, and the kind."""
 
 
-class Given(NamedTuple):
+class GivenAnswer(NamedTuple):
     """A number that was answered, in the unit of the result."""
 
     number: float
@@ -36,7 +36,7 @@ class Given(NamedTuple):
     has_unit: bool
 
 
-def read_answer(answer: str, result: Result) -> Given:
+def read_answer(answer: str, result: Result) -> GivenAnswer:
     """The number of an answer; without a unit it is taken in that of the result.
 
     Raises `GrueblerError` for what is no number and for a unit that does not measure the result.
@@ -54,7 +54,7 @@ def read_answer(answer: str, result: Result) -> Given:
     if scale is None:
         wanted = f"in {result.unit}" if result.unit else "without a unit"
         raise GrueblerError(f"expected a number {wanted}, not {answer!r}")
-    return Given(float(text) * scale, last_place(text) * scale, bool(form[3]))
+    return GivenAnswer(float(text) * scale, last_place(text) * scale, bool(form[3]))
 
 
 def unit_scale(unit: str, wanted: str) -> float | None:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from gruebler.analysis import measures
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, angle, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
 from gruebler.fourbar import FourBar, InvertedSliderCrank
-from gruebler.geometry import Path, coupler_path, linkage_path, piece
+from gruebler.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.geometry.sizing import longest_in_band
 from gruebler.kinematics import degrees as turns
 from gruebler.kinematics import move
@@ -37,7 +37,7 @@ def headers(*names: str) -> list[Text]:
     return [Text(name, name) for name in names]
 
 
-def check_path(way: Way, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
+def check_path(way: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
     """The path against the general solver's, whose point is ``C``."""
     moved = move(linkage, drives, branch=branch)
     apart = (
@@ -68,7 +68,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
         raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
     chosen = _read_points(points)
     as_step(step)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that of radius "
         "c about B0, above the line A-B0:",
@@ -106,7 +106,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     if isclose(a, d):
         raise LinkageError(f"with a = d = {d:g} the joint A runs through B0, where the coupler has no direction")
     as_step(step)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:",
         "Die Koppel zeigt stets von A durch den Gleitstein in B0 = (d; 0); C liegt an ihrem Ende, um b von A entfernt:",
@@ -128,7 +128,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     return way.done()
 
 
-def _add_straight(way: Way, path: Path, by_solver: Path, band: float) -> None:
+def _add_straight(way: SolutionBuilder, path: Path, by_solver: Path, band: float) -> None:
     """The longest stretch that keeps within a band."""
     unit = way.unit
     found = longest_in_band(path, 0.0, pi, band)
@@ -146,13 +146,13 @@ def _add_straight(way: Way, path: Path, by_solver: Path, band: float) -> None:
         unit=unit,
         symbol="L",
     )
-    again = piece(by_solver, found.start, found.end, found.direction, samples=2001)
+    again = path_piece(by_solver, found.start, found.end, found.direction, samples=2001)
     en, de = "of this stretch, by the general solver", "dieses Stücks, mit dem allgemeinen Löser"
     way.check(f"Length {en}", f"Länge {de}", found.length, again.length)
     way.check(f"Width {en}, and the band", f"Breite {de}, und der Streifen", band, again.band, tolerance=STRIP)
 
 
-def _add_swing(way: Way, size: InvertedSliderCrank) -> None:
+def _add_swing(way: SolutionBuilder, size: InvertedSliderCrank) -> None:
     a, d = size.a, size.d
     name = Text("swing of the coupler", "Schwingwinkel der Koppel")
     text = Text(

@@ -6,7 +6,7 @@ from math import acos, asin, cos, degrees, hypot, pi, radians, sin, sqrt
 
 from gruebler.analysis import Measures, measures
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, angle, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages.quantities import as_positive
@@ -34,12 +34,12 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     >>> round(slider_crank(1.7, 6, 1.5).number("H"), 6)
     3.522595
     """
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     _add_dead_centres(way, SliderCrank(a, b, e))
     return way.done()
 
 
-def _add_dead_centres(way: Way, size: SliderCrank) -> None:
+def _add_dead_centres(way: SolutionBuilder, size: SliderCrank) -> None:
     if size.dead_centres is None:
         raise LinkageError(
             f"the crank of the slider-crank a = {size.a:g}, b = {size.b:g}, e = {size.e:g} does not turn"
@@ -81,7 +81,7 @@ def _add_dead_centres(way: Way, size: SliderCrank) -> None:
         _add_division(way, a, b, e, found)
 
 
-def _add_division(way: Way, a: float, b: float, e: float, found: Measures) -> None:
+def _add_division(way: SolutionBuilder, a: float, b: float, e: float, found: Measures) -> None:
     """How the eccentricity divides the turn of the crank."""
     name = Text("inclination of the stretched linkage", "Neigung der gestreckten Lage")
     phi_a = way.find("φ_a", name, "arcsin(e/(a + b))", degrees(asin(e / (a + b))), unit="°", a=a, b=b, e=e)
@@ -109,7 +109,7 @@ def _add_division(way: Way, a: float, b: float, e: float, found: Measures) -> No
     )
 
 
-def _add_times(way: Way, delta: float, angles: dict[str, str], formula: str) -> float:
+def _add_times(way: SolutionBuilder, delta: float, angles: dict[str, str], formula: str) -> float:
     name = Text("deviation from half a turn", "Abweichung von der halben Umdrehung")
     way.find("Δφ", name, formula, delta, unit="°", values=angles)
     longer = way.find("φ_max", _LONGER, "180° + Δφ", 180 + delta, unit="°", Δφ=angle(delta))
@@ -136,7 +136,7 @@ def stroke_table(
     below the crank's pivot, and the way made from the outer dead centre.
     """
     as_step(step)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     rod = _rod(way, a, b, ratio)
     size = SliderCrank(a, rod, e)
     _add_dead_centres(way, size)
@@ -174,7 +174,7 @@ def stroke_table(
     return way.done()
 
 
-def _rod(way: Way, a: float, b: float | None, ratio: float | None) -> float:
+def _rod(way: SolutionBuilder, a: float, b: float | None, ratio: float | None) -> float:
     if (b is None) == (ratio is None):
         raise LinkageError("either the connecting rod b is given or the ratio lambda = a/b")
     as_positive("lambda" if b is None else "b", ratio if b is None else b)
@@ -193,7 +193,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     >>> round(found.number("φ_H2"), 4), round(found.number("μ_H2"), 4)
     (78.463, 66.9261)
     """
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     rod = _rod(way, a, b, ratio)
     size = SliderCrank(a, rod)
     if size.dead_centres is None:
@@ -244,7 +244,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     return way.done()
 
 
-def _add_middle_of_time(way: Way, size: SliderCrank, phi: float) -> None:
+def _add_middle_of_time(way: SolutionBuilder, size: SliderCrank, phi: float) -> None:
     name = Text("slider in the middle of the time, at φ = 90°", "Schieber in der Zeitmitte, bei φ = 90°")
     at_time = way.find("s_T", name, "√(b² - a²)", sqrt(size.b**2 - size.a**2), a=size.a, b=size.b)
     name = Text("middle of the way less middle of the time", "Wegmitte minus Zeitmitte")
@@ -255,7 +255,7 @@ def _add_middle_of_time(way: Way, size: SliderCrank, phi: float) -> None:
     way.find("time_part", name, "φ_H2/180°", phi / 180, unit="", symbol="τ", φ_H2=angle(phi))
 
 
-def _add_middle_mistakes(way: Way, phi: float, alpha: float) -> None:
+def _add_middle_mistakes(way: SolutionBuilder, phi: float, alpha: float) -> None:
     way.mistake(
         "φ_H2",
         90.0,
@@ -283,7 +283,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     size = FourBar(a, b, c, d)
     if size.dead_centres is None:
         raise LinkageError(f"the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker: {size.type}")
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     lengths = {"a": number(a), "b": number(b), "c": number(c), "d": number(d)}
     phi_i, phi_a = _dead_centre_angles(way, size, lengths)
     way.say(
@@ -309,7 +309,7 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     return way.done()
 
 
-def _dead_centre_angles(way: Way, size: FourBar, lengths: dict[str, str]) -> tuple[float, float]:
+def _dead_centre_angles(way: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> tuple[float, float]:
     a, b, c, d = size.a, size.b, size.c, size.d
     way.say(
         "In a dead centre crank and coupler lie on one line; with rocker and frame they form a triangle with the "
@@ -327,7 +327,7 @@ def _dead_centre_angles(way: Way, size: FourBar, lengths: dict[str, str]) -> tup
     return found[0], found[1]
 
 
-def _add_swing(way: Way, size: FourBar, lengths: dict[str, str]) -> None:
+def _add_swing(way: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> None:
     a, b, c, d = size.a, size.b, size.c, size.d
     found = []
     for key, sign, en, de in (("ψ_i", "-", "inner", "inneren"), ("ψ_a", "+", "outer", "äußeren")):
@@ -346,7 +346,7 @@ def _add_swing(way: Way, size: FourBar, lengths: dict[str, str]) -> None:
     )
 
 
-def _add_durations(way: Way, rpm: float, longer: float, by_motion: float) -> None:
+def _add_durations(way: SolutionBuilder, rpm: float, longer: float, by_motion: float) -> None:
     name = Text("time of one turn", "Dauer einer Umdrehung")
     period = way.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
     times = []
@@ -383,7 +383,7 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     (91.241438, 52.535031)
     """
     size = FourBar.central(a=a, b=b, c=c)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     text = Text(
         "frame: in both dead centres B lies on one line through A0, so the chord of the swing is 2a long",
         "Gestell: In beiden Totlagen liegt B auf einer Geraden durch A0, die Sehne des Schwingwinkels ist also 2a lang",

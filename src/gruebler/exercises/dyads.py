@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gruebler.chain import Chain
-from gruebler.exercises.solution import Solution, Step, Value, Way
+from gruebler.exercises.solution import Solution, SolutionBuilder, SolutionStep, Value
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.inversion import family
-from gruebler.mobility import count, counted, mobility_report
+from gruebler.mobility import count_freedoms, counted, mobility_report
 from gruebler.text import Text
 from gruebler.transformations import Extension, extend
 
@@ -26,7 +26,7 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
     >>> dyad("R(1-2) R(2-3) R(3-4) R(1-4)")["chains"]
     2
     """
-    way = Way()
+    way = SolutionBuilder()
     start = Chain.parse(chain)
     before = _add_before(way, start)
     way.say(
@@ -59,7 +59,7 @@ def coupler(chain: str) -> Solution:
     >>> coupler("R(1-2) R(2-3) R(3-4) R(4-5) R(1-5)")["F_after"]
     1
     """
-    way = Way()
+    way = SolutionBuilder()
     start = Chain.parse(chain)
     before = _add_before(way, start)
     way.say(
@@ -103,19 +103,21 @@ def _numbered(start: Chain, extended: Chain) -> Chain:
     return extended.renamed({link: str(last + k) for k, link in enumerate(new, 1)})
 
 
-def _add_before(way: Way, start: Chain) -> int:
-    parts = count(start).formula().removeprefix("F = ").split(" = ")
+def _add_before(way: SolutionBuilder, start: Chain) -> int:
+    parts = count_freedoms(start).formula().removeprefix("F = ").split(" = ")
     way.parts.append(
-        Step(Text(f"Before: {start}", f"Vorher: {start.text('german')}"), f"F = {parts[0]}", parts[1], counted(start))
+        SolutionStep(
+            Text(f"Before: {start}", f"Vorher: {start.text('german')}"), f"F = {parts[0]}", parts[1], counted(start)
+        )
     )
     way.keep("F_before", _BEFORE, counted(start), symbol="F")
     return counted(start)
 
 
-def _add_after(way: Way, start: Chain, found: list[Extension]) -> None:
+def _add_after(way: SolutionBuilder, start: Chain, found: list[Extension]) -> None:
     first = found[0].chain
-    parts = count(first).formula().removeprefix("F = ").split(" = ")
-    way.parts.append(Step(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
+    parts = count_freedoms(first).formula().removeprefix("F = ").split(" = ")
+    way.parts.append(SolutionStep(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
     way.keep("F_after", _AFTER, counted(first), symbol="F'")
     change = counted(first) - counted(start)
     way.keep("change", Text("change of F", "Änderung von F"), _CHANGES.get(change, str(change)), symbol="ΔF")
@@ -146,7 +148,7 @@ def _add_after(way: Way, start: Chain, found: list[Extension]) -> None:
     way.table(Text("The different chains", "Die verschiedenen Ketten"), headers, rows)
 
 
-def _add_places(way: Way, found: list[Extension]) -> None:
+def _add_places(way: SolutionBuilder, found: list[Extension]) -> None:
     way.mistake(
         "chains",
         sum(len(one.places) for one in found),

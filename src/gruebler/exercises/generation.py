@@ -15,18 +15,18 @@ from gruebler.errors import GrueblerError
 from gruebler.exercises.solution import number
 from gruebler.exercises.solving import solve
 from gruebler.formats import Exercise
-from gruebler.formats.catalog_records import Asked
+from gruebler.formats.catalog_records import Question
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.mobility import counted, mobility_report
 from gruebler.text import Text
 
-__all__ = ["KINDS", "LEVELS", "fresh", "from_id", "is_fresh"]
+__all__ = ["KINDS", "LEVELS", "generate", "generated_from_id", "is_generated"]
 
 LEVELS = (1, 2, 3)
 Given = dict[str, float | str]
 
 
-class _Made(NamedTuple):
+class _Draft(NamedTuple):
     """What a maker gives: method, quantities, results asked for, the task."""
 
     method: str
@@ -35,12 +35,12 @@ class _Made(NamedTuple):
     task: Text
 
 
-def fresh(kind: str, seed: int, level: int = 1) -> Exercise:
+def generate(kind: str, seed: int, level: int = 1) -> Exercise:
     """A task of a kind and a level from 1 (easy) to 3; its id names all three.
 
     Raises `GrueblerError` for an unknown kind or level, or a seed below 0.
 
-    >>> task = fresh("dead-centre", seed=7)
+    >>> task = generate("dead-centre", seed=7)
     >>> task.id, task.given
     ('dead-centre-1-7', {'a': 30, 'b': 100, 'unit': 'mm'})
     """
@@ -56,7 +56,7 @@ def fresh(kind: str, seed: int, level: int = 1) -> Exercise:
     id = f"{kind}-{level}-{seed}"
     while True:
         made = maker(random, level)
-        asked = tuple(Asked(key) for key in made.asked)
+        asked = tuple(Question(key) for key in made.asked)
         task = Exercise(id=id, name=title, source="", task=made.task, method=made.method, given=made.given, asked=asked)
         if kind not in _MEASURED or _tells_mistakes(task):
             return task
@@ -78,27 +78,27 @@ def _tells_mistakes(task: Exercise) -> bool:
     )
 
 
-_FRESH = re.compile(r"([a-z-]+)-(\d)-(\d{1,9})")
+_GENERATED = re.compile(r"([a-z-]+)-(\d)-(\d{1,9})")
 
 
-def is_fresh(word: str) -> bool:
+def is_generated(word: str) -> bool:
     """Whether a word is the id of a fresh task."""
-    match = _FRESH.fullmatch(word)
+    match = _GENERATED.fullmatch(word)
     return match is not None and match[1] in KINDS
 
 
-def from_id(id: str) -> Exercise:
+def generated_from_id(id: str) -> Exercise:
     """The fresh task of an id."""
-    match = _FRESH.fullmatch(id)
+    match = _GENERATED.fullmatch(id)
     if match is None:
         raise GrueblerError(f"a fresh task is named KIND-LEVEL-SEED, such as grashof-1-7, not {id!r}")
-    return fresh(match[1], int(match[3]), int(match[2]))
+    return generate(match[1], int(match[3]), int(match[2]))
 
 
 # --- chains -----------------------------------------------------------------------------------------
 
 
-def _mobility(random: Random, level: int) -> _Made:
+def _mobility(random: Random, level: int) -> _Draft:
     found = _typed(random, level)
     while mobility_report(found).generic != max(counted(found), 0):
         found = _typed(random, level)
@@ -112,7 +112,7 @@ def _mobility(random: Random, level: int) -> _Made:
         f"Zählen Sie Glieder und Gelenke der ebenen Kette {german} ({de}; die Zahlen benennen die Glieder) und "
         "bestimmen Sie den Getriebefreiheitsgrad F.",
     )
-    return _Made("mobility.chain", {"chain": text}, ("n", "g1", "g2", "F"), task)
+    return _Draft("mobility.chain", {"chain": text}, ("n", "g1", "g2", "F"), task)
 
 
 def _shuffled(random: Random, chain: Chain) -> Chain:
@@ -150,7 +150,7 @@ def _with_pairs(random: Random, chain: Chain, kind: str, number_: int) -> Chain:
     return Chain(joints, links=chain.links)
 
 
-def _dyad(random: Random, level: int) -> _Made:
+def _dyad(random: Random, level: int) -> _Draft:
     is_dyad = random.random() < 0.6
     sizes = {1: ((4, 1), (5, 2)), 2: ((5, 2), (6, 3)), 3: ((6, 1),)}[level]
     size = random.choice(sizes if is_dyad or level == 3 else ((5, 2), (6, 3)))
@@ -180,7 +180,7 @@ def _dyad(random: Random, level: int) -> _Made:
         )
         method = "dyads.coupler"
     task = Text(f"{en.format(text)} {more_en}", f"{de.format(german)} {more_de}")
-    return _Made(method, given, asked, task)
+    return _Draft(method, given, asked, task)
 
 
 _DYADS = (
@@ -239,7 +239,7 @@ def _good_rocker(given: Given) -> bool:
     return size.type.key == "crank_rocker" and size.transmission_angle.smallest > 0.35
 
 
-def _grashof(random: Random, level: int) -> _Made:
+def _grashof(random: Random, level: int) -> _Draft:
     if level == 1:
         wanted = random.choice(_TYPES)
         make = _change_point if wanted.startswith("change") else _any_four_bar
@@ -251,7 +251,7 @@ def _grashof(random: Random, level: int) -> _Made:
             f"Ein Gelenkviereck hat Kurbel, Koppel, Schwinge und Gestell {de}. Ist die Kurbel a umlauffähig, und "
             "welcher Getriebetyp ist es?",
         )
-        return _Made("grashof.condition", given | {"unit": "mm"}, ("sum_ends", "sum_others", "turns", "type"), task)
+        return _Draft("grashof.condition", given | {"unit": "mm"}, ("sum_ends", "sum_others", "turns", "type"), task)
     free = random.choice("bcd") if level == 2 else "d"
     given = _until(lambda: _any_four_bar(random), lambda g: _range_worth_asking(g, free, level))
     del given[free]
@@ -269,7 +269,7 @@ def _grashof(random: Random, level: int) -> _Made:
             f"{task.en} Up to which length of the frame does a turn fully with the frame as the shortest link?",
             f"{task.de} Bis zu welcher Gestelllänge läuft a auch mit dem Gestell als kürzestem Glied um?",
         )
-    return _Made("grashof.length_range", given | {"free": free, "unit": "mm"}, asked, task)
+    return _Draft("grashof.length_range", given | {"free": free, "unit": "mm"}, asked, task)
 
 
 _TYPES = (
@@ -311,7 +311,7 @@ def _article(kind: str) -> str:
 _SLIDER = ("central slider-crank", "zentrische Schubkurbel"), ("eccentric slider-crank", "exzentrische Schubkurbel")
 
 
-def _dead_centre(random: Random, level: int) -> _Made:
+def _dead_centre(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2)
         (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
@@ -328,7 +328,7 @@ def _dead_centre(random: Random, level: int) -> _Made:
             f"{_article(kind)} {kind} has {en}. Find the dead centres and the stroke H{more[0]}.",
             f"Eine {art} hat {de}. Bestimmen Sie die Totlagen und den Hub H{more[1]}.",
         )
-        return _Made("dead_centres.slider_crank", given | {"unit": "mm"}, asked, task)
+        return _Draft("dead_centres.slider_crank", given | {"unit": "mm"}, asked, task)
     given = _until(lambda: _any_four_bar(random), lambda g: _good_rocker(g) and not _four_bar(g).is_central)
     rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
     en, de = _told(given)
@@ -339,10 +339,10 @@ def _dead_centre(random: Random, level: int) -> _Made:
         "Schwingwinkel, den größeren Kurbelwinkel zwischen den Totlagen und die Zeiten beider Wege.",
     )
     asked = ("φ_i", "φ_a", "φ_max", "ψ_H", "T_max", "T_min")
-    return _Made("dead_centres.crank_rocker", given | {"rpm": rpm, "unit": "mm"}, asked, task)
+    return _Draft("dead_centres.crank_rocker", given | {"rpm": rpm, "unit": "mm"}, asked, task)
 
 
-def _transmission(random: Random, level: int) -> _Made:
+def _transmission(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2)
         (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
@@ -350,7 +350,7 @@ def _transmission(random: Random, level: int) -> _Made:
             f"{_article(kind)} {kind} has {en}. Find the largest deviation angle and the smallest transmission angle.",
             f"Eine {art} hat {de}. Bestimmen Sie den größten Ablenkwinkel und den kleinsten Übertragungswinkel.",
         )
-        return _Made("transmission_angle.slider_crank", given | {"unit": "mm"}, ("α_max", "μ_min"), task)
+        return _Draft("transmission_angle.slider_crank", given | {"unit": "mm"}, ("α_max", "μ_min"), task)
     given = _until(lambda: _any_four_bar(random), _good_rocker)
     en, de = _told(given)
     task = Text(
@@ -360,10 +360,10 @@ def _transmission(random: Random, level: int) -> _Made:
         "Beträgt er mindestens 40°?",
     )
     asked = ("μ_I*", "μ_II*", "μ_min", "good")
-    return _Made("transmission_angle.four_bar", given | {"unit": "mm"}, asked, task)
+    return _Draft("transmission_angle.four_bar", given | {"unit": "mm"}, asked, task)
 
 
-def _velocity(random: Random, level: int) -> _Made:
+def _velocity(random: Random, level: int) -> _Draft:
     omega, phi = random.choice((5, 8, 10, 12, 20)), 5 * random.randint(4, 31)
     turn_en, turn_de = f"The crank turns left at ω = {omega} rad/s", f"Die Kurbel dreht links mit ω = {omega} 1/s"
     if level < 3:
@@ -377,7 +377,7 @@ def _velocity(random: Random, level: int) -> _Made:
             f"Eine {art} hat {de}{more[1]}. {turn_de} und steht unter φ = {phi}° zum Schieberweg. Bestimmen Sie die "
             f"Geschwindigkeit{acceleration[1]} des Schiebers.",
         )
-        return _Made("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)
+        return _Draft("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)
     given = _until(lambda: _any_four_bar(random), _good_rocker)
     en, de = _told(given)
     task = Text(
@@ -386,10 +386,10 @@ def _velocity(random: Random, level: int) -> _Made:
         f"Eine Kurbelschwinge hat {de}, B oberhalb der Geraden A-B0. {turn_de} und steht unter φ = {phi}° zum "
         "Gestell. Bestimmen Sie die Geschwindigkeit von B, das Übersetzungsverhältnis und die Beschleunigung von B.",
     )
-    return _Made("velocities.four_bar", given | {"phi": phi, "omega": omega, "unit": "mm"}, ("v_B", "i", "a_B"), task)
+    return _Draft("velocities.four_bar", given | {"phi": phi, "omega": omega, "unit": "mm"}, ("v_B", "i", "a_B"), task)
 
 
-KINDS: dict[str, tuple[Text, Callable[[Random, int], _Made]]] = {
+KINDS: dict[str, tuple[Text, Callable[[Random, int], _Draft]]] = {
     "mobility": (Text("Degree of freedom", "Getriebefreiheitsgrad"), _mobility),
     "grashof": (Text("Grashof's theorem", "Satz von Grashof"), _grashof),
     "dead-centre": (Text("Dead centres", "Totlagen"), _dead_centre),

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from gruebler.errors import GrueblerError, nearest
-from gruebler.exercises.answers import Given, read_answer
+from gruebler.exercises.answers import GivenAnswer, read_answer
 from gruebler.exercises.solution import Mistake, Result, Value
 from gruebler.exercises.solving import scale_of, solve
 from gruebler.formats import Exercise
-from gruebler.formats.catalog_records import Asked
+from gruebler.formats.catalog_records import Question
 from gruebler.text import Text
 
-__all__ = ["Mark", "Marked", "mark", "plain_key", "plain_name"]
+__all__ = ["Grade", "Mark", "ascii_key", "grade", "plain_name"]
 
 _FINE = 1e-3  # relative difference of an answer that is right whatever its digits
 _NEAR = 0.02  # of one that is nearly right: rounded on the way
@@ -31,7 +31,7 @@ class Mark(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Marked:
+class Grade:
     """One answer beside the result."""
 
     key: str
@@ -72,17 +72,17 @@ _ANYWHERE = (
 )
 
 
-def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
+def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
     """Mark the answers, given as texts by the keys of the results or by the symbols that the solution prints.
 
     A number is right within half a unit of its last digit or a thousandth; decimal comma or point, with a unit or in
     that of the result or of the printed answer. Raises `GrueblerError` for a key that is not asked, an answer that is
     no number where one is asked, and an exercise that is answered by a table.
 
-    >>> from gruebler.exercises.generation import fresh
-    >>> [m.mark.value for m in mark(fresh("dead-centre", 7), {"H": "60", "l_a": "130"})]
+    >>> from gruebler.exercises.generation import generate
+    >>> [m.mark.value for m in grade(generate("dead-centre", 7), {"H": "60", "l_a": "130"})]
     ['right', 'right']
-    >>> mark(fresh("dead-centre", 7), {"H": "30"})[0].hint.en
+    >>> grade(generate("dead-centre", 7), {"H": "30"})[0].hint.en
     'The stroke is twice the crank, not once.'
     """
     solution = solve(exercise)
@@ -90,7 +90,7 @@ def mark(exercise: Exercise, answers: Mapping[str, str]) -> list[Marked]:
         raise GrueblerError(
             f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
         )
-    found: list[Marked] = []
+    found: list[Grade] = []
     for word, answer in answers.items():
         key = _asked_for(word, exercise, solution.results)
         if key in (one.key for one in found):
@@ -112,7 +112,7 @@ def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> 
     if len(named) == 1:
         return named[0]
     if named:
-        raise GrueblerError(f"{word} stands for several results of {exercise.id}: {', '.join(map(plain_key, named))}")
+        raise GrueblerError(f"{word} stands for several results of {exercise.id}: {', '.join(map(ascii_key, named))}")
     asked = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
     raise GrueblerError(
         f"{exercise.id} does not ask for {word!r}{nearest(word, asked)}; it asks for {', '.join(asked)}"
@@ -120,19 +120,19 @@ def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> 
 
 
 def _bare(word: str) -> str:
-    return "".join(plain_key(word).split())
+    return "".join(ascii_key(word).split())
 
 
 def plain_name(result: Result) -> str:
     """What a result is called: its key, and its symbol where that is another word, in letters of every keyboard."""
-    key, symbol = plain_key(result.key), plain_key(result.symbol)
+    key, symbol = ascii_key(result.key), ascii_key(result.symbol)
     return f"{key} ({symbol})" if symbol and symbol != key and "." not in key else key
 
 
-def plain_key(key: str) -> str:
+def ascii_key(key: str) -> str:
     """A key in letters that every keyboard has.
 
-    >>> plain_key("Δφ"), plain_key("μ_I*"), plain_key("H")
+    >>> ascii_key("Δφ"), ascii_key("μ_I*"), ascii_key("H")
     ('Deltaphi', 'mu_I*', 'H')
     """
     return "".join(_GREEK.get(letter, letter) for letter in key)
@@ -153,7 +153,7 @@ _GREEK = {
 }
 
 
-def _misprint(asked: Asked, result: Result) -> Iterator[Mistake]:
+def _misprint(asked: Question, result: Result) -> Iterator[Mistake]:
     """The printed answer as a mistake, where it is one."""
     if asked.printed is not None and asked.reason is not None:
         why = asked.reason
@@ -161,24 +161,24 @@ def _misprint(asked: Asked, result: Result) -> Iterator[Mistake]:
         yield Mistake(asked.key, float(asked.printed) * scale_of(asked, result), hint)
 
 
-def _marked(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Marked:
+def _marked(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
     if isinstance(result.value, int | float) and not isinstance(result.value, bool):
         return _marked_number(known, result, answer, scales)
     worth = _worth_of_words(result.value, answer)
     hints = [m.hint for m in known if worth is Mark.WRONG and _worth_of_words(m.value, answer) is Mark.RIGHT]
-    return Marked(result.key, answer, result, worth, hints[0] if hints else None)
+    return Grade(result.key, answer, result, worth, hints[0] if hints else None)
 
 
-def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Marked:
+def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
     given, value = read_answer(answer, result), float(result.value)  # type: ignore[arg-type]
     if result.either_sign:
         given = given._replace(number=math.copysign(given.number, value))
     if not given.has_unit:  # in the unit of the print, if it is right in that one
-        read = [Given(given.number * scale, given.place * scale, False) for scale in scales]
+        read = [GivenAnswer(given.number * scale, given.place * scale, False) for scale in scales]
         given = next((one for one in read if _worth(result.value, one) is Mark.RIGHT), given)
     worth = _worth(result.value, given)
     if worth is Mark.RIGHT and not any(_rather(m.value, value, given) for m in known):
-        return Marked(result.key, answer, result, worth)
+        return Grade(result.key, answer, result, worth)
     hints = [m.hint for m in known if _worth(m.value, given) is Mark.RIGHT]
     if not hints and isinstance(result.value, float):
         hints = [
@@ -187,21 +187,21 @@ def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales
             if result.unit and (not unit or unit == result.unit) and _worth(change(value), given) is Mark.RIGHT
         ]
     if hints:
-        return Marked(result.key, answer, result, Mark.WRONG, hints[0])
+        return Grade(result.key, answer, result, Mark.WRONG, hints[0])
     near = Text(
         "Right in principle; carry more digits on the way.", "Im Ansatz richtig; unterwegs mit mehr Stellen rechnen."
     )
-    return Marked(result.key, answer, result, worth, near if worth is Mark.NEAR else None)
+    return Grade(result.key, answer, result, worth, near if worth is Mark.NEAR else None)
 
 
-def _rather(mistake: Value, right: float, given: Given) -> bool:
+def _rather(mistake: Value, right: float, given: GivenAnswer) -> bool:
     """Whether an answer that rounding would excuse is just that of a known mistake, such as H = 50 for 50.3."""
     if not isinstance(mistake, float):
         return False
     return abs(given.number - mistake) <= 1e-5 * abs(mistake) and abs(given.number - right) > _FINE * abs(right)
 
 
-def _worth(value: Value, given: Given) -> Mark:
+def _worth(value: Value, given: GivenAnswer) -> Mark:
     if isinstance(value, str | Text | bool):
         return Mark.WRONG
     off, size = abs(given.number - value), abs(value)

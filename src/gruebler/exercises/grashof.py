@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from gruebler.analysis import drive_range
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Step, Way, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, SolutionStep, number
 from gruebler.fourbar import FourBar, Grashof, LinkageType, turning_ranges
 from gruebler.text import Text
 
@@ -36,14 +36,14 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     found = FourBar(a, b, c, d).grashof
     if not found.assemblable:
         raise LinkageError(f"lengths {a:g}, {b:g}, {c:g}, {d:g} cannot be assembled")
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     _add_sums(way, found)
     shortest = ", ".join(found.shortest)
     turns = "a" in found.turning
     way.keep("turns", Text("the crank a turns fully", "die Kurbel a ist umlauffähig"), turns)
     way.keep("type", Text("type", "Getriebetyp"), _name(found.type), symbol="")
     way.parts.append(
-        Step(
+        SolutionStep(
             Text(
                 f"The place of the shortest link ({shortest}; d is the frame) makes it a:",
                 f"Mit dem kürzesten Glied an dieser Stelle ({shortest}; d ist das Gestell) ist das Getriebe:",
@@ -69,7 +69,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     return way.done()
 
 
-def _add_sums(way: Way, found: Grashof) -> None:
+def _add_sums(way: SolutionBuilder, found: Grashof) -> None:
     """The sums of Grashof's condition and their relation."""
     unit = way.unit
     low, first, second, high = sorted(found.lengths.values())
@@ -82,11 +82,11 @@ def _add_sums(way: Way, found: Grashof) -> None:
     ends = way.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
     name = Text("sum of the two others", "Summe der beiden anderen")
     others = first + second
-    way.parts.append(Step(name, "s2 = l' + l''", f"{number(second)} + {number(first)}", others, unit))
+    way.parts.append(SolutionStep(name, "s2 = l' + l''", f"{number(second)} + {number(first)}", others, unit))
     way.keep("sum_others", name, others, unit=unit, symbol="s2")
     relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
     way.parts.append(
-        Step(
+        SolutionStep(
             Text("Grashof's condition: " + _SAYS[found.condition][0], "Satz von Grashof: " + _SAYS[found.condition][1]),
             relation[found.condition],
             f"{number(ends)} {found.condition} {number(others)}",
@@ -120,7 +120,7 @@ def length_range(
     if crank >= short:
         told = ", ".join(f"{name} = {value:g}" for name, value in lengths.items())
         raise LinkageError(f"no value of {free} makes a crank-rocker with crank a of {told}: a is not the shortest")
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, and with "
         "it l_min + l_max must not exceed the sum of the two others.",
@@ -152,7 +152,9 @@ def length_range(
     return way.done()
 
 
-def _add_shortest(way: Way, free: str, crank: float, long: float, short: float, names: tuple[str, str]) -> None:
+def _add_shortest(
+    way: SolutionBuilder, free: str, crank: float, long: float, short: float, names: tuple[str, str]
+) -> None:
     """The range with the free length as the shortest link: the crank turns there only if that is the frame."""
     upper = crank + short - long
     name = Text(f"{free} as the shortest link, up to", f"{free} als kürzestes Glied, bis")
@@ -171,7 +173,7 @@ def _add_shortest(way: Way, free: str, crank: float, long: float, short: float, 
     way.find("shortest_upper", name, f"a + {other} - {one}", upper, symbol=symbol, text=text, values=values)
 
 
-def _check_range(way: Way, free: str, lengths: dict[str, float], low: float, high: float) -> None:
+def _check_range(way: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:
     (found,) = (part for part in turning_ranges("a", **lengths) if part.type.key == "crank_rocker")
     way.check("Lower end, by going through all types", "Untere Grenze, aus der Folge aller Typen", low, found.lower)
     way.check("Upper end, by going through all types", "Obere Grenze, aus der Folge aller Typen", high, found.upper)
@@ -195,7 +197,7 @@ def _check_range(way: Way, free: str, lengths: dict[str, float], low: float, hig
         )
 
 
-def _add_range_mistakes(way: Way, free: str, crank: float, long: float, short: float) -> None:
+def _add_range_mistakes(way: SolutionBuilder, free: str, crank: float, long: float, short: float) -> None:
     wrong = (
         "Both cases are needed: once the free link is the longest, once it is not.",
         "Beide Fälle sind nötig: einmal ist das gesuchte Glied das längste, einmal nicht.",

@@ -7,7 +7,7 @@ from functools import cache
 
 from gruebler.catalog import catalog_folder, exercises
 from gruebler.errors import CatalogError, nearest
-from gruebler.exercises.generation import from_id, is_fresh
+from gruebler.exercises.generation import generated_from_id, is_generated
 from gruebler.formats import Exercise, read_exercise
 
 __all__ = ["all_exercises", "exercise"]
@@ -47,8 +47,8 @@ def exercise(word: str) -> Exercise:
     for id in (word, f"exercise-{word}", f"example-{word}"):
         if id in known:
             return known[id]
-    if is_fresh(word):
-        return from_id(word)
+    if is_generated(word):
+        return generated_from_id(word)
     raise CatalogError(
         f"there is no exercise {word!r}{nearest(word, known)}; `gruebler exercise list` shows them, and a fresh task "
         "is named KIND-LEVEL-SEED, such as grashof-1-7"

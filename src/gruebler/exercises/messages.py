@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from gruebler.exercises.grading import plain_key
-from gruebler.exercises.solution import Check, Heading, Result, Solution, Step, Table, Value, number
+from gruebler.exercises.grading import ascii_key
+from gruebler.exercises.solution import Check, Heading, Result, Solution, SolutionStep, Table, Value, number
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
 from gruebler.text import Text
 
-__all__ = ["lines_of_table", "said_source", "said_value", "solution_text", "task_text"]
+__all__ = ["lines_of_table", "solution_text", "source_text", "task_text", "value_text"]
 
 _WORDS = {
     "source": ("Source", "Quelle"),
@@ -47,10 +47,10 @@ def _local(text: str, lang: str) -> str:
     return re.sub(r"(?<=\d)\.(?=\d)", ",", text)
 
 
-def said_value(value: Value, unit: str, lang: str) -> str:
+def value_text(value: Value, unit: str, lang: str) -> str:
     """A value with its unit.
 
-    >>> said_value(78.46304096718453, "°", "de"), said_value(True, "", "de")
+    >>> value_text(78.46304096718453, "°", "de"), value_text(True, "", "de")
     ('78,463°', 'ja')
     """
     if isinstance(value, bool):
@@ -62,10 +62,10 @@ def said_value(value: Value, unit: str, lang: str) -> str:
     return _local(number(value), lang) + (unit if unit in ("", "°") else f" {unit}")
 
 
-def said_source(source: str, lang: str) -> str:
+def source_text(source: str, lang: str) -> str:
     """Where it stands in the documents.
 
-    >>> said_source("000/003, sections 2.3 and 2.6", "de")
+    >>> source_text("000/003, sections 2.3 and 2.6", "de")
     '000/003, Abschnitte 2.3 und 2.6'
     """
     if lang == "de":
@@ -89,12 +89,12 @@ def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = 
     title = f"{exercise.name.said(lang)} ({exercise.id})"
     lines = [title, "-" * len(title)]
     if exercise.source:
-        lines.append(f"{_word('source', lang)}: {said_source(exercise.source, lang)}")
+        lines.append(f"{_word('source', lang)}: {source_text(exercise.source, lang)}")
     lines.append(f"{_word('task', lang)}: {exercise.task.said(lang)}")
     if solution is not None and exercise.asked:
         found = [solution.results[asked.key] for asked in exercise.asked]
         lines.append(f"{_word('asked', lang)}:")
-        lines += [f"  {plain_key(result.key)}: {_asked(result, lang)}" for result in found]
+        lines += [f"  {ascii_key(result.key)}: {_asked(result, lang)}" for result in found]
     if exercise.remark is not None:
         lines.append(f"{_word('remark', lang)}: {exercise.remark.said(lang)}")
     return "\n".join(lines)
@@ -129,9 +129,9 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
     return re.sub(r"\n{3,}", "\n\n", "\n".join(lines))
 
 
-def _step(step: Step, count: int, lang: str) -> list[str]:
+def _step(step: SolutionStep, count: int, lang: str) -> list[str]:
     numbers = "" if step.numbers in step.formula else _local(step.numbers, lang)
-    value = "" if step.value is None else "± " * step.either_sign + said_value(step.value, step.unit, lang)
+    value = "" if step.value is None else "± " * step.either_sign + value_text(step.value, step.unit, lang)
     sides = [side for side in (_local(step.formula, lang), numbers, value) if side]
     if sides[1:] and sides[-1] == sides[-2]:
         sides.pop()
@@ -151,7 +151,7 @@ def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
         line = (
             f"  {_capital(_local(result.name.said(lang), lang))}: {symbol}{'± ' * result.either_sign}"
-            f"{said_value(result.value, result.unit, lang)}"
+            f"{value_text(result.value, result.unit, lang)}"
         )
         if asked.printed is not None:
             printed = _printed(asked.printed, asked.unit or result.unit, lang)
@@ -174,7 +174,7 @@ def _printed(text: str, unit: str, lang: str) -> str:
 
 
 def _check(check: Check, lang: str) -> str:
-    first, second = (said_value(value, check.unit, lang) for value in (check.first, check.second))
+    first, second = (value_text(value, check.unit, lang) for value in (check.first, check.second))
     verdict = _word("agrees" if check.holds else "differs", lang)
     return f"  {_local(check.text.said(lang), lang)}: {first} | {second}: {verdict}"
 
@@ -203,6 +203,6 @@ def _is_whole(value: Value) -> bool:
 
 def _cell(value: Value, decimals: int, lang: str) -> str:
     if isinstance(value, bool) or not isinstance(value, int | float):
-        return said_value(value, "", lang)
+        return value_text(value, "", lang)
     text = f"{value:.{decimals}f}"
     return _local(re.sub(r"^-(0\.?0*)$", r"\1", text), lang)

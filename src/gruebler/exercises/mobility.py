@@ -9,8 +9,8 @@ from typing import NamedTuple
 from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
-from gruebler.exercises.solution import Heading, Solution, Step, Way
-from gruebler.mobility import count, mobility_report
+from gruebler.exercises.solution import Heading, Solution, SolutionBuilder, SolutionStep
+from gruebler.mobility import count_freedoms, mobility_report
 from gruebler.mobility.messages import verdict_word
 from gruebler.text import Text
 
@@ -35,7 +35,7 @@ def chain(chain: str, space: str = "planar") -> Solution:
     >>> chain("R(0-1) R(1-2-3) R(2-4) R(3-5) P(0-4) P(0-5)")["F"]
     1
     """
-    way = Way()
+    way = SolutionBuilder()
     _add_count(way, Chain.parse(chain, space), _Mark("", None), {})
     return way.done()
 
@@ -47,7 +47,7 @@ def machines(machines: str) -> Solution:
     7
     """
     ids = machines.split()
-    way = Way()
+    way = SolutionBuilder()
     for id in ids:
         record = entry(id)
         if len(ids) > 1:
@@ -74,19 +74,19 @@ class _Mark(NamedTuple):
         return self.key
 
 
-def _add_count(way: Way, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
+def _add_count(way: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
     numbered = all(link.isdigit() for link in structure.links)
     links = sorted(structure.links, key=int) if numbered else structure.links
     names = Text(", ".join(links), ", ".join(german.get(link, link) for link in links))
-    way.parts.append(Step(Text(f"Links: {names.en}.", f"Glieder: {names.de}."), "n", "", structure.n))
+    way.parts.append(SolutionStep(Text(f"Links: {names.en}.", f"Glieder: {names.de}."), "n", "", structure.n))
     way.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
     _add_joints(way, structure, mark, german)
-    formula = count(structure)
+    formula = count_freedoms(structure)
     parts = formula.formula().removeprefix("F = ").split(" = ")
-    way.parts.append(Step(_FREEDOM, f"F = {parts[0]}", parts[1], formula.value))
+    way.parts.append(SolutionStep(_FREEDOM, f"F = {parts[0]}", parts[1], formula.value))
     way.keep(f"F{mark}", mark.named(_FREEDOM), formula.value, symbol="F")
     sides = formula.criterion().split(" = ")
-    way.parts.append(Step(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
+    way.parts.append(SolutionStep(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
     report = mobility_report(structure)
     verdict = Text(*(verdict_word(report.verdict, lang) for lang in ("en", "de")))
     drives = "one drive is" if report.generic == 1 else f"{report.generic} drives are"
@@ -104,7 +104,7 @@ def _add_count(way: Way, structure: Chain, mark: _Mark, german: Mapping[str, str
     _add_mistakes(way, structure, mark)
 
 
-def _add_joints(way: Way, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
+def _add_joints(way: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
     short = structure.renamed(_short(structure, german)) if german else structure
     by_freedom = {1: 0, 2: 0} | structure.joints_by_freedom
     for f, number in by_freedom.items():
@@ -114,7 +114,7 @@ def _add_joints(way: Way, structure: Chain, mark: _Mark, german: Mapping[str, st
             ", ".join(short.joint_names(Alphabet.GERMAN)[k] for k in which) or "keine",
         )
         text = Text(f"Joints with f = {f}: {words.en}.", f"Gelenke mit f = {f}: {words.de}.")
-        way.parts.append(Step(text, f"g{f}", "", number))
+        way.parts.append(SolutionStep(text, f"g{f}", "", number))
         name = Text(f"number of joints with f = {f}", f"Anzahl der Gelenke mit f = {f}")
         way.keep(f"g{f}{mark}", mark.named(name), number, symbol=f"g{f}")
     for joint, named in zip(structure.multiple_joints, short.multiple_joints, strict=True):
@@ -132,9 +132,9 @@ def _short(structure: Chain, german: Mapping[str, str]) -> dict[str, str]:
     return names if len(set(names.values())) == len(names) else {link: german.get(link, link) for link in names}
 
 
-def _add_mistakes(way: Way, structure: Chain, mark: _Mark) -> None:
+def _add_mistakes(way: SolutionBuilder, structure: Chain, mark: _Mark) -> None:
     b, n = structure.space.b, structure.n
-    right = count(structure).value
+    right = count_freedoms(structure).value
     extra = [(joint, joint.count - 1) for joint in structure.multiple_joints]
     lost = sum((b - joint.pair.f(structure.space)) * more for joint, more in extra)
     if extra:

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from gruebler.exercises.grading import Marked, plain_key
-from gruebler.exercises.solution import Heading, Part, Solution, Step, Table, Value
+from gruebler.exercises.grading import Grade, ascii_key
+from gruebler.exercises.solution import Heading, Part, Solution, SolutionStep, Table, Value
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
 from gruebler.text import Text
 
-__all__ = ["plain_marks", "plain_solution", "plain_table", "plain_task"]
+__all__ = ["grades_as_list", "solution_as_dict", "table_as_dict", "task_as_dict"]
 
 
-def plain_task(exercise: Exercise) -> dict[str, Any]:
+def task_as_dict(exercise: Exercise) -> dict[str, Any]:
     """The task without its solution."""
     return {
         "id": exercise.id,
@@ -23,17 +23,17 @@ def plain_task(exercise: Exercise) -> dict[str, Any]:
         "task": _value(exercise.task),
         "method": exercise.method,
         "given": dict(exercise.given),
-        "asked": [plain_key(asked.key) for asked in exercise.asked],
+        "asked": [ascii_key(asked.key) for asked in exercise.asked],
         "remark": None if exercise.remark is None else _value(exercise.remark),
     }
 
 
-def plain_solution(exercise: Exercise, solution: Solution) -> dict[str, Any]:
+def solution_as_dict(exercise: Exercise, solution: Solution) -> dict[str, Any]:
     """The task with the way, the results, what is printed for them, and the checks."""
-    return plain_task(exercise) | {
+    return task_as_dict(exercise) | {
         "steps": [_part(part) for part in solution.parts],
         "results": {
-            plain_key(r.key): {"symbol": r.symbol, "name": _value(r.name), "value": _value(r.value), "unit": r.unit}
+            ascii_key(r.key): {"symbol": r.symbol, "name": _value(r.name), "value": _value(r.value), "unit": r.unit}
             for r in solution.results.values()
         },
         "printed": [_comparison(one) for one in compare(exercise, solution) if one.asked.printed is not None],
@@ -44,7 +44,7 @@ def plain_solution(exercise: Exercise, solution: Solution) -> dict[str, Any]:
     }
 
 
-def plain_table(table: Table) -> dict[str, Any]:
+def table_as_dict(table: Table) -> dict[str, Any]:
     """A table: title, headers, rows."""
     return {
         "title": _value(table.title),
@@ -53,11 +53,11 @@ def plain_table(table: Table) -> dict[str, Any]:
     }
 
 
-def plain_marks(marks: Sequence[Marked]) -> list[dict[str, Any]]:
+def grades_as_list(marks: Sequence[Grade]) -> list[dict[str, Any]]:
     """The marked answers."""
     return [
         {
-            "key": plain_key(one.key),
+            "key": ascii_key(one.key),
             "answer": one.answer,
             "mark": one.mark.value,
             "hint": None if one.hint is None else _value(one.hint),
@@ -68,13 +68,13 @@ def plain_marks(marks: Sequence[Marked]) -> list[dict[str, Any]]:
 
 def _part(part: Part) -> dict[str, Any]:
     if isinstance(part, Table):
-        return {"table": plain_table(part)}
+        return {"table": table_as_dict(part)}
     if isinstance(part, Heading):
         return {"heading": _value(part.text)}
     return _step(part)
 
 
-def _step(step: Step) -> dict[str, Any]:
+def _step(step: SolutionStep) -> dict[str, Any]:
     value = None if step.value is None else _value(step.value)
     return {
         "text": _value(step.text),
@@ -87,7 +87,7 @@ def _step(step: Step) -> dict[str, Any]:
 
 def _comparison(one: Comparison) -> dict[str, Any]:
     return {
-        "key": plain_key(one.asked.key),
+        "key": ascii_key(one.asked.key),
         "printed": one.asked.printed,
         "unit": one.asked.unit or one.result.unit,
         "value": _value(one.result.value),

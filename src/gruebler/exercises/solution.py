@@ -1,7 +1,7 @@
 """What a solution is made of: steps with formula and numbers, tables, results by key, checks by a second way.
 
-A solution is computed from the given quantities, in the units in which they are given, angles in degrees. A `Way`
-collects it: one call of `Way.find` is a step and, if it has a key, a result.
+A solution is computed from the given quantities, in the units in which they are given, angles in degrees. A
+`SolutionBuilder` collects it: one call of `SolutionBuilder.find` is a step and, if it has a key, a result.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ __all__ = [
     "Part",
     "Result",
     "Solution",
-    "Step",
+    "SolutionBuilder",
+    "SolutionStep",
     "Table",
     "Value",
-    "Way",
     "angle",
     "as_step",
-    "filled",
+    "fill_template",
     "number",
 ]
 
@@ -40,7 +40,7 @@ _SYMBOL = re.compile(r"[^\W\d_][^\W²³]*(?:\*|''|')?")
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class SolutionStep:
     """One step: what is done, the formula, the formula with its numbers, the value."""
 
     text: Text
@@ -69,7 +69,7 @@ class Heading:
     text: Text
 
 
-Part = Step | Table | Heading
+Part = SolutionStep | Table | Heading
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,10 +172,10 @@ def as_step(step: object) -> float:
     return number
 
 
-def filled(formula: str, values: Mapping[str, float | str]) -> str:
+def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
     """The formula with numbers in place of its symbols; a negative one in brackets where something stands before it.
 
-    >>> filled("√((a + b)² - e²)", {"a": 1.7, "b": 6, "e": -1.5})
+    >>> fill_template("√((a + b)² - e²)", {"a": 1.7, "b": 6, "e": -1.5})
     '√((1.7 + 6)² - (-1.5)²)'
     """
 
@@ -191,7 +191,7 @@ def filled(formula: str, values: Mapping[str, float | str]) -> str:
 
 
 @dataclass(slots=True)
-class Way:
+class SolutionBuilder:
     """A solution on its way."""
 
     unit: str = ""
@@ -222,8 +222,8 @@ class Way:
         shown = self.unit if unit is None else unit
         sign = key if symbol is None else symbol
         value = float(value)
-        numbers = filled(formula, {**(values or {}), **more})
-        self.parts.append(Step(text or name, f"{sign} = {formula}", numbers, value, shown, either_sign))
+        numbers = fill_template(formula, {**(values or {}), **more})
+        self.parts.append(SolutionStep(text or name, f"{sign} = {formula}", numbers, value, shown, either_sign))
         self.keep(key, name, value, unit=shown, symbol=sign, either_sign=either_sign)
         return value
 
@@ -239,7 +239,7 @@ class Way:
 
     def say(self, en: str, de: str, formula: str = "") -> None:
         """A step in words."""
-        self.parts.append(Step(Text(en, de), formula))
+        self.parts.append(SolutionStep(Text(en, de), formula))
 
     def table(
         self, title: Text, headers: Sequence[Text], rows: Iterable[Sequence[Value]], *, decimals: int = 3

@@ -12,7 +12,7 @@ from importlib import import_module
 from gruebler.errors import CatalogError, nearest
 from gruebler.exercises.solution import Result, Solution, Value
 from gruebler.formats import Exercise
-from gruebler.formats.catalog_records import Asked
+from gruebler.formats.catalog_records import Question
 from gruebler.text import Text
 
 __all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve"]
@@ -72,7 +72,7 @@ def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], 
 class Comparison:
     """A printed answer beside the computed one."""
 
-    asked: Asked
+    asked: Question
     result: Result
     agrees: bool | None
     """Whether they agree within the printed digits; None if nothing is printed."""
@@ -98,7 +98,7 @@ def compare(exercise: Exercise, solution: Solution) -> list[Comparison]:
     return found
 
 
-def _agrees(asked: Asked, result: Result) -> bool:
+def _agrees(asked: Question, result: Result) -> bool:
     assert asked.printed is not None
     value: Value = result.value
     if isinstance(value, bool):
@@ -109,7 +109,7 @@ def _agrees(asked: Asked, result: Result) -> bool:
     return abs(float(asked.printed) * scale - value) <= last_place(asked.printed) * scale * (0.5 + 1e-9)
 
 
-def scale_of(asked: Asked, result: Result) -> float:
+def scale_of(asked: Question, result: Result) -> float:
     """What one unit of the printed number is worth in units of the result."""
     return _SCALE.get((asked.unit, result.unit), 1.0) if asked.unit else 1.0
 

@@ -9,9 +9,9 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path, headers
-from gruebler.exercises.solution import Solution, Way, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, number
 from gruebler.fourbar import FourBar, SliderCrank
-from gruebler.geometry import Path, Piece, coupler_path, linkage_path, piece
+from gruebler.geometry import Path, PathPiece, coupler_path, linkage_path, path_piece
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.lever_contact import lever_contact
 from gruebler.kinematics import degrees as turns
@@ -31,7 +31,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     if not b == c == e or a + d >= 2 * b:
         raise LinkageError(f"the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}")
     size = FourBar(a, b, c, d)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one.",
         "B ist von A, B0 und C gleich weit entfernt (b = c = e): Nach Thales ist der Winkel A-B0-C ein rechter.",
@@ -54,7 +54,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     ]
     way.table(PATH, headers("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
     _add_straight(way, size, b + e)
-    _check_piece(way, piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0))
+    _check_piece(way, path_piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0))
     check_path(way, size.linkage({"C": (b + e, 0)}), drives, points, "+")
     way.check(
         "h, from the path at φ = 180°",
@@ -74,7 +74,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     return way.done()
 
 
-def _check_piece(way: Way, again: Piece) -> None:
+def _check_piece(way: SolutionBuilder, again: PathPiece) -> None:
     """Length and width of the straight stretch against those of the path of the general solver."""
     way.check("L, by the general solver", "L, mit dem allgemeinen Löser", way.number("length"), again.length)
     way.check(
@@ -82,9 +82,9 @@ def _check_piece(way: Way, again: Piece) -> None:
     )
 
 
-def _add_straight(way: Way, size: FourBar, reach: float) -> None:
+def _add_straight(way: SolutionBuilder, size: FourBar, reach: float) -> None:
     """The straight stretch of the lambda linkage's path, over half a turn of the crank."""
-    half = piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
+    half = path_piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
     text = Text(
         "straight stretch: from φ = 90° to 270° C runs along a length of",
         "gerades Stück: Von φ = 90° bis 270° läuft C über eine Länge von",
@@ -116,7 +116,7 @@ def watt_linkage(
     size = FourBar(rocker, coupler, rocker, hypot(width, height))
     tilt = -atan2(height, width)
     left = complex(-rocker, height / 2)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, -c/2), "
         "the coupler upright with its middle F in the origin.",
@@ -148,7 +148,7 @@ def watt_linkage(
     return way.done()
 
 
-def _add_watt_stroke(way: Way, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+def _add_watt_stroke(way: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
     """How far F goes up and down while it keeps within so many hundredths of the rocker beside the straight line."""
     from scipy.optimize import brentq
 
@@ -179,7 +179,7 @@ def _add_watt_stroke(way: Way, size: FourBar, tilt: float, left: complex, couple
     )
 
 
-def _check_watt(way: Way, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+def _check_watt(way: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
     """Both ends of the stroke and the order of contact, by the general solver."""
     linkage = size.linkage({"F": (coupler / 2, 0)})
     ends = [radians(way.number(key)) for key in ("t_low", "t_high")]
@@ -211,7 +211,7 @@ def double_rocker(
     [84.071616, 43.677859]
     """
     size = FourBar(d, a, b, c)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     pair = f"{number(c * cos(radians(frame)))}, {number(c * sin(radians(frame)))}"
     way.say(
         f"Pivot of the rocker d in the origin, of the rocker b at ({pair}): the frame c lies at {number(frame)}° to "
@@ -241,16 +241,16 @@ def double_rocker(
     way.table(PATH, headers("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
     ends = radians(start) - tilt, radians(stop) - tilt
     _add_strip(way, size, coupler_path(size, a - ac, 0), ends, frame)
-    _check_piece(way, piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
+    _check_piece(way, path_piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
     _check_limits(way, size)
     check_path(way, size.linkage({"C": (a - ac, 0)}), values - tilt, local, "+")
     return way.done()
 
 
-def _add_strip(way: Way, size: FourBar, path: Path, ends: tuple[float, float], frame: float) -> None:
+def _add_strip(way: SolutionBuilder, size: FourBar, path: Path, ends: tuple[float, float], frame: float) -> None:
     """How straight C runs, and which angles the rocker could reach with a horizontal frame."""
     unit = way.unit
-    found = piece(path, *ends)
+    found = path_piece(path, *ends)
     name = Text("width of the strip in which C keeps", "Breite des Streifens, in dem C bleibt")
     way.keep("band", name, found.band, unit=unit, symbol="Δ")
     way.keep(
@@ -289,7 +289,7 @@ def _add_strip(way: Way, size: FourBar, path: Path, ends: tuple[float, float], f
     )
 
 
-def _check_limits(way: Way, size: FourBar) -> None:
+def _check_limits(way: SolutionBuilder, size: FourBar) -> None:
     """The general solver has no position just beyond the limits of the rocker, and one just inside."""
     linkage = size.linkage()
     for key, side in (("lowest", -1), ("highest", 1)):
@@ -315,7 +315,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     if not a == b == e:
         raise LinkageError(f"an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}")
     size = SliderCrank(a, b)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line through "
         "A0 at right angles to the slider's way.",

@@ -135,7 +135,7 @@ def _roles() -> Table:
 _SIDES = (("d", "b"), ("e", "d"), ("f", "a"), ("g", "c"))
 
 
-def inversions() -> tuple[Table, ...]:
+def inversion_table() -> tuple[Table, ...]:
     """The four mechanisms of one four-bar chain (table 2.3), roles from motion: a shortest, c opposite to it."""
     chain = {"a": 2.0, "b": 5.0, "c": 4.0, "d": 5.0}
     ring = "abcd"
@@ -242,7 +242,7 @@ def _kinds_of_transfer(columns: dict[Text, Callable[[np.ndarray], np.ndarray]]) 
 TABLES: dict[str, Callable[[], tuple[Table, ...]]] = {
     "joints": joints,
     "links": links,
-    "inversions": inversions,
+    "inversions": inversion_table,
     "grashof": grashof_types,
     "transfer": transfer,
 }

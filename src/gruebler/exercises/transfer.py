@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, number
 from gruebler.gears import read_train, speeds
 from gruebler.linkages.quantities import as_positive
 from gruebler.text import Text
@@ -21,7 +21,7 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     """
     if as_positive("i", i) * 360 > _MOST * as_step(step):
         raise LinkageError(f"the table has at most {_MOST} rows, too few for i = {i:g} in steps of {step:g} degrees")
-    way = Way()
+    way = SolutionBuilder()
     name = Text("slope of the transfer function", "Steigung der Übertragungsfunktion")
     way.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
     way.say(

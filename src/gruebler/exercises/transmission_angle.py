@@ -6,7 +6,7 @@ from math import acos, asin, degrees, isclose, pi
 
 from gruebler.analysis import measures
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, angle, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, number
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
@@ -34,7 +34,7 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     size = FourBar(a, b, c, d)
     if "a" not in size.turning:
         raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.say(
         "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - a or d + "
         "a.",
@@ -86,7 +86,7 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     return way.done()
 
 
-def _add_folded(way: Way, key: str, value: float) -> float:
+def _add_folded(way: SolutionBuilder, key: str, value: float) -> float:
     name = Text(f"transmission angle, frame position {key}", f"Übertragungswinkel, Steglage {key}")
     if value <= 90:
         way.keep(f"μ_{key}*", name, value, unit="°")
@@ -96,7 +96,7 @@ def _add_folded(way: Way, key: str, value: float) -> float:
     return found
 
 
-def _add_rule(way: Way, mu: float) -> None:
+def _add_rule(way: SolutionBuilder, mu: float) -> None:
     way.keep(
         "good", Text("good transmission (μ_min at least 40°)", "gute Kraftübertragung (μ_min mindestens 40°)"), mu >= 40
     )
@@ -107,7 +107,7 @@ def _add_rule(way: Way, mu: float) -> None:
     )
 
 
-def _check_smallest(way: Way, linkage: Linkage, mu: float) -> None:
+def _check_smallest(way: SolutionBuilder, linkage: Linkage, mu: float) -> None:
     found = measures(linkage).transmission
     way.check(
         "Smallest transmission angle, from the solved motion",
@@ -125,13 +125,13 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     36.869898
     """
     SliderCrank(a, b, e)  # refuses lengths that are none
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     way.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
     _add_slider_crank(way, a, b, e)
     return way.done()
 
 
-def _add_slider_crank(way: Way, a: float, b: float, e: float, mark: str = "") -> float:
+def _add_slider_crank(way: SolutionBuilder, a: float, b: float, e: float, mark: str = "") -> float:
     """Steps for one slider-crank; ``mark`` numbers its symbols. Returns the smallest transmission angle."""
     size = SliderCrank(a, b, e)
     if size.turning != ("a",):
@@ -185,7 +185,7 @@ def _add_slider_crank(way: Way, a: float, b: float, e: float, mark: str = "") ->
     return mu
 
 
-def _add_other_extreme(way: Way, a: float, b: float, e: float) -> None:
+def _add_other_extreme(way: SolutionBuilder, a: float, b: float, e: float) -> None:
     name = Text("deviation angle with the crank on the other side", "Ablenkwinkel mit der Kurbel auf der anderen Seite")
     other = way.find("α_II", name, "arcsin((a - e)/b)", degrees(asin((a - e) / b)), unit="°", a=a, b=b, e=e)
     name = Text("transmission angle there", "Übertragungswinkel dort")
@@ -211,7 +211,7 @@ def _add_other_extreme(way: Way, a: float, b: float, e: float) -> None:
 
 def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
     """Two central slider-cranks with one crank: how the ratio a/b decides about the transmission angle."""
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     found = []
     for mark, b in (("1", b1), ("2", b2)):
         SliderCrank(a, b)

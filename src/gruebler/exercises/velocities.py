@@ -8,7 +8,7 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, Way, angle, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, number
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import Motion, move
 from gruebler.linkages.quantities import as_finite
@@ -44,7 +44,7 @@ def four_bar(
     pose = size.motion(radians(phi), branch=side)
     if not pose.complete:
         raise LinkageError(pose.message)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     theta, psi = _directions(way, size, phi, side)
     way.say(
         "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the coupler; "
@@ -60,7 +60,7 @@ def four_bar(
     return way.done()
 
 
-def _directions(way: Way, size: FourBar, phi: float, side: int) -> tuple[float, float]:
+def _directions(way: SolutionBuilder, size: FourBar, phi: float, side: int) -> tuple[float, float]:
     a, b, c, d = size.a, size.b, size.c, size.d
     crank = radians(phi)
     joint = a * cmath.exp(1j * crank)
@@ -96,7 +96,9 @@ def _directions(way: Way, size: FourBar, phi: float, side: int) -> tuple[float, 
     return theta, psi
 
 
-def _four_bar_rates(way: Way, size: FourBar, angles: tuple[float, float, float], omega: float) -> tuple[float, float]:
+def _four_bar_rates(
+    way: SolutionBuilder, size: FourBar, angles: tuple[float, float, float], omega: float
+) -> tuple[float, float]:
     a, b, c = size.a, size.b, size.c
     phi, theta, psi = (radians(x) for x in angles)
     shown = dict(zip("φθψ", map(angle, angles), strict=True))
@@ -128,7 +130,7 @@ def _four_bar_rates(way: Way, size: FourBar, angles: tuple[float, float, float],
 
 
 def _four_bar_accelerations(
-    way: Way, size: FourBar, angles: tuple[float, float, float], rates: tuple[float, float, float]
+    way: SolutionBuilder, size: FourBar, angles: tuple[float, float, float], rates: tuple[float, float, float]
 ) -> None:
     a, b, c = size.a, size.b, size.c
     phi, theta, psi = (radians(x) for x in angles)
@@ -168,7 +170,7 @@ def _four_bar_accelerations(
     way.mistake("a_B", normal, "The tangential part is missing.", "Der Tangentialanteil fehlt.")
 
 
-def _add_vectors(way: Way, moved: Motion) -> None:
+def _add_vectors(way: SolutionBuilder, moved: Motion) -> None:
     """The vectors of the plans of velocities and accelerations, as the general solver has them."""
     pins = {name: moved.linkage.named(name)[-1] for name in ("R(crank-coupler)", "R(coupler-rocker)")}
     a, b = pins.values()
@@ -195,7 +197,7 @@ def _add_vectors(way: Way, moved: Motion) -> None:
     way.table(title, headers, [(name, float(z.real), float(z.imag), float(abs(z))) for name, z in rows])
 
 
-def _check_four_bar(way: Way, size: FourBar, moved: Motion, phi: float) -> None:
+def _check_four_bar(way: SolutionBuilder, size: FourBar, moved: Motion, phi: float) -> None:
     speed = f"{way.unit}/s"
     a = size.a * cmath.exp(1j * radians(phi))
     b = complex(moved.complex_point("R(coupler-rocker)")[0])
@@ -249,7 +251,7 @@ def slider_crank(
     size = SliderCrank(a, b, e)
     if not size.motion(radians(phi)).complete:
         raise LinkageError(size.motion(radians(phi)).message)
-    way = Way(unit)
+    way = SolutionBuilder(unit)
     crank = radians(phi)
     low = "e - a·sin φ" if e else "-a·sin φ"
     beta = atan2(e - a * sin(crank), sqrt(b**2 - (e - a * sin(crank)) ** 2))
@@ -293,7 +295,7 @@ def slider_crank(
     return way.done()
 
 
-def _add_inner(way: Way, size: SliderCrank, phi: float, omega: float) -> None:
+def _add_inner(way: SolutionBuilder, size: SliderCrank, phi: float, omega: float) -> None:
     """What changes if the angle is counted from the inner dead centre."""
     other = size.motion(pi + radians(phi), omega=omega)
     v, a = float(other.output.velocity), float(other.output.acceleration)
@@ -318,7 +320,9 @@ def _add_inner(way: Way, size: SliderCrank, phi: float, omega: float) -> None:
     )
 
 
-def _check_slider(way: Way, size: SliderCrank, given: tuple[float, float], found: tuple[float, float]) -> None:
+def _check_slider(
+    way: SolutionBuilder, size: SliderCrank, given: tuple[float, float], found: tuple[float, float]
+) -> None:
     phi, omega = given
     v, acceleration = found
     unit, a, b = way.unit, size.a, size.b

@@ -13,22 +13,22 @@ from typing import Literal, TypeVar
 import msgspec
 
 from gruebler.chain import Chain
-from gruebler.documents import fitted, load
+from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
-from gruebler.formats.linkage_records import Dimensions, dimensioned
-from gruebler.formats.screws import Screws, screwed
+from gruebler.formats.linkage_records import Dimensions, linkage_from_record
+from gruebler.formats.screws import ScrewsRecord, spatial_linkage_from_record
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
-from gruebler.screws import SpatialLinkage, known
+from gruebler.screws import SpatialLinkage, has_only_lower_pairs
 from gruebler.text import Text
 
 __all__ = [
-    "Asked",
     "Case",
+    "ClaimedGroup",
     "Claims",
     "Entry",
     "Exercise",
-    "Group",
+    "Question",
     "Sizes",
     "entry_of_data",
     "read_entry",
@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 
-class Group(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class ClaimedGroup(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A smaller group of motions in which the count is right: its b, the count with it, and why."""
 
     b: int
@@ -57,7 +57,7 @@ class Claims(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     mobility: int | None = None
     """What the machine really does where its special dimensions make it differ from the generic mobility."""
     reason: Text | None = None
-    group: Group | None = None
+    group: ClaimedGroup | None = None
     idle: tuple[str, ...] = ()
 
 
@@ -79,7 +79,7 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
         return (self.drive,) if isinstance(self.drive, str) else self.drive or ()
 
 
-class HomeScrews(Screws, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class ReferenceScrews(ScrewsRecord, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The joints of an entry in one position (`gruebler.formats.screws`), and where their places come from."""
 
     assumed: bool = False
@@ -104,7 +104,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     remark: Text | None = None
     claims: Claims = Claims()
     dimensions: Sizes | None = None
-    screws: HomeScrews | None = None
+    screws: ReferenceScrews | None = None
     """Where the joints lie in one position, for machines in space and for contacts: enough for their mobility."""
 
     def chain(self) -> Chain:
@@ -118,15 +118,15 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
             raise CatalogError(f"the catalog entry {self.id!r} has no dimensions")
         chain = self.chain()
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
-        return dimensioned(self.dimensions, mechanism, self.outputs)
+        return linkage_from_record(self.dimensions, mechanism, self.outputs)
 
     def placed(self) -> Linkage | SpatialLinkage | None:
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
         if self.screws is not None:
             chain = self.chain()
-            return screwed(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
+            return spatial_linkage_from_record(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
         linkage = None if self.dimensions is None else self.linkage()
-        return linkage if linkage is not None and known(linkage) else None
+        return linkage if linkage is not None and has_only_lower_pairs(linkage) else None
 
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -138,7 +138,7 @@ class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True
     claims: Claims = Claims()
 
 
-class Asked(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class Question(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """One thing that an exercise asks, and what is printed for it."""
 
     key: str
@@ -163,7 +163,7 @@ class Exercise(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     """What solves it, such as ``dead_centres.slider_crank`` (`gruebler.exercises`); None: the cases are all."""
     given: dict[str, float | str] = {}
     """The given quantities, as the method names them; angles in degrees."""
-    asked: tuple[Asked, ...] = ()
+    asked: tuple[Question, ...] = ()
     remark: Text | None = None
 
 
@@ -179,7 +179,7 @@ def read_entry(path: Path) -> Entry:
 
 def entry_of_data(data: object, where: str) -> Entry:
     """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
-    entry = fitted(data, Entry, lambda text: CatalogError(f"{where}: {text}"))
+    entry = convert_document(data, Entry, lambda text: CatalogError(f"{where}: {text}"))
     _check(entry, where)
     return entry
 
@@ -193,7 +193,7 @@ def _read(path: Path, kind: type[Record]) -> Record:
     def fail(text: str) -> CatalogError:
         return CatalogError(f"{path}: {text}")
 
-    return fitted(load(path, fail), kind, fail)
+    return convert_document(load_document(path, fail), kind, fail)
 
 
 def _check(entry: Entry, path: Path | str) -> None:

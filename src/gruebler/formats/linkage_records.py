@@ -12,18 +12,18 @@ from typing import Any
 
 import msgspec
 
-from gruebler.documents import fitted
+from gruebler.documents import convert_document
 from gruebler.errors import LinkageError, nearest
 from gruebler.formats.angles import in_degrees, in_radians
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
-from gruebler.fourbar.length_forms import Door, mapped
+from gruebler.fourbar.length_forms import ClosedForm, linkage_on_mechanism
 from gruebler.fourbar.slider_crank import SliderCrank
-from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, NonCircular, Place, Wheel
+from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
 from gruebler.linkages.model import Linkage, joint_number
 from gruebler.mechanism import Mechanism
 
-__all__ = ["Dimensions", "dimensioned"]
+__all__ = ["Dimensions", "linkage_from_record"]
 
 
 class FourBarLengths(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -114,7 +114,7 @@ _DOORS = {"four_bar": FourBar, "slider_crank": SliderCrank, "inverted_slider_cra
 _WAYS = ("elements", "places", *_DOORS)
 
 
-def dimensioned(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
+def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs: tuple[str, ...] | None) -> Linkage:
     """The linkage of these sizes; without a mechanism the one that four_bar, slider_crank, ... bring along.
 
     Raises `LinkageError` with the key of the first thing that does not fit.
@@ -158,10 +158,10 @@ def _door(
     if branch not in (1, -1):
         raise LinkageError(f"{way}.branch: expected 1 or -1, but found {branch}")
     try:
-        door: Door = _DOORS[way](**given)
+        door: ClosedForm = _DOORS[way](**given)
     except LinkageError as error:
         raise LinkageError(f"{way}: {error}") from None
-    linkage = mapped(way, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
+    linkage = linkage_on_mechanism(way, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
     points = _points(sizes.points, linkage.mechanism.chain.links)
     return linkage.with_points(points) if points else linkage
 
@@ -229,7 +229,7 @@ def _element(raw: Any, where: str, slots: bool) -> object:
     if slots and isinstance(raw, Mapping):
         return {link: _element(one, f"{where}.{link}", False) for link, one in raw.items()}
     if isinstance(raw, Mapping):
-        return _round(fitted(raw, RoundRecord, LinkageError, where), raw, where)
+        return _round(convert_document(raw, RoundRecord, LinkageError, where), raw, where)
     if slots and isinstance(raw, list) and len(raw) == 4 and isinstance(raw[3], str):
         return (*_numbers(raw[:3], where, (3,)), raw[3])
     return _numbers(raw, where, (2, 3))
@@ -249,13 +249,13 @@ def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element
         if record.base is None:
             raise LinkageError(f"{where}.base: the radius of the base circle is missing")
         sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
-        return Disc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
+        return CamDisc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
     if record.pins is not None:
-        return Driver(x, y, angle, record.pins)
+        return GenevaDriver(x, y, angle, record.pins)
     if record.transfer is not None:
         return NonCircular(x, y, angle, record.transfer, record.teeth)
     assert record.slots is not None
-    return Cross(x, y, angle, record.slots, record.internal)
+    return GenevaWheel(x, y, angle, record.slots, record.internal)
 
 
 def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
@@ -283,10 +283,10 @@ def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]
         raise LinkageError(f"{where}: expected an angle in degrees, but found {_short(raw[2])}") from None
 
 
-def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Place]:
+def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
     for link in home:
         _check_link(link, links, "home")
-    return {link: Place(*_numbers(raw, f"home.{link}", (3,))) for link, raw in home.items()}
+    return {link: Pose2D(*_numbers(raw, f"home.{link}", (3,))) for link, raw in home.items()}
 
 
 def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tuple[str, float, float]]:
@@ -295,7 +295,7 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
         where = f"points.{name}"
         if not name.strip() or not name.isprintable():
             raise LinkageError(f"points: {name!r} cannot name a point")
-        point = fitted(raw, PointRecord, LinkageError, where)
+        point = convert_document(raw, PointRecord, LinkageError, where)
         _check_link(point.link, links, where)
         x, y = _numbers(point.at, f"{where}.at", (2,))
         out[name] = (point.link, x, y)

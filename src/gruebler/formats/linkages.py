@@ -12,15 +12,22 @@ from typing import Any
 
 from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
-from gruebler.documents import fitted, load
+from gruebler.documents import convert_document, load_document
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.angles import in_degrees
-from gruebler.formats.linkage_records import Dimensions, dimensioned
-from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, NonCircular, Place, Wheel
+from gruebler.formats.linkage_records import Dimensions, linkage_from_record
+from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
 from gruebler.linkages.model import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["check_linkage_path", "linkage_from_json", "read_linkage", "to_json", "to_toml", "write_linkage"]
+__all__ = [
+    "check_linkage_path",
+    "linkage_from_json",
+    "linkage_to_json",
+    "linkage_to_toml",
+    "read_linkage",
+    "write_linkage",
+]
 
 _LONGEST = 50_000  # characters of the joints; a linkage of a thousand links fits
 
@@ -43,7 +50,7 @@ def read_linkage(path: Path | str) -> Linkage:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError(f"{path}: a linkage is in a .toml or .json file")
-    data = load(path, lambda text: LinkageError(f"{path}: {text}"))
+    data = load_document(path, lambda text: LinkageError(f"{path}: {text}"))
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
             f"{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler freedoms "
@@ -56,14 +63,14 @@ def read_linkage(path: Path | str) -> Linkage:
 
 
 def linkage_from_json(document: Mapping[str, Any]) -> Linkage:
-    """The linkage of plain data, such as `to_json` makes.
+    """The linkage of plain data, such as `linkage_to_json` makes.
 
     >>> linkage_from_json({"unit": "mm", "four_bar": {"a": 25, "b": 70, "c": 40, "d": 70}})
     <linkage R(frame-crank) R(crank-coupler) R(coupler-rocker) R(frame-rocker); frame=frame; drive=R(frame-crank)>
     """
-    record = fitted(document, LinkageRecord, LinkageError)
+    record = convert_document(document, LinkageRecord, LinkageError)
     mechanism = _mechanism(record)
-    linkage = dimensioned(record, mechanism, record.outputs)
+    linkage = linkage_from_record(record, mechanism, record.outputs)
     if record.joints is None and record.drives is not None:
         linkage = linkage.with_mechanism(_driven(linkage.mechanism.chain, linkage.mechanism.frame, record.drives))
     return linkage
@@ -101,7 +108,7 @@ def _driven(chain: Chain, frame: str, drives: tuple[str, ...]) -> Mechanism:
         raise LinkageError(f"drives: {error}") from None
 
 
-def to_json(linkage: Linkage) -> dict[str, Any]:
+def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
     """Plain data for `json.dumps`; `linkage_from_json` takes it back exactly."""
     mechanism = linkage.mechanism
     chain, names = mechanism.chain, mechanism.chain.joint_names()
@@ -123,25 +130,25 @@ def to_json(linkage: Linkage) -> dict[str, Any]:
     return document
 
 
-def _plain(element: Element | Place) -> Any:
+def _plain(element: Element | Pose2D) -> Any:
     at = [element.x, element.y]
     if isinstance(element, Circle):
         return {"at": at, "circle": element.radius}
     if isinstance(element, Wheel):
         more = {"teeth": element.teeth, "belt": element.belt}
         return {"at": at, "radius": element.radius} | {key: value for key, value in more.items() if value}
-    if isinstance(element, Disc | Driver | Cross | NonCircular):
+    if isinstance(element, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
         found = {"at": at, **element._asdict(), "angle": in_degrees(element.angle)}
         renamed = {{"lift": "cam"}.get(key, key): value for key, value in found.items() if key not in "xy"}
         return {key: value for key, value in renamed.items() if value not in (False, 0.0) or key in ("base", "angle")}
     return [*at, *(in_degrees(angle) for angle in element[2:])]
 
 
-def to_toml(linkage: Linkage) -> str:
+def linkage_to_toml(linkage: Linkage) -> str:
     """The text of a TOML file; `read_linkage` takes it back exactly.
 
     >>> from gruebler.fourbar import FourBar
-    >>> print(to_toml(FourBar(a=25, b=70, c=40, d=70).linkage()).partition("[elements.frame]")[2])
+    >>> print(linkage_to_toml(FourBar(a=25, b=70, c=40, d=70).linkage()).partition("[elements.frame]")[2])
     <BLANKLINE>
     "R(frame-crank)" = [0.0, 0.0]
     "R(frame-rocker)" = [70.0, 0.0]
@@ -159,7 +166,7 @@ def to_toml(linkage: Linkage) -> str:
     "R(frame-rocker)" = [0.0, 0.0]
     <BLANKLINE>
     """
-    document = to_json(linkage)
+    document = linkage_to_json(linkage)
     tables = {
         "points": document.pop("points"),
         **{f"elements.{_key(link)}": mine for link, mine in document.pop("elements").items()},
@@ -198,8 +205,8 @@ def write_linkage(path: Path | str, linkage: Linkage) -> None:
     path = Path(path)
     check_linkage_path(path)
     if path.suffix.lower() == ".toml":
-        text = to_toml(linkage)
+        text = linkage_to_toml(linkage)
     else:
-        text = json.dumps(to_json(linkage), ensure_ascii=False, indent=2) + "\n"
+        text = json.dumps(linkage_to_json(linkage), ensure_ascii=False, indent=2) + "\n"
     with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))

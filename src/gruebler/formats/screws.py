@@ -14,14 +14,14 @@ import msgspec
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Space
-from gruebler.documents import fitted, infinities_as_words, load
+from gruebler.documents import convert_document, infinities_as_words, load_document
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.linkages import linkage_from_json
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import JointPlace, SpatialLinkage
 
-__all__ = ["Screws", "read_any_linkage", "screwed", "screws_to_json", "spatial_from_json"]
+__all__ = ["ScrewsRecord", "read_any_linkage", "screws_to_json", "spatial_from_json", "spatial_linkage_from_record"]
 
 
 class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -38,7 +38,7 @@ class JointRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     pressure: float | None = None
 
 
-class Screws(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
+class ScrewsRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
     """The joints of a mechanism in one position."""
 
     unit: str
@@ -49,18 +49,18 @@ class SpatialRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_
     """A file: the mechanism and the screws of its joints."""
 
     joints: str
-    screws: Screws
+    screws: ScrewsRecord
     space: str | None = None
     frame: str | None = None
     drives: tuple[str, ...] = ()
 
 
-def screwed(screws: Screws, mechanism: Mechanism) -> SpatialLinkage:
+def spatial_linkage_from_record(screws: ScrewsRecord, mechanism: Mechanism) -> SpatialLinkage:
     """The linkage of a mechanism with these screws; `LinkageError` names the first key that does not fit."""
     spherical = mechanism.chain.space is Space.SPHERICAL
     places: dict[str | int, object] = {}
     for name, raw in screws.joints.items():
-        record = fitted(raw, JointRecord, LinkageError, f"screws.joints.{name}")
+        record = convert_document(raw, JointRecord, LinkageError, f"screws.joints.{name}")
         given = {key: value for key, value in msgspec.structs.asdict(record).items() if value is not None}
         if "lead" in given:
             given["pitch"] = given.pop("lead") / (2 * math.pi)
@@ -82,13 +82,13 @@ def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
     ...     "R(0-1)": {"z": z}, "H(1-2)": {"z": z, "lead": 5}, "P(0-2)": {"x": z, "at": [0, 50, 0]}}}})
     <spatial linkage spatial: R(0-1) H(1-2) P(0-2); frame=0>
     """
-    record = fitted(document, SpatialRecord, LinkageError)
+    record = convert_document(document, SpatialRecord, LinkageError)
     try:
         chain = Chain.parse(record.joints, record.space)
         mechanism = Mechanism(chain, chain.links[0] if record.frame is None else record.frame, record.drives)
     except GrueblerError as error:
         raise LinkageError(f"joints, frame or drives: {error}") from None
-    return screwed(record.screws, mechanism)
+    return spatial_linkage_from_record(record.screws, mechanism)
 
 
 def screws_to_json(linkage: SpatialLinkage) -> dict[str, Any]:
@@ -128,7 +128,7 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError(f"{path}: a linkage is in a .toml or .json file")
-    data = load(path, lambda text: LinkageError(f"{path}: {text}"))
+    data = load_document(path, lambda text: LinkageError(f"{path}: {text}"))
     try:
         if isinstance(data, Mapping) and "screws" in data:
             return spatial_from_json(data)

@@ -3,8 +3,8 @@
 Types (`grashof`), dead centres, transmission angles, motion: docs/theory/four-bar.md.
 """
 
-from gruebler.fourbar.crank_motion import CrankMotion, InvertedMotion, Track
-from gruebler.fourbar.extremes import Arc, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
+from gruebler.fourbar.crank_motion import CrankMotion, CrankRates, InvertedMotion
+from gruebler.fourbar.extremes import CrankRange, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.grashof import (
     FOUR_BAR_TYPES,
@@ -16,15 +16,16 @@ from gruebler.fourbar.grashof import (
     types_along,
 )
 from gruebler.fourbar.inverted_slider_crank import InvertedSliderCrank
-from gruebler.fourbar.slider_crank import SliderCrank, StrokeMiddle
+from gruebler.fourbar.slider_crank import SliderCrank, StrokeMidpoint
 from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, SLIDER_CRANK_TYPES
 
 __all__ = [
     "FOUR_BAR_TYPES",
     "INVERTED_SLIDER_CRANK_TYPES",
     "SLIDER_CRANK_TYPES",
-    "Arc",
     "CrankMotion",
+    "CrankRange",
+    "CrankRates",
     "DeadCentre",
     "DeadCentres",
     "FourBar",
@@ -34,9 +35,8 @@ __all__ = [
     "LengthRange",
     "LinkageType",
     "SliderCrank",
-    "StrokeMiddle",
+    "StrokeMidpoint",
     "StrokeTimes",
-    "Track",
     "Transmission",
     "TransmissionAngle",
     "grashof",

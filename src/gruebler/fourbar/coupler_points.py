@@ -13,5 +13,5 @@ __all__ = []
 CouplerPoints = Mapping[str, tuple[float, float]]
 
 
-def _on_coupler(points: CouplerPoints | None) -> dict[str, tuple[str, float, float]]:
+def on_coupler(points: CouplerPoints | None) -> dict[str, tuple[str, float, float]]:
     return {name: ("coupler", u, v) for name, (u, v) in (points or {}).items()}

@@ -12,10 +12,18 @@ import numpy.typing as npt
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import FloatArray, as_finite, as_numbers
 
-__all__ = ["CrankMotion", "InvertedMotion", "Track", "crank_track", "determined", "points", "turned"]
+__all__ = [
+    "CrankMotion",
+    "CrankRates",
+    "InvertedMotion",
+    "crank_rates",
+    "determined_rates",
+    "points",
+    "rotation_derivative",
+]
 
 
-class Track(NamedTuple):
+class CrankRates(NamedTuple):
     """A quantity at given instants with its velocity, acceleration and jerk; four arrays of one shape."""
 
     value: FloatArray
@@ -33,15 +41,15 @@ class CrankMotion:
     NaN; so are rates where the output does not determine them (transmission angle 0); ``message`` says so.
     """
 
-    crank: Track
+    crank: CrankRates
     """The crank's angle phi."""
-    coupler: Track
+    coupler: CrankRates
     """The coupler's angle theta, the direction from A to B."""
-    output: Track
+    output: CrankRates
     """The rocker's angle psi, the direction from B0 to B; for a slider its way s."""
-    A: Track
+    A: CrankRates
     """The joint of crank and coupler."""
-    B: Track
+    B: CrankRates
     """The joint of coupler and output."""
     mu: FloatArray
     """The angle between coupler and output in 0..pi, not folded."""
@@ -75,18 +83,18 @@ class CrankMotion:
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(self.crank.velocity / self.output.velocity)
 
-    def point(self, u: float, v: float = 0.0) -> Track:
+    def point(self, u: float, v: float = 0.0) -> CrankRates:
         """The coupler point u along AB from A and v to the left: its path, velocity, acceleration and jerk."""
         arm = complex(as_finite("u", u), as_finite("v", v))
-        rates = [arm * turned(self.coupler[: k + 1], k) for k in range(4)]
-        return Track(*(at + points(rate) for at, rate in zip(self.A, rates, strict=True)))
+        rates = [arm * rotation_derivative(self.coupler[: k + 1], k) for k in range(4)]
+        return CrankRates(*(at + points(rate) for at, rate in zip(self.A, rates, strict=True)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class InvertedMotion(CrankMotion):
     """The poses of an inverted slider-crank: B is the foot of B0 on the guide through A."""
 
-    slide: Track
+    slide: CrankRates
     """The way r of the block along the guide, from A to B."""
 
 
@@ -95,10 +103,10 @@ def points(z: Any) -> FloatArray:
     return np.stack([np.real(z), np.imag(z)], axis=-1)
 
 
-def turned(angle: Sequence[Any], order: int) -> Any:
+def rotation_derivative(angle: Sequence[Any], order: int) -> Any:
     """The derivative of exp(i x) of an order up to 3, given x and its derivatives; those left out count as zero.
 
-    >>> turned([0.0, 2.0], 1)
+    >>> rotation_derivative([0.0, 2.0], 1)
     np.complex128(2j)
     """
     known: list[Any] = [*angle, 0.0, 0.0, 0.0]
@@ -107,7 +115,7 @@ def turned(angle: Sequence[Any], order: int) -> Any:
     return factor * np.exp(1j * x)
 
 
-def crank_track(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, jerk: npt.ArrayLike) -> Track:
+def crank_rates(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, jerk: npt.ArrayLike) -> CrankRates:
     """The crank's own motion, checked; rates are spread over all angles."""
     named = {"phi": phi, "omega": omega, "alpha": alpha, "jerk": jerk}
     given = {name: as_numbers(name, value) for name, value in named.items()}
@@ -115,13 +123,13 @@ def crank_track(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, 
         if values.size and np.abs(values).max() > 1e50:
             raise LinkageError(f"{name} must be below 1e50: choose another unit of time")
     try:
-        return Track(*(np.array(part) for part in np.broadcast_arrays(*given.values())))
+        return CrankRates(*(np.array(part) for part in np.broadcast_arrays(*given.values())))
     except ValueError:
         shapes = ", ".join(f"{name} {values.shape}" for name, values in given.items() if values.ndim)
         raise LinkageError(f"the crank's angles and rates must fit each other in shape, not {shapes}") from None
 
 
-def determined(rates: Sequence[FloatArray]) -> Track:
+def determined_rates(rates: Sequence[FloatArray]) -> CrankRates:
     """A track whose rates are NaN wherever they are not finite."""
     value, *derivatives = rates
-    return Track(np.asarray(value), *(np.where(np.isfinite(rate), rate, np.nan) for rate in derivatives))
+    return CrankRates(np.asarray(value), *(np.where(np.isfinite(rate), rate, np.nan) for rate in derivatives))

@@ -14,23 +14,23 @@ from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_finite
 
 __all__ = [
-    "Arc",
+    "CrankRange",
     "DeadCentre",
     "DeadCentres",
     "StrokeTimes",
     "Transmission",
     "TransmissionAngle",
-    "arcs_of_distance",
-    "clipped",
+    "cannot_assemble",
+    "clipped_cosine",
+    "crank_ranges",
     "triangle_angle",
-    "unassembled",
 ]
 
 TURN = 2 * math.pi
 Mask = npt.NDArray[np.bool_]
 
 
-class Arc(NamedTuple):
+class CrankRange(NamedTuple):
     """Crank angles from start to end, in the positive sense, in which a linkage can be assembled."""
 
     start: float
@@ -50,16 +50,16 @@ class Arc(NamedTuple):
         return self.full or (as_finite("phi", phi) - self.start) % TURN <= self.width
 
 
-def clipped(cosine: float) -> float:
+def clipped_cosine(cosine: float) -> float:
     """A cosine or sine put right where rounding has carried it past 1.
 
-    >>> clipped(1.0000000000000002)
+    >>> clipped_cosine(1.0000000000000002)
     1.0
     """
     return max(-1.0, min(1.0, cosine))
 
 
-def arcs_of_distance(a: float, d: float, least: float, most: float) -> tuple[Arc, ...]:
+def crank_ranges(a: float, d: float, least: float, most: float) -> tuple[CrankRange, ...]:
     """The crank angles for which A, at radius a about A0, lies between ``least`` and ``most`` from B0 = (d, 0)."""
     close = 1e-14 * (a + d)
     inner, outer = abs(d - a) >= least - close, a + d <= most + close
@@ -68,12 +68,12 @@ def arcs_of_distance(a: float, d: float, least: float, most: float) -> tuple[Arc
     first = 0.0 if inner else triangle_angle(a, d, least)
     last = math.pi if outer else triangle_angle(a, d, most)
     if inner and outer:
-        return (Arc(0.0, TURN),)
+        return (CrankRange(0.0, TURN),)
     if inner:
-        return (Arc(-last, last),)
+        return (CrankRange(-last, last),)
     if outer:
-        return (Arc(first, TURN - first),)
-    return (Arc(first, last), Arc(TURN - last, TURN - first))
+        return (CrankRange(first, TURN - first),)
+    return (CrankRange(first, last), CrankRange(TURN - last, TURN - first))
 
 
 def triangle_angle(x: float, y: float, opposite: float) -> float:
@@ -232,7 +232,7 @@ class TransmissionAngle:
         return self.smallest >= as_finite("least", least)
 
 
-def unassembled(arcs: Sequence[Arc], missing: Mask, undetermined: Mask, singular: Mask) -> str:
+def cannot_assemble(arcs: Sequence[CrankRange], missing: Mask, undetermined: Mask, singular: Mask) -> str:
     """The sentence about poses and rates that are NaN; empty if there are none."""
     poses = f"of {missing.size} poses"
     parts = []

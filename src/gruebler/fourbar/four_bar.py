@@ -10,17 +10,24 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
-from gruebler.fourbar.coupler_points import CouplerPoints, _on_coupler
-from gruebler.fourbar.crank_motion import CrankMotion, Track, crank_track, determined, points, turned
+from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
+from gruebler.fourbar.crank_motion import (
+    CrankMotion,
+    CrankRates,
+    crank_rates,
+    determined_rates,
+    points,
+    rotation_derivative,
+)
 from gruebler.fourbar.extremes import (
-    Arc,
+    CrankRange,
     DeadCentre,
     DeadCentres,
     Transmission,
     TransmissionAngle,
-    arcs_of_distance,
+    cannot_assemble,
+    crank_ranges,
     triangle_angle,
-    unassembled,
 )
 from gruebler.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
 from gruebler.linkages.model import Linkage
@@ -128,15 +135,15 @@ class FourBar:
         return FourBar(self.c, self.b, self.a, self.d)
 
     @property
-    def limits(self) -> tuple[Arc, ...]:
+    def limits(self) -> tuple[CrankRange, ...]:
         """The crank angles for which it can be assembled: one arc, or two mirror images, or none."""
-        return arcs_of_distance(self.a, self.d, abs(self.b - self.c), self.b + self.c)
+        return crank_ranges(self.a, self.d, abs(self.b - self.c), self.b + self.c)
 
     @property
-    def output_limits(self) -> tuple[Arc, ...]:
+    def output_limits(self) -> tuple[CrankRange, ...]:
         """The angles psi that the output can take, on either branch."""
-        mirrored = arcs_of_distance(self.c, self.d, abs(self.b - self.a), self.a + self.b)
-        return tuple(arc if arc.full else Arc(math.pi - arc.end, math.pi - arc.start) for arc in mirrored[::-1])
+        mirrored = crank_ranges(self.c, self.d, abs(self.b - self.a), self.a + self.b)
+        return tuple(arc if arc.full else CrankRange(math.pi - arc.end, math.pi - arc.start) for arc in mirrored[::-1])
 
     @property
     def dead_centres(self) -> DeadCentres | None:
@@ -214,7 +221,7 @@ class FourBar:
         """
         a, b, c, d = self.a, self.b, self.c, self.d
         side = as_branch(branch)
-        crank = crank_track(phi, omega, alpha, jerk)
+        crank = crank_rates(phi, omega, alpha, jerk)
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             to_b0 = d - a * np.exp(1j * crank.value)
             f = np.abs(to_b0)
@@ -233,25 +240,29 @@ class FourBar:
             psi = [np.angle(unit * (b**2 - c**2 - f**2 + 1j * side * area))]
             self._add_rates(crank, theta, psi, side * -area / (2 * b * c))
             mu = np.where(undetermined, np.nan, np.arctan2(area, b**2 + c**2 - f**2))
-            coupler, output = determined(theta), determined(psi)
-            joint_a = [a * turned(crank[: k + 1], k) for k in range(4)]
-            joint_b = [(d if k == 0 else 0) + c * turned(output[: k + 1], k) for k in range(4)]
+            coupler, output = determined_rates(theta), determined_rates(psi)
+            joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
+            joint_b = [(d if k == 0 else 0) + c * rotation_derivative(output[: k + 1], k) for k in range(4)]
         singular = np.isnan(output.velocity) & ~np.isnan(output.value)
         return CrankMotion(
             crank=crank,
             coupler=coupler,
             output=output,
-            A=Track(*map(points, joint_a)),
-            B=Track(*map(points, joint_b)),
+            A=CrankRates(*map(points, joint_a)),
+            B=CrankRates(*map(points, joint_b)),
             mu=mu,
             branch=side,
-            message=unassembled(self.limits, np.isnan(area), undetermined, singular),
+            message=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
         )
 
-    def _add_rates(self, crank: Track, theta: list[FloatArray], psi: list[FloatArray], sine: FloatArray) -> None:
+    def _add_rates(self, crank: CrankRates, theta: list[FloatArray], psi: list[FloatArray], sine: FloatArray) -> None:
         """Append three derivatives of theta and psi, by differentiating the loop; ``sine`` is sin(theta - psi)."""
         for k in (1, 2, 3):
-            known = self.a * turned(crank[: k + 1], k) + self.b * turned(theta, k) - self.c * turned(psi, k)
+            known = (
+                self.a * rotation_derivative(crank[: k + 1], k)
+                + self.b * rotation_derivative(theta, k)
+                - self.c * rotation_derivative(psi, k)
+            )
             theta_k = np.imag(1j * known * np.exp(-1j * psi[0])) / (self.b * sine)
             psi_k = np.imag(1j * known * np.exp(-1j * theta[0])) / (self.c * sine)
             theta.append(theta_k)
@@ -271,7 +282,7 @@ def four_bar_linkage(size: FourBar, points: CouplerPoints | None = None, unit: s
             "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-rocker)": (size.b, 0)},
             "rocker": {"R(frame-rocker)": (0, 0), "R(coupler-rocker)": (size.c, 0)},
         },
-        _on_coupler(points),
+        on_coupler(points),
         unit=unit,
         outputs=["rocker"],
     )

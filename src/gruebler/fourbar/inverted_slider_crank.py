@@ -11,18 +11,25 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
-from gruebler.fourbar.coupler_points import CouplerPoints, _on_coupler
-from gruebler.fourbar.crank_motion import InvertedMotion, Track, crank_track, determined, points, turned
+from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
+from gruebler.fourbar.crank_motion import (
+    CrankRates,
+    InvertedMotion,
+    crank_rates,
+    determined_rates,
+    points,
+    rotation_derivative,
+)
 from gruebler.fourbar.extremes import (
     TURN,
-    Arc,
+    CrankRange,
     DeadCentre,
     DeadCentres,
     Transmission,
     TransmissionAngle,
-    arcs_of_distance,
-    clipped,
-    unassembled,
+    cannot_assemble,
+    clipped_cosine,
+    crank_ranges,
 )
 from gruebler.fourbar.grashof import LinkageType
 from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
@@ -84,9 +91,9 @@ class InvertedSliderCrank:
         return (("a",) if relation in "<=" else ()) + (("guide",) if "d" in shorter else ())
 
     @property
-    def limits(self) -> tuple[Arc, ...]:
+    def limits(self) -> tuple[CrankRange, ...]:
         """The crank angles for which it can be assembled: those with A at least |e| from B0."""
-        return arcs_of_distance(self.a, self.d, abs(self.e), math.inf)
+        return crank_ranges(self.a, self.d, abs(self.e), math.inf)
 
     @property
     def dead_centres(self) -> DeadCentres | None:
@@ -101,7 +108,7 @@ class InvertedSliderCrank:
             return None
         found = []
         for side in (-1, 1):
-            theta = math.asin(clipped((-side * self.a - self.e) / self.d))
+            theta = math.asin(clipped_cosine((-side * self.a - self.e) / self.d))
             found.append(DeadCentre((theta + side * math.pi / 2) % TURN, theta + math.pi, theta))
         outer, inner = sorted(found, key=lambda centre: centre.output)
         return DeadCentres(inner, outer)
@@ -124,8 +131,8 @@ class InvertedSliderCrank:
         nearest = max(abs(self.d - self.a), abs(self.e))
         first = limits[0].start
         return TransmissionAngle(
-            Transmission(first, math.acos(clipped(abs(self.e) / nearest)) if nearest else math.pi / 2),
-            Transmission(math.pi, math.acos(clipped(abs(self.e) / (self.d + self.a)))),
+            Transmission(first, math.acos(clipped_cosine(abs(self.e) / nearest)) if nearest else math.pi / 2),
+            Transmission(math.pi, math.acos(clipped_cosine(abs(self.e) / (self.d + self.a)))),
         )
 
     def motion(
@@ -150,7 +157,7 @@ class InvertedSliderCrank:
         """
         a, d, e = self.a, self.d, self.e
         side = as_branch(branch)
-        crank = crank_track(phi, omega, alpha, jerk)
+        crank = crank_rates(phi, omega, alpha, jerk)
         slack = 64 * np.finfo(float).eps * (a + d + abs(e))
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             to_b0 = d - a * np.exp(1j * crank.value)
@@ -161,31 +168,31 @@ class InvertedSliderCrank:
             theta = [np.where(undetermined, np.nan, np.angle(to_b0 / (slide[0] + 1j * e)))]
             self._add_rates(crank, theta, slide)
             mu = np.where(np.isnan(theta[0]), np.nan, np.arctan2(np.abs(slide[0]), abs(e)))
-            guide, block = determined(theta), determined(slide)
+            guide, block = determined_rates(theta), determined_rates(slide)
             output = guide._replace(value=(guide.value + np.pi) % TURN)
-            foot = [points(1j * e * turned(guide[: k + 1], k)) for k in range(4)]
-            joint_a = [a * turned(crank[: k + 1], k) for k in range(4)]
+            foot = [points(1j * e * rotation_derivative(guide[: k + 1], k)) for k in range(4)]
+            joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         b0 = np.array([d, 0.0])
         singular = np.isnan(guide.velocity) & ~np.isnan(guide.value)
         return InvertedMotion(
             crank=crank,
             coupler=guide,
             output=output,
-            A=Track(*map(points, joint_a)),
-            B=Track(b0 - foot[0], *(-rate for rate in foot[1:])),
+            A=CrankRates(*map(points, joint_a)),
+            B=CrankRates(b0 - foot[0], *(-rate for rate in foot[1:])),
             mu=mu,
             branch=side,
-            message=unassembled(self.limits, np.isnan(slide[0]), undetermined, singular),
+            message=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
             slide=block,
         )
 
-    def _add_rates(self, crank: Track, theta: list[FloatArray], slide: list[FloatArray]) -> None:
+    def _add_rates(self, crank: CrankRates, theta: list[FloatArray], slide: list[FloatArray]) -> None:
         """Append three derivatives of theta and of the way r, by differentiating the loop."""
         for k in (1, 2, 3):
             arm: list[Any] = [slide[0] + 1j * self.e, *slide[1:], 0.0]
-            known = self.a * turned(crank[: k + 1], k)
+            known = self.a * rotation_derivative(crank[: k + 1], k)
             for j in range(k + 1):
-                known = known + math.comb(k, j) * arm[j] * turned(theta[: k - j + 1], k - j)
+                known = known + math.comb(k, j) * arm[j] * rotation_derivative(theta[: k - j + 1], k - j)
             wanted = -known * np.exp(-1j * theta[0])
             theta_k = np.imag(wanted) / slide[0]
             slide.append(np.real(wanted) + theta_k * self.e)
@@ -207,7 +214,7 @@ def inverted_slider_crank_linkage(
             "coupler": {"R(crank-coupler)": (0, 0), "P(coupler-block)": (0, size.e, 0)},
             "block": {"R(frame-block)": (0, 0), "P(coupler-block)": (0, 0, 0)},
         },
-        _on_coupler(points),
+        on_coupler(points),
         unit=unit,
         outputs=["block"],
     )

@@ -11,17 +11,17 @@ from gruebler.fourbar.slider_crank import SliderCrank
 from gruebler.linkages.model import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["Door", "mapped"]
+__all__ = ["ClosedForm", "linkage_on_mechanism"]
 
-Door = FourBar | SliderCrank | InvertedSliderCrank
+ClosedForm = FourBar | SliderCrank | InvertedSliderCrank
 
 _LOOPS = {"four_bar": "RRRR", "slider_crank": "RRRP", "inverted_slider_crank": "RRPR"}
 _LETTER = {"revolute": "R", "prismatic": "P"}
 
 
-def mapped(
+def linkage_on_mechanism(
     way: str,
-    door: Door,
+    door: ClosedForm,
     branch: int,
     mechanism: Mechanism | None,
     *,
@@ -73,7 +73,7 @@ def _loop(mechanism: Mechanism, way: str) -> tuple[str, ...]:
     )
 
 
-def _home(door: Door, branch: int) -> tuple[tuple[float, float, float], ...] | None:
+def _home(door: ClosedForm, branch: int) -> tuple[tuple[float, float, float], ...] | None:
     """Where frame, crank, coupler and output lie in one position, away from dead centres; None if there is none."""
     if not door.limits:
         return None

@@ -11,17 +11,24 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
-from gruebler.fourbar.coupler_points import CouplerPoints, _on_coupler
-from gruebler.fourbar.crank_motion import CrankMotion, Track, crank_track, determined, points, turned
+from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
+from gruebler.fourbar.crank_motion import (
+    CrankMotion,
+    CrankRates,
+    crank_rates,
+    determined_rates,
+    points,
+    rotation_derivative,
+)
 from gruebler.fourbar.extremes import (
     TURN,
-    Arc,
+    CrankRange,
     DeadCentre,
     DeadCentres,
     Transmission,
     TransmissionAngle,
-    clipped,
-    unassembled,
+    cannot_assemble,
+    clipped_cosine,
 )
 from gruebler.fourbar.grashof import LinkageType
 from gruebler.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation
@@ -37,10 +44,10 @@ from gruebler.linkages.quantities import (
 )
 from gruebler.mechanism import Mechanism
 
-__all__ = ["SliderCrank", "StrokeMiddle", "slider_crank_linkage"]
+__all__ = ["SliderCrank", "StrokeMidpoint", "slider_crank_linkage"]
 
 
-class StrokeMiddle(NamedTuple):
+class StrokeMidpoint(NamedTuple):
     """The middle of the way against the middle of the time, from the outer to the inner dead centre."""
 
     way: float
@@ -152,21 +159,21 @@ class SliderCrank:
         return self.e == 0
 
     @property
-    def limits(self) -> tuple[Arc, ...]:
+    def limits(self) -> tuple[CrankRange, ...]:
         """The crank angles for which it can be assembled: those with A at most b from the slider's path."""
         close = 1e-14 * (self.a + self.b + abs(self.e))
         low, high = self.e - self.b, self.e + self.b
         if low > self.a + close or high < -self.a - close:
             return ()
         below, above = low <= close - self.a, high >= self.a - close
-        first, last = math.asin(clipped(low / self.a)), math.asin(clipped(high / self.a))
+        first, last = math.asin(clipped_cosine(low / self.a)), math.asin(clipped_cosine(high / self.a))
         if below and above:
-            return (Arc(0.0, TURN),)
+            return (CrankRange(0.0, TURN),)
         if below:
-            return (Arc(math.pi - last, TURN + last),)
+            return (CrankRange(math.pi - last, TURN + last),)
         if above:
-            return (Arc(first, math.pi - first),)
-        return (Arc(first, last), Arc(math.pi - last, math.pi - first))
+            return (CrankRange(first, math.pi - first),)
+        return (CrankRange(first, last), CrankRange(math.pi - last, math.pi - first))
 
     @property
     def dead_centres(self) -> DeadCentres | None:
@@ -179,7 +186,7 @@ class SliderCrank:
         if self.turning != ("a",):
             return None
         near, far = self.b - self.a, self.b + self.a
-        line_in, line_out = math.asin(clipped(self.e / near)), math.asin(clipped(self.e / far))
+        line_in, line_out = math.asin(clipped_cosine(self.e / near)), math.asin(clipped_cosine(self.e / far))
         way_in = math.sqrt(max(0.0, (near - self.e) * (near + self.e)))
         way_out = math.sqrt((far - self.e) * (far + self.e))
         inner = DeadCentre((line_in + math.pi) % TURN, way_in, line_in)
@@ -192,7 +199,7 @@ class SliderCrank:
         return None if centres is None else centres.travel
 
     @property
-    def middle(self) -> StrokeMiddle | None:
+    def middle(self) -> StrokeMidpoint | None:
         """The middle of the way against the middle of the time, going inwards; None without dead centres.
 
         The smaller lambda, the closer they lie.
@@ -206,7 +213,7 @@ class SliderCrank:
         way = (centres.inner.output + centres.outer.output) / 2
         phi_time = centres.phi_back / 2
         time = float(self.motion(centres.outer.phi + phi_time).output.value)
-        return StrokeMiddle(way, time, float(self.phi_at(way)[0] - centres.outer.phi) % TURN, phi_time)
+        return StrokeMidpoint(way, time, float(self.phi_at(way)[0] - centres.outer.phi) % TURN, phi_time)
 
     def phi_at(self, way: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """The two crank angles, in 0..2 pi, at which the slider is at s = way; NaN where it never is.
@@ -239,7 +246,9 @@ class SliderCrank:
         high, low = min(self.a, self.e + self.b), max(-self.a, self.e - self.b)
         return TransmissionAngle(
             *(
-                Transmission(math.asin(clipped(y / self.a)) % TURN, math.acos(clipped((y - self.e) / self.b)))
+                Transmission(
+                    math.asin(clipped_cosine(y / self.a)) % TURN, math.acos(clipped_cosine((y - self.e) / self.b))
+                )
                 for y in (high, low)
             )
         )
@@ -265,7 +274,7 @@ class SliderCrank:
         """
         a, b, e = self.a, self.b, self.e
         side = as_branch(branch)
-        crank = crank_track(phi, omega, alpha, jerk)
+        crank = crank_rates(phi, omega, alpha, jerk)
         slack = 64 * np.finfo(float).eps * (a + b + abs(e))
         with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
             rise = e - a * np.sin(crank.value)
@@ -274,23 +283,23 @@ class SliderCrank:
             theta = [np.arctan2(rise, along)]
             way = [a * np.cos(crank.value) + along]
             for k in (1, 2, 3):
-                rest = a * turned(crank[: k + 1], k) + b * turned(theta, k)
+                rest = a * rotation_derivative(crank[: k + 1], k) + b * rotation_derivative(theta, k)
                 theta_k = -np.imag(rest) / along
                 way.append(np.real(rest) - theta_k * rise)
                 theta.append(theta_k)
             mu = np.arctan2(np.abs(along), -rise)
-            coupler, output = determined(theta), determined(way)
-            joint_a = [a * turned(crank[: k + 1], k) for k in range(4)]
+            coupler, output = determined_rates(theta), determined_rates(way)
+            joint_a = [a * rotation_derivative(crank[: k + 1], k) for k in range(4)]
         missing = np.isnan(along)
         return CrankMotion(
             crank=crank,
             coupler=coupler,
             output=output,
-            A=Track(*map(points, joint_a)),
-            B=Track(*(points(s + (1j * e if k == 0 else 0j)) for k, s in enumerate(output))),
+            A=CrankRates(*map(points, joint_a)),
+            B=CrankRates(*(points(s + (1j * e if k == 0 else 0j)) for k, s in enumerate(output))),
             mu=mu,
             branch=side,
-            message=unassembled(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
+            message=cannot_assemble(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
         )
 
 
@@ -307,7 +316,7 @@ def slider_crank_linkage(size: SliderCrank, points: CouplerPoints | None = None,
             "coupler": {"R(crank-coupler)": (0, 0), "R(coupler-slider)": (size.b, 0)},
             "slider": {"R(coupler-slider)": (0, 0), "P(frame-slider)": (0, 0, 0)},
         },
-        _on_coupler(points),
+        on_coupler(points),
         unit=unit,
         outputs=["slider"],
     )

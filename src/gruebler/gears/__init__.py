@@ -1,9 +1,9 @@
 """Gear trains: meshes, one linear system for all speeds, exact ratios, torques and power, assembly of planets."""
 
 from gruebler.gears.assembly import Assembly, assembly
-from gruebler.gears.messages import explain
+from gruebler.gears.messages import explain_train
 from gruebler.gears.motion import Balance, Contradiction, Speeds, balance, influence, ratio, speeds
-from gruebler.gears.reading import Reading, read_toml, read_train
+from gruebler.gears.reading import TrainReading, read_toml, read_train
 from gruebler.gears.train import KINDS, GearError, Mesh, Train, Unit
 
 __all__ = [
@@ -13,13 +13,13 @@ __all__ = [
     "Contradiction",
     "GearError",
     "Mesh",
-    "Reading",
     "Speeds",
     "Train",
+    "TrainReading",
     "Unit",
     "assembly",
     "balance",
-    "explain",
+    "explain_train",
     "influence",
     "ratio",
     "read_toml",

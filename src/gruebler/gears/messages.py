@@ -8,10 +8,10 @@ from fractions import Fraction
 
 from gruebler.gears.assembly import Assembly, assembly, axes, even_numbers
 from gruebler.gears.motion import speeds
-from gruebler.gears.reading import Reading
+from gruebler.gears.reading import TrainReading
 from gruebler.gears.train import FRAME, Train, comparable
 
-__all__ = ["decimal", "explain", "number", "writable"]
+__all__ = ["decimal", "explain_train", "fraction_text", "writable"]
 
 _LARGEST_BITS = 13_500  # below the 4,300 digits that Python turns into text
 
@@ -65,10 +65,10 @@ SENTENCES = {
 }
 
 
-def number(value: Fraction | float) -> str:
+def fraction_text(value: Fraction | float) -> str:
     """A number for people: whole, or a fraction with its decimal value.
 
-    >>> number(Fraction(7, 2)), number(Fraction(6)), number(0.25)
+    >>> fraction_text(Fraction(7, 2)), fraction_text(Fraction(6)), fraction_text(0.25)
     ('7/2 (3.5)', '6', '0.25')
     """
     if isinstance(value, float):
@@ -102,11 +102,11 @@ def decimal(value: Fraction) -> str:
     return str(Decimal(digits).normalize()).lower()
 
 
-def explain(reading: Reading, lang: str = "en") -> str:
+def explain_train(reading: TrainReading, lang: str = "en") -> str:
     """What can be said of a train and its drives, line by line.
 
     >>> from gruebler.gears import read_train
-    >>> print(explain(read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=7")))
+    >>> print(explain_train(read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=7")))
     4 moving links, 2 independent meshes: mobility 2.
     Speeds: 2 sun - 7 arm + 5 ring = 0
     3 planets (planet) at equal angles can be put in.
@@ -125,7 +125,7 @@ def explain(reading: Reading, lang: str = "en") -> str:
     if reading.drives:
         found = speeds(train, reading.drives)
         for link, wanted, follows in found.contradictions:
-            lines.append(say("contradiction", link=link, wanted=number(wanted), follows=number(follows)))
+            lines.append(say("contradiction", link=link, wanted=fraction_text(wanted), follows=fraction_text(follows)))
         if found.spare:
             lines.append(say("spare", links=", ".join(found.spare)))
         if found.free:
@@ -165,7 +165,7 @@ def _outer_relations(train: Train) -> list[str]:
 
 def _sum(form: dict[str, int]) -> str:
     terms = "".join(
-        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else number(Fraction(abs(k))) + ' '}{link}"
+        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else fraction_text(Fraction(abs(k))) + ' '}{link}"
         for link, k in form.items()
     )
     return terms.removeprefix(" + ")

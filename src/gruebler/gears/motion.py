@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from gruebler.gears.rational import Elimination, Row, reduced
-from gruebler.gears.train import MIXED, GearError, Train, Unit, exact
+from gruebler.gears.rational import Elimination, Row, reduce_row
+from gruebler.gears.train import MIXED, GearError, Train, Unit, exact_number
 
 __all__ = ["Balance", "Contradiction", "Speeds", "balance", "influence", "ratio", "speeds"]
 
@@ -59,7 +59,7 @@ def speeds(train: Train, drives: Mapping[str, object]) -> Speeds:
     spare: list[str] = []
     units, comparable = train.units(), train.comparable(links)
     for link, value in drives.items():
-        wanted = exact(value, f"speed of {train.known(link)}")
+        wanted = exact_number(value, f"speed of {train.known(link)}")
         if wanted and units[link] != Unit.TURNING and not comparable:
             raise GearError(f"{link} is driven, but {MIXED}")
         rest = form.left({link: Fraction(1)})
@@ -96,7 +96,7 @@ def influence(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
     found = _relations(train, [*(link for link in train.links if link not in chosen), *names]).full()
     factors = {}
     for link in train.links:
-        rest = reduced({link: Fraction(1)}, found)
+        rest = reduce_row({link: Fraction(1)}, found)
         factors[link] = {drive: rest[drive] for drive in names if drive in rest}
     return factors
 
@@ -141,7 +141,7 @@ def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, obje
     {'sun': '20', 'ring': '50', 'arm': '-70'}
     """
     factors = influence(train, drives)
-    given = {train.known(link): exact(value, f"load on {link}") for link, value in loads.items()}
+    given = {train.known(link): exact_number(value, f"load on {link}") for link, value in loads.items()}
     if both := set(given) & set(drives):
         raise GearError(f"{', '.join(sorted(both))}: driven or held, so its torque is an answer and cannot be a load")
     units = train.units()

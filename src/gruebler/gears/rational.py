@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Generic, TypeVar
 
-__all__ = ["Elimination", "Row", "echelon", "reduced"]
+__all__ = ["Elimination", "Row", "rational_echelon", "reduce_row"]
 
 K = TypeVar("K", bound=Hashable)
 Row = dict[K, Fraction]
@@ -59,13 +59,13 @@ class Elimination(Generic[K]):
         return rest
 
 
-def echelon(rows: Iterable[Mapping[K, Fraction]], columns: Sequence[K]) -> dict[K, Row[K]]:
+def rational_echelon(rows: Iterable[Mapping[K, Fraction]], columns: Sequence[K]) -> dict[K, Row[K]]:
     """The reduced echelon form: each pivot column with its row (coefficient 1 there, 0 in the other rows).
 
     Pivots are sought in the order of ``columns``; cost about linear in the entries for the rows of a gear train.
 
     >>> one = Fraction(1)
-    >>> echelon([{"x": one, "y": one}, {"x": one, "y": -one}], "xy")
+    >>> rational_echelon([{"x": one, "y": one}, {"x": one, "y": -one}], "xy")
     {'x': {'x': Fraction(1, 1)}, 'y': {'y': Fraction(1, 1)}}
     """
     form = Elimination(columns)
@@ -74,7 +74,7 @@ def echelon(rows: Iterable[Mapping[K, Fraction]], columns: Sequence[K]) -> dict[
     return form.full()
 
 
-def reduced(row: Mapping[K, Fraction], basis: Mapping[K, Row[K]]) -> Row[K]:
+def reduce_row(row: Mapping[K, Fraction], basis: Mapping[K, Row[K]]) -> Row[K]:
     """What is left of a row when a reduced echelon form is subtracted; nothing exactly if the row depends on it."""
     rest = {column: value for column, value in row.items() if value}
     for pivot in [column for column in rest if column in basis]:

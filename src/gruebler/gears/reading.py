@@ -24,9 +24,9 @@ from itertools import pairwise
 from typing import Any
 
 from gruebler.errors import nearest
-from gruebler.gears.train import FRAME, KINDS, GearError, Mesh, Train, exact
+from gruebler.gears.train import FRAME, KINDS, GearError, Mesh, Train, exact_number
 
-__all__ = ["Reading", "read_toml", "read_train"]
+__all__ = ["TrainReading", "read_toml", "read_train"]
 
 _STATEMENTS = (*(kind for kind in KINDS if " " not in kind), "drive", "hold", "load")
 _OPTIONS = {"rack": {"module", "pitch"}, "screw": {"lead"}, "winch": {"falls", "pitch"}, "gear": {"planets"}}
@@ -34,7 +34,7 @@ _NAME = re.compile(r"[^\s:=;#]+\Z")
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class TrainReading:
     """What a text says: the train, the speeds and loads that are given, and how many planets of a kind there are."""
 
     train: Train
@@ -43,7 +43,7 @@ class Reading:
     planets: dict[str, int] = field(default_factory=dict)
 
 
-def read_train(text: str) -> Reading:
+def read_train(text: str) -> TrainReading:
     """Read the text form; the links of drives and loads must be in the train.
 
     >>> reading = read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000")
@@ -64,7 +64,7 @@ def read_train(text: str) -> Reading:
                 link, value = (word, "0") if head == "hold" else _pair(word, "=", statement)
                 if link in found[kind]:
                     raise GearError(f"'{statement}': {link} is given twice")
-                found[kind][link] = exact(value, f"'{statement}': {link}")
+                found[kind][link] = exact_number(value, f"'{statement}': {link}")
         else:
             if not head and ":" not in statement:
                 known = ", ".join(_STATEMENTS)
@@ -74,10 +74,10 @@ def read_train(text: str) -> Reading:
     train = Train(meshes)
     for link in (*found["drive"], *found["load"]):
         train.known(link)
-    return Reading(train, found["drive"], found["load"], found["planets"])
+    return TrainReading(train, found["drive"], found["load"], found["planets"])
 
 
-def read_toml(text: str, name: str = "TOML") -> Reading:
+def read_toml(text: str, name: str = "TOML") -> TrainReading:
     r"""Read the TOML form: ``train`` is the text of the meshes (or a list of such); tables drive, load; list hold.
 
     >>> reading = read_toml('train = ["sun:24 planet:18 ring:-60 on arm"]\nhold = ["ring"]\ndrive.sun = 1000')
@@ -129,7 +129,10 @@ def _read_meshes(kind: str, words: list[str], statement: str, planets: dict[str,
         return
     if len(wheels) < 2:
         raise GearError(f"'{statement}': expected at least two wheels LINK:TEETH")
-    sized = [(link, exact(size, f"'{statement}': {link}")) for link, size in (_pair(w, ":", statement) for w in wheels)]
+    sized = [
+        (link, exact_number(size, f"'{statement}': {link}"))
+        for link, size in (_pair(w, ":", statement) for w in wheels)
+    ]
     if "planets" in options:
         planets |= dict.fromkeys(
             [link for link, _ in sized[1:-1]] or [sized[-1][0]], _count(options["planets"], statement)
@@ -144,13 +147,13 @@ def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str,
     if len(wheels) != 2 or ":" in wheels[1]:
         raise GearError(f"'{statement}': expected a wheel and a link that slides, such as 'rack pinion:18 slide'")
     what = f"'{statement}'"
-    numbers = {option: exact(value, f"{what}: {option}") for option, value in options.items()}
+    numbers = {option: exact_number(value, f"{what}: {option}") for option, value in options.items()}
     if kind == "screw":
         if ":" in wheels[0] or "lead" not in numbers:
             raise GearError(f"{what}: expected 'screw SPINDLE SLIDE lead=NUMBER'")
         return Mesh(wheels[0], wheels[1], numbers["lead"], Fraction(1), carrier, kind)
     link, text = _pair(wheels[0], ":", statement)
-    size = exact(text, f"{what}: {link}")
+    size = exact_number(text, f"{what}: {link}")
     if numbers.get("falls", 1) < 1:
         raise GearError(f"{what}: at least one rope carries the load")
     if "pitch" in numbers:

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 from gruebler import notebook
 from gruebler.errors import GrueblerError, nearest
-from gruebler.gears.rational import Elimination, Row, echelon
+from gruebler.gears.rational import Elimination, Row, rational_echelon
 
-__all__ = ["KINDS", "MIXED", "GearError", "Kind", "Mesh", "Train", "Unit", "comparable", "exact"]
+__all__ = ["KINDS", "MIXED", "GearError", "Mesh", "MeshKind", "Train", "Unit", "comparable", "exact_number"]
 
 FRAME = "frame"
 
@@ -40,7 +40,7 @@ class Unit(StrEnum):
     """Length: a nut moves its lead in a full turn. Per radian and per turn differ by 2 pi and are never mixed."""
 
 
-class Kind(NamedTuple):
+class MeshKind(NamedTuple):
     """How a mesh joins speeds: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
 
     sign: int
@@ -52,24 +52,24 @@ class Kind(NamedTuple):
 
 KINDS = MappingProxyType(
     {
-        "gear": Kind(+1),
-        "friction": Kind(+1),
-        "bevel": Kind(+1),
-        "belt": Kind(-1, signed=False),
-        "chain": Kind(-1, signed=False),
-        "crossed": Kind(+1, signed=False),
-        "rack": Kind(0, Unit.PER_RADIAN),
-        "rack by pitch": Kind(0, Unit.PER_TURN),
-        "winch": Kind(0, Unit.PER_RADIAN),
-        "screw": Kind(0, Unit.PER_TURN),
+        "gear": MeshKind(+1),
+        "friction": MeshKind(+1),
+        "bevel": MeshKind(+1),
+        "belt": MeshKind(-1, signed=False),
+        "chain": MeshKind(-1, signed=False),
+        "crossed": MeshKind(+1, signed=False),
+        "rack": MeshKind(0, Unit.PER_RADIAN),
+        "rack by pitch": MeshKind(0, Unit.PER_TURN),
+        "winch": MeshKind(0, Unit.PER_RADIAN),
+        "screw": MeshKind(0, Unit.PER_TURN),
     }
 )
 
 
-def exact(value: object, what: str) -> Fraction:
+def exact_number(value: object, what: str) -> Fraction:
     """A finite number as a fraction; decimals as they are written.
 
-    >>> exact(0.1, "size"), exact("7/2", "size")
+    >>> exact_number(0.1, "size"), exact_number("7/2", "size")
     (Fraction(1, 10), Fraction(7, 2))
     """
     try:
@@ -107,11 +107,11 @@ class Mesh:
         for name, given in ((self.a, self.size_a), (self.b, self.size_b)):
             if not isinstance(name, str) or not name:
                 raise GearError(f"a link has a name, not {name!r}")
-            size = exact(given, f"wheel on {name}")
+            size = exact_number(given, f"wheel on {name}")
             if size == 0 or (size < 0 and not KINDS[self.kind].signed):
                 raise GearError(f"wheel on {name}: {self.kind} takes a positive size, not {size}")
-        object.__setattr__(self, "size_a", exact(self.size_a, self.a))
-        object.__setattr__(self, "size_b", exact(self.size_b, self.b))
+        object.__setattr__(self, "size_a", exact_number(self.size_a, self.a))
+        object.__setattr__(self, "size_b", exact_number(self.size_b, self.b))
         if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
             raise GearError(f"an internal wheel (minus) is larger than the wheel in it: {self}")
         if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
@@ -194,7 +194,7 @@ class Train:
     def basis(self) -> dict[str, Row[str]]:
         """The speed relations in reduced form: each dependent link with its row."""
         # Last links first: what is named first is kept as free, so that others are told in terms of it.
-        return echelon((mesh.row() for mesh in self.meshes), self.links[::-1])
+        return rational_echelon((mesh.row() for mesh in self.meshes), self.links[::-1])
 
     @property
     def mobility(self) -> int:
@@ -229,7 +229,7 @@ class Train:
         # What slides is told by what turns, so that lengths per radian and per turn stay apart.
         turning = [link for link in chosen if units[link] == Unit.TURNING]
         sliding = [link for link in chosen if units[link] != Unit.TURNING]
-        form = echelon((mesh.row() for mesh in self.meshes), [*others, *sliding, *turning])
+        form = rational_echelon((mesh.row() for mesh in self.meshes), [*others, *sliding, *turning])
         place = {link: k for k, link in enumerate(chosen)}
         return [
             _whole({link: row[link] for link in sorted(row, key=place.__getitem__)})
@@ -252,7 +252,7 @@ class Train:
 
     def _repr_svg_(self) -> str | None:
         """Its wheels to scale, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
 
 def comparable(units: Iterable[Unit]) -> bool:

@@ -1,13 +1,13 @@
 """The geometry of motion: poles, curvature, cognates, coupler curves, straight lines.
 
 `poles` and `centrodes`, `inflection_circle` and `path_curvature` take any `Motion`; `cognates`, `slider_cognates` and
-`parallel_motion` find other linkages for one coupler curve, `coupler_sextic` its equation; `piece`, `longest_piece`
-and `piece_of_ratio` tell how straight a path is; `coupler_curve` finds length, area, cusps, inflections,
-vertices and double points, `tangent_contact` the order of contact, `series` the Taylor series of a motion.
-Definitions, theorems and errors: docs/theory/geometry.md, docs/theory/coupler-curves.md.
+`parallel_motion` find other linkages for one coupler curve, `coupler_sextic` its equation; `path_piece`,
+`longest_piece` and `piece_of_ratio` tell how straight a path is; `coupler_curve` finds length, area, cusps,
+inflections, vertices and double points, `tangent_contact` the order of contact, `taylor_series` the Taylor series of a
+motion. Definitions, theorems and errors: docs/theory/geometry.md, docs/theory/coupler-curves.md.
 """
 
-from gruebler.geometry.contact import Contact, tangent_contact
+from gruebler.geometry.contact import TangentContact, tangent_contact
 from gruebler.geometry.coupler_curves import CouplerCurve, coupler_curve
 from gruebler.geometry.curvature import InflectionCircle, PathCurvature, inflection_circle, path_curvature
 from gruebler.geometry.instant_centres import Centrodes, Poles, centrodes, poles
@@ -19,23 +19,31 @@ from gruebler.geometry.roberts import (
     parallel_motion,
     slider_cognates,
 )
-from gruebler.geometry.series import Series, series
+from gruebler.geometry.series import TaylorSeries, taylor_series
 from gruebler.geometry.sextic import CouplerSextic, coupler_sextic
-from gruebler.geometry.straight import Path, Piece, coupler_path, linkage_path, longest_piece, piece, piece_of_ratio
+from gruebler.geometry.straight import (
+    Path,
+    PathPiece,
+    coupler_path,
+    linkage_path,
+    longest_piece,
+    path_piece,
+    piece_of_ratio,
+)
 
 __all__ = [
     "Centrodes",
     "Cognate",
     "CognateSizes",
-    "Contact",
     "CouplerCurve",
     "CouplerSextic",
     "InflectionCircle",
     "Path",
     "PathCurvature",
-    "Piece",
+    "PathPiece",
     "Poles",
-    "Series",
+    "TangentContact",
+    "TaylorSeries",
     "centrodes",
     "cognate_sizes",
     "cognates",
@@ -47,10 +55,10 @@ __all__ = [
     "longest_piece",
     "parallel_motion",
     "path_curvature",
-    "piece",
+    "path_piece",
     "piece_of_ratio",
     "poles",
-    "series",
     "slider_cognates",
     "tangent_contact",
+    "taylor_series",
 ]

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.geometry.series import series
+from gruebler.geometry.series import taylor_series
 from gruebler.kinematics import Motion
-from gruebler.linkages import Named
+from gruebler.linkages import LinkPoint
 from gruebler.linkages.quantities import as_positive
 
-__all__ = ["Contact", "tangent_contact"]
+__all__ = ["TangentContact", "tangent_contact"]
 
 
 @dataclass(frozen=True)
-class Contact:
+class TangentContact:
     """How a path leaves its tangent: with x along the tangent and y to its left, y = coefficient x^points + ..."""
 
     points: int | None
@@ -37,15 +37,15 @@ class Contact:
 
 
 def tangent_contact(
-    motion: Motion, point: str | Named, row: int = 0, highest: int = 10, tolerance: float = 1e-8
-) -> Contact:
+    motion: Motion, point: str | LinkPoint, row: int = 0, highest: int = 10, tolerance: float = 1e-8
+) -> TangentContact:
     """The order of contact of a point's path with its tangent at one row of a motion.
 
     Coefficients of y by powers of x are exact up to roundings, some 1e-15 times the linkage's size by the radius of
     convergence to the power k. In units of the size they are zero if smaller than the tolerance: a drive value that is
     off by d spoils contact of order n by the order of d.
 
-    Raises `LinkageError` in a cusp, where there is no such order, and as `series`.
+    Raises `LinkageError` in a cusp, where there is no such order, and as `taylor_series`.
 
     >>> from gruebler.kinematics import move
     >>> from gruebler.fourbar import FourBar
@@ -59,7 +59,7 @@ def tangent_contact(
     if isinstance(highest, bool) or not isinstance(highest, int) or not 2 <= highest <= 30:
         raise LinkageError(f"highest must be a whole number from 2 to 30, not {highest!r}")
     least, size = as_positive("tolerance", tolerance), motion.plan.lower.size
-    z = series(_row(motion, row), highest).point(point)[0]
+    z = taylor_series(_row(motion, row), highest).point(point)[0]
     speed = abs(z[1])
     if speed <= 1e-9 * max(float(np.abs(z[1:4]).max()), 1e-9 * size):
         raise LinkageError("the point stands still there: a cusp has no order of contact")
@@ -70,9 +70,9 @@ def tangent_contact(
     large = np.flatnonzero(scaled > least)
     direction = float(np.angle(z[1]))
     if not len(large):
-        return Contact(None, 0.0, complex(z[0]), direction, float(scaled.max()))
+        return TangentContact(None, 0.0, complex(z[0]), direction, float(scaled.max()))
     m = int(large[0]) + 2
-    return Contact(
+    return TangentContact(
         m,
         float(seen.imag[m] / speed**m),
         complex(z[0]),

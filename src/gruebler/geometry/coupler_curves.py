@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.errors import LinkageError
-from gruebler.geometry.contact import Contact, tangent_contact
+from gruebler.geometry.contact import TangentContact, tangent_contact
 from gruebler.geometry.double_points import DoublePoint, double_points
 from gruebler.geometry.path_events import (
     Cusp,
@@ -23,10 +23,10 @@ from gruebler.geometry.path_events import (
     turning_points,
     vertices,
 )
-from gruebler.geometry.point_path import Trail, trail_of
+from gruebler.geometry.point_path import PointPath, point_path
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.geometry.sampling import Samples, area, length, sampled
-from gruebler.linkages import Linkage, Named
+from gruebler.geometry.sampling import PathPolygon, path_area, path_length, path_polygon
+from gruebler.linkages import Linkage, LinkPoint
 from gruebler.linkages.quantities import as_finite
 from gruebler.notebook import Brief
 
@@ -42,7 +42,7 @@ class CouplerCurve(Brief):
     Drive values are in radians (or the unit), those of a drive that turns fully from 0 to the period.
     """
 
-    trail: Trail
+    trail: PointPath
     tolerance: float
     """How far the polygon of `points` may be off, in the linkage's unit."""
 
@@ -79,7 +79,7 @@ class CouplerCurve(Brief):
     @cached_property
     def area(self) -> float | None:
         """The area that it goes round, counter-clockwise positive; None for a path between limits."""
-        return area(self.trail, self._samples) if self.closed else None
+        return path_area(self.trail, self._samples) if self.closed else None
 
     @cached_property
     def cusps(self) -> tuple[Cusp, ...]:
@@ -110,7 +110,7 @@ class CouplerCurve(Brief):
         """Where it crosses or touches itself."""
         return self._doubles or ()
 
-    def contact(self, drive: float, highest: int = 10) -> Contact:
+    def contact(self, drive: float, highest: int = 10) -> TangentContact:
         """The order of contact with the tangent at a drive value; angles up to whole turns.
 
         Raises `LinkageError` for a value outside the range of the drive.
@@ -128,12 +128,12 @@ class CouplerCurve(Brief):
         return tangent_contact(motion, self.trail.place, 0, highest)
 
     @cached_property
-    def _samples(self) -> Samples:
-        return sampled(self.trail, self.tolerance)
+    def _samples(self) -> PathPolygon:
+        return path_polygon(self.trail, self.tolerance)
 
     @cached_property
     def _length(self) -> tuple[float, float]:
-        return length(self.trail, self._samples, np.array([cusp.parameter for cusp in self.cusps]))
+        return path_length(self.trail, self._samples, np.array([cusp.parameter for cusp in self.cusps]))
 
     @cached_property
     def _doubles(self) -> tuple[DoublePoint, ...] | None:
@@ -146,13 +146,13 @@ class CouplerCurve(Brief):
 
 def coupler_curve(
     linkage: Linkage,
-    point: str | Named,
+    point: str | LinkPoint,
     *,
     branch: str | None = None,
     tolerance: float | None = None,
     drives: ArrayLike | None = None,
 ) -> CouplerCurve:
-    """The path of a named point, joint or `Named` of any linkage with one drive, over a full turn or the drive's range.
+    """The path of a named point, joint or `LinkPoint` of any linkage with one drive, over a full turn or range.
 
     Args:
         linkage: a linkage with one drive, or with several and a path of them.
@@ -171,5 +171,5 @@ def coupler_curve(
     >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
     [80.56, 147.1, 212.9, 279.44]
     """
-    trail = trail_of(linkage, point, branch, drives)
+    trail = point_path(linkage, point, branch, drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

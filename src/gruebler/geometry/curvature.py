@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals, Relative, against
+from gruebler.geometry.relative import Complexes, Reals, RelativeMotion, relative_motion
 from gruebler.kinematics import Motion
-from gruebler.linkages import Named
+from gruebler.linkages import LinkPoint
 
 __all__ = ["InflectionCircle", "PathCurvature", "inflection_circle", "path_curvature"]
 
@@ -102,7 +102,7 @@ def inflection_circle(motion: Motion, link: str, reference: str | None = None) -
     >>> found.diameter.round(12).tolist()  # a Cardan circle: points on it move on straight lines
     [2.0, 2.0]
     """
-    seen = against(motion, link, reference, order=2)
+    seen = relative_motion(motion, link, reference, order=2)
     pole = seen.pole
     (_, velocity, acceleration), (rate, angular) = seen.places, seen.rates
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -111,8 +111,8 @@ def inflection_circle(motion: Motion, link: str, reference: str | None = None) -
     return InflectionCircle(pole, np.where(np.isfinite(pole), shift, np.nan))
 
 
-def path_curvature(motion: Motion, point: str | Named, reference: str | None = None) -> PathCurvature:
-    """Tangent, curvature and its change of the path of a named point, joint or `Named`, against a link.
+def path_curvature(motion: Motion, point: str | LinkPoint, reference: str | None = None) -> PathCurvature:
+    """Tangent, curvature and its change of the path of a named point, joint or `LinkPoint`, against a link.
 
     Needs a motion with accelerations.
 
@@ -122,8 +122,8 @@ def path_curvature(motion: Motion, point: str | Named, reference: str | None = N
     >>> path_curvature(motion, "R(coupler-rocker)").centre.round(9).tolist()  # a circle about B0
     [(70+0j), (70+0j)]
     """
-    place = point if isinstance(point, Named) else _moving(motion, point, reference)
-    seen = against(motion, place.link, reference, order=2 if motion.order < 3 else 3)
+    place = point if isinstance(point, LinkPoint) else _moving(motion, point, reference)
+    seen = relative_motion(motion, place.link, reference, order=2 if motion.order < 3 else 3)
     arm = complex(place.x, place.y)
     at, velocity, acceleration = (seen.point(arm, k) for k in range(3))
     speed = np.abs(velocity)
@@ -133,7 +133,7 @@ def path_curvature(motion: Motion, point: str | Named, reference: str | None = N
         return PathCurvature(at, velocity / speed, bend / speed**3, _change(seen, arm, speed, bend))
 
 
-def _change(seen: Relative, arm: complex, speed: Reals, bend: Reals) -> Reals | None:
+def _change(seen: RelativeMotion, arm: complex, speed: Reals, bend: Reals) -> Reals | None:
     """The derivative of bend/speed^3 in time, by the speed."""
     if len(seen.rates) < 3:
         return None
@@ -143,7 +143,7 @@ def _change(seen: Relative, arm: complex, speed: Reals, bend: Reals) -> Reals | 
     return out
 
 
-def _moving(motion: Motion, name: str, reference: str | None) -> Named:
+def _moving(motion: Motion, name: str, reference: str | None) -> LinkPoint:
     """The point as one of a link that is not the reference."""
     fixed = motion.linkage.mechanism.frame if reference is None else reference
     for place in reversed(motion.linkage.named(name)):

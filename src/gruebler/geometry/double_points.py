@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.geometry.point_path import Trail
+from gruebler.geometry.point_path import PointPath
 from gruebler.geometry.relative import Complexes, Flags, Reals
-from gruebler.geometry.sampling import Samples
+from gruebler.geometry.sampling import PathPolygon
 
 __all__ = ["DoublePoint", "double_points"]
 
@@ -47,7 +47,7 @@ class _Pairs(NamedTuple):
         return _Pairs(self.one[which], self.other[which])
 
 
-def double_points(trail: Trail, samples: Samples, pad: float) -> tuple[DoublePoint, ...] | None:
+def double_points(trail: PointPath, samples: PathPolygon, pad: float) -> tuple[DoublePoint, ...] | None:
     """The double points of a path; None if it is gone twice (everything is double).
 
     Args:
@@ -81,7 +81,7 @@ def double_points(trail: Trail, samples: Samples, pad: float) -> tuple[DoublePoi
 # --- sides that come near to one another ---------------------------------------------------------------
 
 
-def _near_sides(samples: Samples, closed: bool, pad: float) -> _Pairs:
+def _near_sides(samples: PathPolygon, closed: bool, pad: float) -> _Pairs:
     """Pairs of sides, not neighbours, nearer than the pad; sweeping over x."""
     p, q = samples.points[:-1], samples.points[1:]
     low, high = np.minimum(p.real, q.real) - pad, np.maximum(p.real, q.real) + pad
@@ -127,7 +127,7 @@ def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Re
 # --- Newton's method ------------------------------------------------------------------------------------
 
 
-def _newton(trail: Trail, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
+def _newton(trail: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
     """Where it arrives, and whether it has come to rest."""
     s, t = start.one.copy(), start.other.copy()
     still = np.zeros(len(s), bool)
@@ -166,7 +166,7 @@ def _finite(step: Reals) -> Reals:
     return np.clip(np.nan_to_num(step, posinf=1.0, neginf=-1.0), -1.0, 1.0)
 
 
-def _kept(trail: Trail, s: Reals) -> Reals:
+def _kept(trail: PointPath, s: Reals) -> Reals:
     """Within the path; of a closed one in its period."""
     if trail.closed:
         return np.asarray(trail.start + (s - trail.start) % (trail.end - trail.start))
@@ -176,14 +176,14 @@ def _kept(trail: Trail, s: Reals) -> Reals:
 # --- what is told ---------------------------------------------------------------------------------------
 
 
-def _apart(trail: Trail, pairs: _Pairs) -> Flags:
+def _apart(trail: PointPath, pairs: _Pairs) -> Flags:
     gap = np.abs(pairs.one - pairs.other)
     if trail.closed:
         gap = np.minimum(gap, trail.end - trail.start - gap)
     return np.asarray(gap > _APART)
 
 
-def _told(trail: Trail, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
+def _told(trail: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
     """Each once."""
     if not len(pairs.one):
         return []
@@ -199,7 +199,7 @@ def _told(trail: Trail, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
     return out
 
 
-def _equal(trail: Trail, one: tuple[float, float], other: tuple[float, float]) -> bool:
+def _equal(trail: PointPath, one: tuple[float, float], other: tuple[float, float]) -> bool:
     """Whether two pairs of drive values are the same, also across the seam."""
     period = trail.course.span.period
 

@@ -17,8 +17,8 @@ from gruebler.errors import LinkageError, nearest
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry.lever_contact import LeverContact, lever_contact, lever_pose
 from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
-from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, sized
-from gruebler.geometry.straight import Path, Piece, linkage_path, piece
+from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, scale_for
+from gruebler.geometry.straight import Path, PathPiece, linkage_path, path_piece
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -28,7 +28,7 @@ _EXACT = 1e-12  # deviation by length over the whole window
 _POINT = "K"
 
 
-class Names(NamedTuple):
+class BilingualName(NamedTuple):
     """A text in both languages."""
 
     en: str
@@ -44,8 +44,8 @@ class Guidance:
     """A linkage with a point K that runs straight, the smallest length being its unit."""
 
     key: str
-    name: Names
-    proportions: Names
+    name: BilingualName
+    proportions: BilingualName
     build: Callable[[], Linkage]
     degrees: tuple[float, float, float]
     """Drive values: beginning, position of reference, end."""
@@ -69,9 +69,9 @@ class Guidance:
         return Window(start, centre, end, self.direction)
 
     @cached_property
-    def piece(self) -> Piece:
+    def piece(self) -> PathPiece:
         """Length and band over the whole window."""
-        return piece(self.path, self.window.start, self.window.end, self.direction)
+        return path_piece(self.path, self.window.start, self.window.end, self.direction)
 
     @property
     def is_exact(self) -> bool:
@@ -96,7 +96,7 @@ class Guidance:
         >>> round(guidance("lambda").sized(120, 0.6).factor, 6)
         30.0
         """
-        return sized(self.path, self.window, length, tolerance)
+        return scale_for(self.path, self.window, length, tolerance)
 
 
 def guidance(key: str) -> Guidance:
@@ -187,16 +187,16 @@ _INFLECTION, _ITS_TANGENT = 80.55616065499164, 2.2732018534280565  # of the conc
 GUIDANCES: tuple[Guidance, ...] = (
     Guidance(
         "watt",
-        Names("Watt", "Watt"),
-        Names("rockers 2, coupler 1; middle of the coupler", "Schwingen 2, Koppel 1; Koppelmitte"),
+        BilingualName("Watt", "Watt"),
+        BilingualName("rockers 2, coupler 1; middle of the coupler", "Schwingen 2, Koppel 1; Koppelmitte"),
         _four_bar(-2 + 0.5j, 0.5j, -0.5j, 2 - 0.5j, 0j),
         (-20, 0, 20),
         pi / 2,
     ),
     Guidance(
         "evans",
-        Names("Evans", "Evans"),
-        Names(
+        BilingualName("Evans", "Evans"),
+        BilingualName(
             "crank = coupler = its extension = 1, long rocker 3 upright with crank and coupler stretched",
             "Kurbel = Koppel = deren Verlängerung = 1, lange Schwinge 3 senkrecht bei gestreckter Kurbel und Koppel",
         ),
@@ -206,16 +206,18 @@ GUIDANCES: tuple[Guidance, ...] = (
     ),
     Guidance(
         "chebyshev",
-        Names("Chebyshev", "Tschebyscheff"),
-        Names("frame 4, crossed rockers 5, coupler 2; its middle", "Gestell 4, gekreuzte Schwingen 5, Koppel 2; Mitte"),
+        BilingualName("Chebyshev", "Tschebyscheff"),
+        BilingualName(
+            "frame 4, crossed rockers 5, coupler 2; its middle", "Gestell 4, gekreuzte Schwingen 5, Koppel 2; Mitte"
+        ),
         _four_bar(0j, 3 + 4j, 1 + 4j, 4 + 0j, 2 + 4j, drive="R(crank-coupler)"),
         (-90 - degrees(atan2(3, 4)), -degrees(atan2(4, 3)), 0),
         0.0,
     ),
     Guidance(
         "roberts",
-        Names("Roberts", "Roberts"),
-        Names(
+        BilingualName("Roberts", "Roberts"),
+        BilingualName(
             "frame 2, coupler 1, rockers and legs of the coupler triangle 1.2",
             "Gestell 2, Koppel 1, Schwingen und Schenkel des Koppeldreiecks 1,2",
         ),
@@ -225,8 +227,8 @@ GUIDANCES: tuple[Guidance, ...] = (
     ),
     Guidance(
         "lambda",
-        Names("Chebyshev's lambda, Hoecken", "Tschebyscheffs Lambda, Hoecken"),
-        Names(
+        BilingualName("Chebyshev's lambda, Hoecken", "Tschebyscheffs Lambda, Hoecken"),
+        BilingualName(
             "crank 1, coupler = rocker = extension = 2.5, frame 2",
             "Kurbel 1, Koppel = Schwinge = Verlängerung = 2,5, Gestell 2",
         ),
@@ -236,24 +238,28 @@ GUIDANCES: tuple[Guidance, ...] = (
     ),
     Guidance(
         "scott-russell",
-        Names("Scott Russell", "Scott-Russell"),
-        Names("crank = rod = its extension = 1, central slider", "Kurbel = Koppel = Verlängerung = 1, zentrisch"),
+        BilingualName("Scott Russell", "Scott-Russell"),
+        BilingualName(
+            "crank = rod = its extension = 1, central slider", "Kurbel = Koppel = Verlängerung = 1, zentrisch"
+        ),
         _sized(SliderCrank(1, 1), -1),
         (-60, 0, 60),
         pi / 2,
     ),
     Guidance(
         "conchoid",
-        Names("conchoid linkage", "Konchoidenlenker"),
-        Names("crank 3, frame 5, AK = 9; about an inflection", "Kurbel 3, Gestell 5, AK = 9; um einen Wendepunkt"),
+        BilingualName("conchoid linkage", "Konchoidenlenker"),
+        BilingualName(
+            "crank 3, frame 5, AK = 9; about an inflection", "Kurbel 3, Gestell 5, AK = 9; um einen Wendepunkt"
+        ),
         _sized(InvertedSliderCrank(3, 5), 9),
         (60, _INFLECTION, 120),
         _ITS_TANGENT,
     ),
     Guidance(
         "peaucellier",
-        Names("Peaucellier, Lipkin", "Peaucellier, Lipkin"),
-        Names(
+        BilingualName("Peaucellier, Lipkin", "Peaucellier, Lipkin"),
+        BilingualName(
             "arms 3, rhombus 1.5, crank = half of the distance of pivot and near corner",
             "Arme 3, Raute 1,5, Kurbel = halber Abstand von Drehpunkt und naher Ecke",
         ),
@@ -263,8 +269,8 @@ GUIDANCES: tuple[Guidance, ...] = (
     ),
     Guidance(
         "hart",
-        Names("Hart", "Hart"),
-        Names(
+        BilingualName("Hart", "Hart"),
+        BilingualName(
             "crossed parallelogram 4 : 2, points half-way, crank 0.6",
             "gekreuztes Parallelogramm 4 : 2, Punkte auf halber Länge, Kurbel 0,6",
         ),
@@ -274,16 +280,16 @@ GUIDANCES: tuple[Guidance, ...] = (
     ),
     Guidance(
         "meyer-zur-capellen",
-        Names("Meyer zur Capellen", "Meyer zur Capellen"),
-        Names("symmetric double rocker, λ = 5/6, AK = 1", "symmetrische Doppelschwinge, λ = 5/6, AK = 1"),
+        BilingualName("Meyer zur Capellen", "Meyer zur Capellen"),
+        BilingualName("symmetric double rocker, λ = 5/6, AK = 1", "symmetrische Doppelschwinge, λ = 5/6, AK = 1"),
         _four_bar(*_ROCKER_PINS, drive="R(crank-coupler)"),
         (0, degrees(_ROCKER.phi0), 120),
         0.0,
     ),
     Guidance(
         "isosceles",
-        Names("Meyer zur Capellen, crank-rocker", "Meyer zur Capellen, Kurbelschwinge"),
-        Names("1 : 5/2 sqrt 3 : 5/2 sqrt 3 : 4, AK = 25/3", "1 : 5/2 Wurzel 3 : 5/2 Wurzel 3 : 4, AK = 25/3"),
+        BilingualName("Meyer zur Capellen, crank-rocker", "Meyer zur Capellen, Kurbelschwinge"),
+        BilingualName("1 : 5/2 sqrt 3 : 5/2 sqrt 3 : 4, AK = 25/3", "1 : 5/2 Wurzel 3 : 5/2 Wurzel 3 : 4, AK = 25/3"),
         _sized(_CAPELLEN.size, _CAPELLEN.u, _CAPELLEN.v),
         (90, 180, 270),
         _CAPELLEN.kappa,

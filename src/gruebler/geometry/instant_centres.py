@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, nearest
-from gruebler.geometry.relative import Complexes, against, link_numbers, resting_and_translating
+from gruebler.geometry.relative import Complexes, link_numbers, relative_motion, resting_and_translating
 from gruebler.kinematics import Motion
 from gruebler.notebook import Brief
 
@@ -107,5 +107,5 @@ def centrodes(motion: Motion, link: str, reference: str | None = None) -> Centro
     >>> abs(found.fixed).round(12).tolist(), abs(found.moving).round(12).tolist()
     ([2.0, 2.0], [1.0, 1.0])
     """
-    seen = against(motion, link, reference)
+    seen = relative_motion(motion, link, reference)
     return Centrodes(seen.pole, np.conj(seen.turn) * (seen.pole - seen.places[0]))

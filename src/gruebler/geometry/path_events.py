@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.geometry.point_path import Trail
+from gruebler.geometry.point_path import PointPath
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.geometry.series import series
-from gruebler.kinematics.root_finding import Zero, zeros
+from gruebler.geometry.series import taylor_series
+from gruebler.kinematics.root_finding import Zero, find_zeros
 from gruebler.linkages.quantities import as_finite
 
 __all__ = [
@@ -87,12 +87,12 @@ class TurningPoint(NamedTuple):
     parameter: float
 
 
-def cusps(trail: Trail) -> tuple[Cusp, ...]:
+def cusps(trail: PointPath) -> tuple[Cusp, ...]:
     """Where the velocity is zero, found as roots of its square's derivative: error of some roundings.
 
-    >>> from gruebler.geometry.point_path import trail_of
+    >>> from gruebler.geometry.point_path import point_path
     >>> from gruebler.fourbar import SliderCrank
-    >>> [round(found.drive, 9) for found in cusps(trail_of(SliderCrank(2, 5).linkage(), "R(coupler-slider)"))]
+    >>> [round(found.drive, 9) for found in cusps(point_path(SliderCrank(2, 5).linkage(), "R(coupler-slider)"))]
     [0.0, 3.141592654]
     """
 
@@ -101,7 +101,7 @@ def cusps(trail: Trail) -> tuple[Cusp, ...]:
         return np.stack([_dot(v, a), np.abs(a) ** 2 + _dot(v, j)])
 
     usual = _usual(trail)
-    found = zeros(slowing, trail.grid, _LEAST * usual**2)
+    found = find_zeros(slowing, trail.grid, _LEAST * usual**2)
     out = []
     for zero, z in _seen(trail, found):
         if abs(z[1]) <= _STILL * usual:
@@ -110,7 +110,7 @@ def cusps(trail: Trail) -> tuple[Cusp, ...]:
     return tuple(sorted(out))
 
 
-def goes_back(trail: Trail, cusp: Cusp) -> bool:
+def goes_back(trail: PointPath, cusp: Cusp) -> bool:
     """Whether the point goes back on its own way from a cusp: feet of perpendiculars onto the other side."""
     before, behind = trail.at(cusp.parameter - _BESIDE, 0)[0], cusp.parameter + _BESIDE
     for _ in range(20):
@@ -120,14 +120,14 @@ def goes_back(trail: Trail, cusp: Cusp) -> bool:
     return bool((np.abs(trail.at(behind, 0)[0] - before) <= _BACK * trail.size).all())
 
 
-def inflections(trail: Trail, known: tuple[Cusp, ...]) -> tuple[Inflection, ...]:
+def inflections(trail: PointPath, known: tuple[Cusp, ...]) -> tuple[Inflection, ...]:
     """Zeros of Im(conj(z') z''), multiple ones settled by the Taylor series; none of a straight path."""
 
     def bend(s: Reals) -> Reals:
         _, v, a, j = trail.at(s)
         return np.stack([_cross(v, a), _cross(v, j)])
 
-    found = _away(trail, zeros(bend, trail.grid, _LEAST * _usual(trail) ** 2), known)
+    found = _away(trail, find_zeros(bend, trail.grid, _LEAST * _usual(trail) ** 2), known)
     settled = tuple(_settled(trail, zero) for zero in found)
     return tuple(
         sorted(
@@ -137,7 +137,7 @@ def inflections(trail: Trail, known: tuple[Cusp, ...]) -> tuple[Inflection, ...]
     )
 
 
-def _settled(trail: Trail, zero: Zero) -> Zero:
+def _settled(trail: PointPath, zero: Zero) -> Zero:
     """The zero of the bend with its true multiplicity m: in the middle of m close ones, -g_(m-1)/(m g_m) from here."""
     try:
         drive, g = float(trail.drive(np.array([zero.at]))[0]), _bend_series(trail, zero.at)
@@ -153,15 +153,15 @@ def _settled(trail: Trail, zero: Zero) -> Zero:
     return zero
 
 
-def _bend_series(trail: Trail, s: float) -> Reals:
+def _bend_series(trail: PointPath, s: float) -> Reals:
     """Coefficients of Im(conj(z') z'') by the drive, in its natural size |z'| (|z'| + |z''|)."""
-    z = series(trail.course.at(trail.drive(np.array([s])), 0), _ORDER).point(trail.place)[0]
+    z = taylor_series(trail.course.at(trail.drive(np.array([s])), 0), _ORDER).point(trail.place)[0]
     v = np.polynomial.polynomial.polyder(z)
     a = np.polynomial.polynomial.polyder(v)
     return np.asarray(np.convolve(np.conj(v), a).imag[: _ORDER - 1] / (abs(v[0]) * (abs(v[0]) + abs(a[0]))))
 
 
-def vertices(trail: Trail, known: tuple[Cusp, ...], flat: tuple[Inflection, ...] = ()) -> tuple[Vertex, ...]:
+def vertices(trail: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflection, ...] = ()) -> tuple[Vertex, ...]:
     """Sign changes of the curvature's derivative, flat inflections among them; none of a circle or a straight line."""
 
     def change(s: Reals) -> Reals:
@@ -170,7 +170,7 @@ def vertices(trail: Trail, known: tuple[Cusp, ...], flat: tuple[Inflection, ...]
 
     _, v, a, j = trail.at(trail.grid)
     natural = float(np.median(np.abs(v) ** 2 * (np.abs(v) * np.abs(j) + 3 * np.abs(a) ** 2)))
-    found = _away(trail, zeros(change, trail.grid, _LEAST * natural), known)
+    found = _away(trail, find_zeros(change, trail.grid, _LEAST * natural), known)
     found = tuple(zero._replace(at=_nearest(zero.at, flat)) for zero in found)
     return tuple(
         sorted(
@@ -191,14 +191,14 @@ def _nearest(at: float, flat: tuple[Inflection, ...]) -> float:
     return next((one.parameter for one in flat if one.flat and abs(one.parameter - at) < _NEAR), at)
 
 
-def turning_points(trail: Trail, direction: float = 0.0) -> tuple[TurningPoint, ...]:
+def turning_points(trail: PointPath, direction: float = 0.0) -> tuple[TurningPoint, ...]:
     """Where the path turns back along a direction (radians; 0: in x, pi/2: in y)."""
     turn = np.exp(-1j * as_finite("direction", direction))
 
     def along(s: Reals) -> Reals:
         return np.asarray((trail.at(s)[1:] * turn).real)
 
-    found = zeros(along, trail.grid, _LEAST * _usual(trail))
+    found = find_zeros(along, trail.grid, _LEAST * _usual(trail))
     kinds = {(1, True): "minimum", (1, False): "maximum", (3, True): "minimum", (3, False): "maximum"}
     return tuple(
         sorted(
@@ -208,12 +208,12 @@ def turning_points(trail: Trail, direction: float = 0.0) -> tuple[TurningPoint, 
     )
 
 
-def _usual(trail: Trail) -> float:
+def _usual(trail: PointPath) -> float:
     """The usual velocity of the point."""
     return max(float(np.median(np.abs(trail.at(trail.grid, 1)[1]))), 1e-12 * trail.size)
 
 
-def _seen(trail: Trail, found: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
+def _seen(trail: PointPath, found: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
     """Zeros with the point and its derivatives there."""
     if not found:
         return []
@@ -221,7 +221,7 @@ def _seen(trail: Trail, found: tuple[Zero, ...]) -> list[tuple[Zero, list[comple
     return [(zero, [complex(value) for value in z[:, k]]) for k, zero in enumerate(found)]
 
 
-def _away(trail: Trail, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
+def _away(trail: PointPath, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
     period = trail.end - trail.start
 
     def near(zero: Zero, cusp: Cusp) -> bool:
@@ -231,7 +231,7 @@ def _away(trail: Trail, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tup
     return tuple(zero for zero in found if not any(near(zero, cusp) for cusp in known))
 
 
-def _drive(trail: Trail, zero: Zero) -> float:
+def _drive(trail: PointPath, zero: Zero) -> float:
     value = float(trail.drive(np.array([zero.at]))[0])
     return trail.course.span.wrapped(value)
 

@@ -9,13 +9,13 @@ from math import asin, factorial, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.analysis.drive_cycle import Course, follow, follow_path_of
+from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
 from gruebler.errors import LinkageError
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.linkages import Linkage, Named
+from gruebler.linkages import Linkage, LinkPoint
 from gruebler.notebook import Brief
 
-__all__ = ["Trail", "trail_of"]
+__all__ = ["PointPath", "point_path"]
 
 _CELLS = 360  # of the first grid, for each turn
 _EDGE = 1e-3  # of the parameter: nearer to a limit of the drive the path is continued by its Taylor polynomial
@@ -23,15 +23,15 @@ _STILL = 1e-11  # sizes for each unit of the parameter: a point that is never fa
 
 
 @dataclass(frozen=True, repr=False)
-class Trail(Brief):
+class PointPath(Brief):
     """A path z(s). Of a drive that turns fully s is the drive's value, and the path is closed.
 
     Between limits it is s with drive = low + (high - low) sin^2(s/2), from 0 to pi: at a limit the pose grows as the
     square root of the drive's way, which is smooth in s.
     """
 
-    course: Course
-    place: Named
+    course: DriveCycle
+    place: LinkPoint
 
     @property
     def closed(self) -> bool:
@@ -109,18 +109,20 @@ def _by_parameter(z: list[Complexes], first: Reals, second: Reals) -> Complexes:
     return out
 
 
-def trail_of(linkage: Linkage, point: str | Named, branch: str | None = None, drives: ArrayLike | None = None) -> Trail:
-    """The path of a named point, joint or `Named` of a linkage with one drive, or along a path of its drives.
+def point_path(
+    linkage: Linkage, point: str | LinkPoint, branch: str | None = None, drives: ArrayLike | None = None
+) -> PointPath:
+    """The path of a named point, joint or `LinkPoint` of a linkage with one drive, or along a path of its drives.
 
-    Raises `LinkageError` for a point of the frame or one that does not move, and as `gruebler.analysis.follow`.
+    Raises `LinkageError` for a point of the frame or one that does not move, and as `gruebler.analysis.drive_cycle`.
     """
     said = repr(point) if isinstance(point, str) else f"({point.x:g}, {point.y:g})"
     frame = linkage.mechanism.frame
-    places = [point] if isinstance(point, Named) else [p for p in linkage.named(point) if p.link != frame]
+    places = [point] if isinstance(point, LinkPoint) else [p for p in linkage.named(point) if p.link != frame]
     if not places or places[-1].link == frame:
         raise LinkageError(f"the point {said} lies on the frame {frame!r}: it has no path")
-    course = follow(linkage, branch) if drives is None else follow_path_of(linkage, drives, branch)
-    trail = Trail(course, places[-1])
+    course = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
+    trail = PointPath(course, places[-1])
     if np.abs(trail.at(trail.grid, 1)[1]).max() <= _STILL * trail.size:
         raise LinkageError(f"the point {said} does not move: it has no path")
     return trail

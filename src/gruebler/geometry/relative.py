@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 
-__all__ = ["Relative", "against", "link_numbers", "resting_and_translating"]
+__all__ = ["RelativeMotion", "link_numbers", "relative_motion", "resting_and_translating"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -22,7 +22,7 @@ _BINOMIAL = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1))
 _ORDERS = ("positions", "velocities", "accelerations", "jerks")
 
 
-class Relative(NamedTuple):
+class RelativeMotion(NamedTuple):
     """Places of a link in the coordinates of another one, with time derivatives; points are x + iy."""
 
     places: Complexes
@@ -49,12 +49,12 @@ class Relative(NamedTuple):
             return np.asarray(np.where(resting | far, np.nan, self.places[0] + 1j * velocity / rate))
 
 
-def against(motion: Motion, link: str, reference: str | None = None, order: int = 1) -> Relative:
+def relative_motion(motion: Motion, link: str, reference: str | None = None, order: int = 1) -> RelativeMotion:
     """How a link moves against another one (without a name: the frame), up to an order of derivatives.
 
     >>> from gruebler.kinematics import move
     >>> from gruebler.fourbar import FourBar
-    >>> seen = against(move(FourBar(25, 70, 40, 70).linkage(), [0.0, 0.1], speed=10), "frame", "crank")
+    >>> seen = relative_motion(move(FourBar(25, 70, 40, 70).linkage(), [0.0, 0.1], speed=10), "frame", "crank")
     >>> seen.rates[0].tolist()
     [-10.0, -10.0]
     """
@@ -76,7 +76,7 @@ def against(motion: Motion, link: str, reference: str | None = None, order: int 
     rates = motion.rates[:order, :, m] - motion.rates[:order, :, r]
     size, both = motion.linkage.size, [m, r]
     swiftest = np.maximum(np.abs(motion.places[1][:, both]), np.abs(motion.rates[0][:, both]) * size).max(axis=1)
-    return Relative(np.array(places), motion.turns[:, m] * back, rates, size, swiftest)
+    return RelativeMotion(np.array(places), motion.turns[:, m] * back, rates, size, swiftest)
 
 
 def link_numbers(motion: Motion, links: list[str]) -> list[int]:

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.geometry.point_path import Trail
+from gruebler.geometry.point_path import PointPath
 from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages.quantities import as_positive
 
-__all__ = ["Samples", "area", "length", "sampled"]
+__all__ = ["PathPolygon", "path_area", "path_length", "path_polygon"]
 
 _FIRST = 64  # cells for each turn before any is halved
 _LEVELS = 24
@@ -19,14 +19,14 @@ _FINEST = 1e-10  # of the reach: no tolerance below
 _NODES = 8
 
 
-class Samples(NamedTuple):
+class PathPolygon(NamedTuple):
     """Corners of the polygon."""
 
     parameters: Reals
     points: Complexes
 
 
-def sampled(trail: Trail, tolerance: float) -> Samples:
+def path_polygon(trail: PointPath, tolerance: float) -> PathPolygon:
     """Corners of a polygon, from the path's beginning to its end, no further from the path than the tolerance.
 
     A cell is halved where the cubic through its ends, with their tangents, leaves the chord by more; by how much the
@@ -58,7 +58,7 @@ def sampled(trail: Trail, tolerance: float) -> Samples:
         s = np.insert(s, halved + 1, middles[bent])
         z = np.insert(z, halved + 1, between[:, bent], axis=1)
         suspect = np.repeat(suspect, parts)
-    return Samples(s, z[0])
+    return PathPolygon(s, z[0])
 
 
 def _bows(left: Complexes, right: Complexes, middle: Complexes, width: Reals) -> Reals:
@@ -77,19 +77,19 @@ def _bows(left: Complexes, right: Complexes, middle: Complexes, width: Reals) ->
     return np.asarray(out + miss)
 
 
-def length(trail: Trail, samples: Samples, cusps: Reals) -> tuple[float, float]:
+def path_length(trail: PointPath, samples: PathPolygon, cusps: Reals) -> tuple[float, float]:
     """The length of a path, and about its error: Gauss's rule between corners and cusps, with 8 nodes and with 5."""
     corners = np.union1d(samples.parameters, cusps)
     whole, less = (_integral(trail, corners, nodes, speed=True) for nodes in (_NODES, 5))
     return whole, abs(whole - less) + 1e-15 * whole
 
 
-def area(trail: Trail, samples: Samples) -> float:
+def path_area(trail: PointPath, samples: PathPolygon) -> float:
     """The area that a closed path goes round, counter-clockwise positive; each part as often as round it."""
     return _integral(trail, samples.parameters, _NODES, speed=False)
 
 
-def _integral(trail: Trail, corners: Reals, count: int, speed: bool) -> float:
+def _integral(trail: PointPath, corners: Reals, count: int, speed: bool) -> float:
     nodes, weights = np.polynomial.legendre.leggauss(count)
     half = np.diff(corners)[:, None] / 2
     s = corners[:-1, None] + half * (1 + nodes)

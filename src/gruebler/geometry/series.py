@@ -11,16 +11,16 @@ import numpy as np
 from gruebler.errors import LinkageError
 from gruebler.geometry.relative import Complexes, Reals, link_numbers
 from gruebler.kinematics import Motion
-from gruebler.linkages import Line, Linkage, Named
+from gruebler.linkages import Line, Linkage, LinkPoint
 
-__all__ = ["Series", "series"]
+__all__ = ["TaylorSeries", "taylor_series"]
 
 _HIGHEST = 40
 _SINGULAR = 1e-9  # a smaller root: the drive stands at a limit, or assembly modes meet
 
 
 @dataclass(frozen=True)
-class Series:
+class TaylorSeries:
     """Taylor coefficients by powers of the drive's increase (radians, or the unit), at each row of a motion."""
 
     motion: Motion
@@ -34,9 +34,9 @@ class Series:
         """The highest power."""
         return int(self.places.shape[2]) - 1
 
-    def point(self, name: str | Named) -> Complexes:
+    def point(self, name: str | LinkPoint) -> Complexes:
         """The coefficients of a named point or joint, as x + iy; (rows, order + 1)."""
-        place = name if isinstance(name, Named) else self.motion.linkage.named(name)[-1]
+        place = name if isinstance(name, LinkPoint) else self.motion.linkage.named(name)[-1]
         (k,) = link_numbers(self.motion, [place.link])
         out: Complexes = self.places[:, k] + self.turns[:, k] * complex(place.x, place.y)
         return out
@@ -53,7 +53,7 @@ class _Condition(NamedTuple):
     line: complex
 
 
-def series(motion: Motion, order: int) -> Series:
+def taylor_series(motion: Motion, order: int) -> TaylorSeries:
     """The Taylor coefficients of all links in the drive of a linkage with one drive.
 
     Powers are found one after another: the closing conditions are linear in the highest, with the Jacobian of the pose.
@@ -64,7 +64,7 @@ def series(motion: Motion, order: int) -> Series:
 
     >>> from gruebler.kinematics import move
     >>> from gruebler.fourbar import SliderCrank
-    >>> found = series(move(SliderCrank(1, 1).linkage(), [0.0]), 6)  # the slider at 2 cos(phi)
+    >>> found = taylor_series(move(SliderCrank(1, 1).linkage(), [0.0]), 6)  # the slider at 2 cos(phi)
     >>> (found.point("R(coupler-slider)")[0].real.round(12) + 0.0).tolist()
     [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]
     """
@@ -99,7 +99,7 @@ def series(motion: Motion, order: int) -> Series:
         angle[:, bodies, k] = found[..., 2]
         turn[:, bodies, k] += 1j * found[..., 2] * turn[:, bodies, 0]
     places: Complexes = z * lower.size
-    return Series(motion, places, turn)
+    return TaylorSeries(motion, places, turn)
 
 
 def _conditions(lower: Linkage) -> list[_Condition]:

@@ -8,10 +8,10 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.geometry.relative import Complexes, Reals
-from gruebler.geometry.straight import Path, Piece, longest_piece, piece
+from gruebler.geometry.straight import Path, PathPiece, longest_piece, path_piece
 from gruebler.linkages.quantities import as_finite, as_positive
 
-__all__ = ["RatioCurve", "Sizing", "Window", "longest_in_band", "ratio_curve", "sized", "widest_piece"]
+__all__ = ["RatioCurve", "Sizing", "Window", "longest_in_band", "ratio_curve", "scale_for", "widest_piece"]
 
 
 class Window(NamedTuple):
@@ -50,7 +50,7 @@ class Sizing(NamedTuple):
 
     factor: float
     """By which all its lengths are multiplied."""
-    piece: Piece
+    piece: PathPiece
     """The piece of the path that is used, before that."""
 
 
@@ -87,7 +87,7 @@ def _growing(both: Reals) -> Reals:
     return np.asarray(np.maximum.accumulate(both.max(axis=0)) - np.minimum.accumulate(both.min(axis=0)))
 
 
-def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -> Piece:
+def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -> PathPiece:
     """The widest window whose relative deviation is at most the given one; the whole if all are.
 
     Raises `LinkageError` if not even the smallest is so straight.
@@ -110,21 +110,22 @@ def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -
         from scipy.optimize import brentq
 
         def excess(wide: float) -> float:
-            made = piece(path, *window.ends(wide), window.direction)
+            made = path_piece(path, *window.ends(wide), window.direction)
             return made.band - wanted * made.length
 
         beyond = float(curve.widths[last + 1])
         if excess(width) < 0 < excess(beyond):
             width = float(brentq(excess, width, beyond, xtol=1e-14, rtol=1e-14))
-    return piece(path, *window.ends(width), window.direction)
+    return path_piece(path, *window.ends(width), window.direction)
 
 
-def longest_in_band(path: Path, start: float, end: float, band: float, samples: int = 181) -> Piece:
+def longest_in_band(path: Path, start: float, end: float, band: float, samples: int = 181) -> PathPiece:
     """The longest piece in a band of any direction, its ends between the samples: `longest_piece`, refined.
 
     Every piece that begins near the best one of the samples is led on until it just fills the band, and the longest of
-    them is sought. Error: of the second order in the spacing of the samples of `piece`, about 1e-6 of the band; the
-    place of the piece is less sharp than its length, being that of a maximum. A piece at the end of the range stays.
+    them is sought. Error: of the second order in the spacing of the samples of `path_piece`, about 1e-6 of the band;
+    the place of the piece is less sharp than its length, being that of a maximum. A piece at the end of the range
+    stays.
 
     Raises `LinkageError` like `longest_piece`.
 
@@ -139,14 +140,14 @@ def longest_in_band(path: Path, start: float, end: float, band: float, samples: 
     rough = longest_piece(path, start, end, band, samples)
     step = (end - start) / (samples - 1)
 
-    def filled(begin: float, fine: int = 401) -> Piece | None:
+    def filled(begin: float, fine: int = 401) -> PathPiece | None:
         def excess(stop: float) -> float:
-            return piece(path, begin, stop, samples=fine).band - band
+            return path_piece(path, begin, stop, samples=fine).band - band
 
         low, high = rough.end - 2 * step, min(rough.end + 3 * step, end)
         if not begin < low or excess(low) > 0 or excess(high) < 0:
             return None
-        return piece(path, begin, float(brentq(excess, low, high, xtol=1e-10)), samples=fine)
+        return path_piece(path, begin, float(brentq(excess, low, high, xtol=1e-10)), samples=fine)
 
     def shortness(begin: float) -> float:
         made = filled(begin)
@@ -158,7 +159,7 @@ def longest_in_band(path: Path, start: float, end: float, band: float, samples: 
     return rough if made is None or made.length < rough.length else made
 
 
-def sized(path: Path, window: Window, length: float, tolerance: float) -> Sizing:
+def scale_for(path: Path, window: Window, length: float, tolerance: float) -> Sizing:
     """The factor that makes a path straight within a tolerance over a length: the smallest linkage that does it.
 
     Both in one unit. Raises `LinkageError` like `widest_piece`.
@@ -166,7 +167,7 @@ def sized(path: Path, window: Window, length: float, tolerance: float) -> Sizing
     >>> from gruebler.geometry import coupler_path
     >>> from gruebler.fourbar import FourBar
     >>> lenker = coupler_path(FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4), 8.018753738744802, 2.268046058132576)
-    >>> round(sized(lenker, Window(0, np.pi, 2 * np.pi, np.radians(15.79316904826399)), 15, 0.075).factor, 4)
+    >>> round(scale_for(lenker, Window(0, np.pi, 2 * np.pi, np.radians(15.79316904826399)), 15, 0.075).factor, 4)
     3.8389
     """
     wanted = as_positive("length", length)

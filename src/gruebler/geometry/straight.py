@@ -15,7 +15,7 @@ from gruebler.kinematics import move
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_positive
 
-__all__ = ["Path", "Piece", "coupler_path", "linkage_path", "longest_piece", "piece", "piece_of_ratio"]
+__all__ = ["Path", "PathPiece", "coupler_path", "linkage_path", "longest_piece", "path_piece", "piece_of_ratio"]
 
 Path = Callable[[Reals], Complexes]
 """Points x + iy of a path at values of its parameter, such as the crank's angle."""
@@ -24,7 +24,7 @@ _STENCIL = np.array([1 / 280, -4 / 105, 1 / 5, -4 / 5, 0, 4 / 5, -1 / 5, 4 / 105
 _STENCIL_STEP = 0.02
 
 
-class Piece(NamedTuple):
+class PathPiece(NamedTuple):
     """A piece of a path against a straight line."""
 
     start: float
@@ -68,7 +68,7 @@ def linkage_path(linkage: Linkage, point: str, branch: str | None = None) -> Pat
     return at
 
 
-def piece(path: Path, start: float, end: float, direction: float | None = None, samples: int = 1001) -> Piece:
+def path_piece(path: Path, start: float, end: float, direction: float | None = None, samples: int = 1001) -> PathPiece:
     """Length and band of a piece of a path against lines of a direction; without one, of that of the narrowest band.
 
     Error: with a direction, of the fourth order in the spacing of the samples; without, of the second.
@@ -78,7 +78,7 @@ def piece(path: Path, start: float, end: float, direction: float | None = None, 
     Raises `LinkageError` where the path has no points, and for equal ends.
 
     >>> lever = coupler_path(FourBar(20, 50, 50, 40), 100, 0)  # 1 : 2 : 2.5, half a turn on a line
-    >>> half = piece(lever, math.pi / 2, 3 * math.pi / 2, direction=0)
+    >>> half = path_piece(lever, math.pi / 2, 3 * math.pi / 2, direction=0)
     >>> round(half.length, 6), round(half.band, 6), round(half.ratio, 6)
     (80.0, 0.195075, 0.002438)
     """
@@ -88,7 +88,7 @@ def piece(path: Path, start: float, end: float, direction: float | None = None, 
     points = _points(path, parameters)
     angle = _narrowest(points)[1] if direction is None else as_finite("direction", direction)
     seen = (points - points[0]) * np.exp(-1j * angle)
-    return Piece(float(start), float(end), _reach(seen.real), _reach(seen.imag), angle % math.pi)
+    return PathPiece(float(start), float(end), _reach(seen.real), _reach(seen.imag), angle % math.pi)
 
 
 def piece_of_ratio(
@@ -98,7 +98,7 @@ def piece_of_ratio(
     direction: float | None = None,
     widest: float = 2 * math.pi,
     samples: int = 1001,
-) -> Piece | None:
+) -> PathPiece | None:
     """The piece symmetric about a value of the parameter whose relative deviation Q_G is the given one.
 
     Args:
@@ -129,7 +129,7 @@ def piece_of_ratio(
     from scipy.optimize import brentq
 
     def excess(width: float) -> float:
-        made = piece(path, middle - width, middle + width, angle, samples)
+        made = path_piece(path, middle - width, middle + width, angle, samples)
         return made.band - wanted * made.length
 
     high = float(halves[beyond[0]])
@@ -139,10 +139,10 @@ def piece_of_ratio(
             f"at the parameter {middle:.6g} the path bends too much for a relative deviation of {wanted:g}"
         )
     width = float(brentq(excess, low, high, xtol=1e-14, rtol=1e-14)) if excess(high) > 0 else high
-    return piece(path, middle - width, middle + width, angle, samples)
+    return path_piece(path, middle - width, middle + width, angle, samples)
 
 
-def longest_piece(path: Path, start: float, end: float, band: float, samples: int = 1441) -> Piece:
+def longest_piece(path: Path, start: float, end: float, band: float, samples: int = 1441) -> PathPiece:
     """The piece of a path between two values of its parameter that stays in a band of any direction and is longest.
 
     Its ends are samples: the longest piece may be longer by the way between two of them at either end. Over a full
@@ -167,7 +167,7 @@ def longest_piece(path: Path, start: float, end: float, band: float, samples: in
         best = max(best, (float(np.ptp((points[first : last + 1] * np.exp(-1j * angle)).real)), first, last))
     length, first, last = best
     across, angle = _narrowest(points[first : last + 1])
-    return Piece(float(parameters[first]), float(parameters[last]), length, across, angle % math.pi)
+    return PathPiece(float(parameters[first]), float(parameters[last]), length, across, angle % math.pi)
 
 
 def _below(excess: Callable[[float], float], width: float) -> float | None:

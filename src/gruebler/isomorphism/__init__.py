@@ -1,7 +1,7 @@
 """Sameness of chains: canonical codes, correspondences and symmetry. Exact for every chain."""
 
 from gruebler.isomorphism.automorphisms import Permutation, Symmetry, orbits, symmetry
-from gruebler.isomorphism.codes import CODE_PREFIX, Marked, canonical_order, code, decode
+from gruebler.isomorphism.codes import CODE_PREFIX, MarkedChain, canonical_order, code, decode
 from gruebler.isomorphism.colouring import DriveMark
 from gruebler.isomorphism.matching import Isomorphism, find_isomorphism, is_isomorphic
 
@@ -9,7 +9,7 @@ __all__ = [
     "CODE_PREFIX",
     "DriveMark",
     "Isomorphism",
-    "Marked",
+    "MarkedChain",
     "Permutation",
     "Symmetry",
     "canonical_order",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from gruebler.chain import Chain
-from gruebler.isomorphism.colouring import Coloured, DriveMark, coloured
+from gruebler.isomorphism.colouring import ColouredGraph, DriveMark, coloured_graph
 
 __all__ = ["Permutation", "Symmetry", "orbits", "symmetry"]
 
@@ -45,7 +45,7 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int |
     """
     from gruebler._numeric.labelling.canonical import canonical_form
 
-    graph = coloured(chain, frame, drives)
+    graph = coloured_graph(chain, frame, drives)
     found = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour)
     generators = tuple(_permutation(chain, graph, [int(v) for v in image]) for image in found.generators)
     links = range(chain.n)
@@ -64,7 +64,7 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int |
     )
 
 
-def _permutation(chain: Chain, graph: Coloured, image: list[int]) -> Permutation:
+def _permutation(chain: Chain, graph: ColouredGraph, image: list[int]) -> Permutation:
     joint_of_vertex = {vertex: number for number, vertex in graph.joint_vertex.items()}
     edge_joint = {
         frozenset(map(chain.index, joint.links)): number

@@ -17,14 +17,14 @@ from typing import NamedTuple
 
 from gruebler.chain import Chain, Joint
 from gruebler.errors import NotationError
-from gruebler.isomorphism.colouring import DriveMark, coloured
+from gruebler.isomorphism.colouring import DriveMark, coloured_graph
 
-__all__ = ["CODE_PREFIX", "DriveMark", "Marked", "canonical_order", "code", "decode"]
+__all__ = ["CODE_PREFIX", "DriveMark", "MarkedChain", "canonical_order", "code", "decode"]
 
 CODE_PREFIX = "gr1:"
 
 
-class Marked(NamedTuple):
+class MarkedChain(NamedTuple):
     """A chain with a marked frame and marked joints or parts of joints, as a code describes it."""
 
     chain: Chain
@@ -46,7 +46,7 @@ def canonical_order(chain: Chain, frame: str | None = None, drives: Collection[i
     """
     from gruebler._numeric.labelling.canonical import canonical_form
 
-    graph = coloured(chain, frame, drives)
+    graph = coloured_graph(chain, frame, drives)
     place = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour).labelling
     links = sorted(range(chain.n), key=lambda link: (graph.vertex_colour[link], place[link]))
     rank = {chain.links[link]: k for k, link in enumerate(links)}
@@ -91,7 +91,7 @@ def _mark(drive: int | DriveMark, place: Mapping[int, int], rank: Mapping[str, s
     return place[drive.joint], ":".join(part for part in (str(place[drive.joint]), drive.direction, links) if part)
 
 
-def decode(text: str) -> Marked:
+def decode(text: str) -> MarkedChain:
     """The chain, frame and marked joints that a code describes; links are named 0, 1, 2, ...
 
     Any text of the form of a code is read, canonical or not; `NotationError` for anything else.
@@ -116,7 +116,7 @@ def decode(text: str) -> Marked:
             drives = tuple(_drive(chain, text) for text in mark.removeprefix("drives=").split(","))
         else:
             raise NotationError(f"{mark!r} is no mark of a code: expected frame=LINK or drives=JOINT,JOINT")
-    return Marked(chain, frame, drives)
+    return MarkedChain(chain, frame, drives)
 
 
 _DRIVE = r"\d+(?::[RTH][xyz])?(?::\d+-\d+)?"

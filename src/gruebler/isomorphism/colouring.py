@@ -22,7 +22,7 @@ from gruebler.chain import Chain
 from gruebler.chain.pairs import PAIRS
 from gruebler.errors import ChainError
 
-__all__ = ["Coloured", "DriveMark", "coloured"]
+__all__ = ["ColouredGraph", "DriveMark", "coloured_graph"]
 
 _FRAME, _LINK, _FIRST_JOINT = 0, 1, 2
 _INCIDENCE = 0
@@ -43,7 +43,7 @@ class DriveMark(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Coloured:
+class ColouredGraph:
     """Vertices 0 to n - 1 are the links, the others joints, then marks on parts of joints."""
 
     vertex_colour: NDArray[np.int64]
@@ -53,7 +53,7 @@ class Coloured:
     """Joint number -> vertex, for the joints that are vertices."""
 
 
-def coloured(chain: Chain, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> Coloured:
+def coloured_graph(chain: Chain, frame: str | None = None, drives: Collection[int | DriveMark] = ()) -> ColouredGraph:
     """The coloured graph of a chain with a marked frame and marked (driven) joints or parts of joints.
 
     Raises `ChainError` for a frame or a joint number that the chain does not have. Cost O(joint elements).
@@ -86,7 +86,7 @@ def coloured(chain: Chain, frame: str | None = None, drives: Collection[int | Dr
         edges += [(end, len(colours)) for end in ends]
         edge_colours += [_INCIDENCE] * len(ends)
         colours.append(_FIRST_MARK + _DIRECTIONS.index(mark.direction))
-    return Coloured(
+    return ColouredGraph(
         np.array(colours, np.int64),
         np.array(edges, np.int32).reshape(-1, 2),
         np.array(edge_colours, np.int32),

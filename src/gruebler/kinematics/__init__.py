@@ -14,7 +14,7 @@ from gruebler.kinematics.batch import (
     move_many,
     slider_cranks,
 )
-from gruebler.kinematics.circuits import ChangePoint, Circuit, Extreme, Stretch, circuit
+from gruebler.kinematics.circuits import ChangePoint, Circuit, Extremum, MonotonePiece, circuit
 from gruebler.kinematics.drive_rows import degrees
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.poses import Poses
@@ -25,12 +25,12 @@ __all__ = [
     "ChangePoint",
     "Circuit",
     "Designs",
-    "Extreme",
+    "Extremum",
+    "MonotonePiece",
     "Motion",
     "Motions",
     "Poses",
     "Stop",
-    "Stretch",
     "all_branches",
     "assembly_modes",
     "circuit",

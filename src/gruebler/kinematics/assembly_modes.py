@@ -1,6 +1,6 @@
 """All assembly modes of any planar group, as far as a stated search finds them: Newton's method from random starts.
 
-What the answer is worth is said in docs/theory/assembly-modes.md. A group comes as bare data, see `Conditions`;
+What the answer is worth is said in docs/theory/assembly-modes.md. A group comes as bare data, see `GroupConditions`;
 `gruebler.kinematics.triads` answers exactly for groups of four bodies.
 """
 
@@ -17,7 +17,16 @@ from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 
-__all__ = ["PIN", "SLIDE", "Conditions", "Modes", "Solver", "conditions", "ordered", "search_modes"]
+__all__ = [
+    "PIN",
+    "SLIDE",
+    "AssemblyModes",
+    "GroupConditions",
+    "GroupSolver",
+    "conditions",
+    "ordered_modes",
+    "search_modes",
+]
 
 PIN, SLIDE = 0, 1
 Row = tuple[int, int, int, complex, complex, complex, complex]
@@ -32,7 +41,7 @@ _STEP = 1e-2  # of the size, and radians: how far a singular pose must be able t
 _SINGULAR = 1e-7  # ratio of the Jacobian's singular values below which a mode counts at least twice
 
 
-class Conditions(NamedTuple):
+class GroupConditions(NamedTuple):
     """The closing conditions of a group: c joints, each between the bodies of slots 2c and 2c + 1.
 
     A PIN holds two points together. A SLIDE lays two lines on one another, their directions agreeing. A multiple joint
@@ -73,7 +82,7 @@ class Conditions(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Modes:
+class AssemblyModes:
     """Assembly modes: all ways to put the bodies of a group together, what is known being held."""
 
     poses: Reals
@@ -106,7 +115,7 @@ class Modes:
         return float((len(self) / (len(self) + 1)) ** sum(self.hits)) if len(self) else 1.0
 
 
-def conditions(rows: Iterable[Row]) -> Conditions:
+def conditions(rows: Iterable[Row]) -> GroupConditions:
     """Check rows of kind, body a, body b, point a, direction a, point b, direction b, and turn them into arrays.
 
     Raises:
@@ -132,7 +141,7 @@ def conditions(rows: Iterable[Row]) -> Conditions:
         )
     points = np.array([z for row in rows for z in (row[3], row[5])], np.complex128)
     lines = np.array([z for row in rows for z in (row[4], row[6])], np.complex128)
-    return Conditions(np.array([row[0] for row in rows], np.int64), owners, points, lines / np.abs(lines))
+    return GroupConditions(np.array([row[0] for row in rows], np.int64), owners, points, lines / np.abs(lines))
 
 
 def _check(row: Row) -> None:
@@ -151,10 +160,10 @@ def _check(row: Row) -> None:
         raise LinkageError("a direction is a complex number other than 0")
 
 
-class Solver:
+class GroupSolver:
     """Newton's method on the conditions of one group, with its working arrays. Poses are flat: x, y, angle, x, ..."""
 
-    def __init__(self, group: Conditions) -> None:
+    def __init__(self, group: GroupConditions) -> None:
         from gruebler._numeric.compiling import for_work
         from gruebler._numeric.motion.closure import closing
         from gruebler._numeric.motion.newton import newton
@@ -241,7 +250,7 @@ class Solver:
         return self._jacobian * (unit / self.size), unit
 
 
-def _parallel_bodies(group: Conditions) -> tuple[NDArray[np.int64], Reals]:
+def _parallel_bodies(group: GroupConditions) -> tuple[NDArray[np.int64], Reals]:
     """Slides keep angles: for each body, what is known last, whose angle it follows, and by what difference."""
     leaders, offsets = np.arange(group.bodies + 1), np.zeros(group.bodies + 1)
     for c in np.flatnonzero(group.kinds == SLIDE):
@@ -258,7 +267,7 @@ def _farthest(pose: Reals) -> float:
     return float(np.abs(pose.reshape(-1, 3)[:, :2]).max())
 
 
-def ordered(found: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, list[int]]:
+def ordered_modes(found: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, list[int]]:
     """Poses as (modes, bodies, 3), angles in (-pi, pi], in an order that small errors do not change; and that order."""
     if not found:
         return np.empty((0, bodies, 3)), []
@@ -270,7 +279,7 @@ def ordered(found: Sequence[Reals], size: float, bodies: int) -> tuple[Reals, li
     return poses[order], order
 
 
-def search_modes(group: Conditions, *, seed: int = 0, patience: int = 30, most: int = 100_000) -> Modes:
+def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, most: int = 100_000) -> AssemblyModes:
     """Assembly modes found from random starts.
 
     The search ends when ``patience`` x (found + 1) arrivals brought nothing new; with none found, or if it hardly ever
@@ -286,7 +295,7 @@ def search_modes(group: Conditions, *, seed: int = 0, patience: int = 30, most: 
     if patience < 1 or most < 1:
         raise LinkageError(f"patience and the number of starts are at least 1, not {patience} and {most}")
     rng = np.random.default_rng(seed)
-    solver, bodies, size, centre = Solver(group), group.bodies, group.size, group.centre
+    solver, bodies, size, centre = GroupSolver(group), group.bodies, group.size, group.centre
 
     def start() -> Reals:
         pose = rng.uniform(-1, 1, (bodies, 3)) * (size, size, np.pi) + (centre.real, centre.imag, 0)
@@ -312,7 +321,7 @@ def search_modes(group: Conditions, *, seed: int = 0, patience: int = 30, most: 
             hits.append(0)
             arrivals = idle = 0
         hits[number] += 1
-    poses, order = ordered(found, size, bodies)
+    poses, order = ordered_modes(found, size, bodies)
     multiplicities = tuple(2 if solver.is_singular(found[k]) else 1 for k in order)
     method: Method = "degenerate" if degenerate else "search"
-    return Modes(poses, multiplicities, method, None, starts, tuple(hits[k] for k in order))
+    return AssemblyModes(poses, multiplicities, method, None, starts, tuple(hits[k] for k in order))

@@ -15,11 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics.branches import Unassembled, read_branch, starting
+from gruebler.kinematics.branches import Unassembled, read_branch, starting_state
 from gruebler.kinematics.drive_rows import drive_path, drive_speeds
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.solve import move, planned, start_of
+from gruebler.kinematics.solve import cached_plan, move, starting_configuration
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.notebook import Brief
 
@@ -132,7 +132,7 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
     for number, linkage in enumerate(linkages):
         if linkage.mechanism != linkages[0].mechanism:
             raise LinkageError(f"design {number} has another mechanism than the first")
-    plan = planned(linkages[0])
+    plan = cached_plan(linkages[0])
     if plan.wheels and len(linkages) > 1:
         raise LinkageError("linkages with wheels are moved one by one, by move")
     if plan.released:
@@ -166,7 +166,7 @@ def _of_lengths(kind: Callable[..., FourBar | SliderCrank | InvertedSliderCrank]
     """Coordinates of elements are linear in the lengths: what each length adds is found from linkages of the kind."""
     lengths = _lengths(given)
     first = kind(**{name: float(values[0]) for name, values in lengths.items()}).linkage()
-    plan = planned(first)
+    plan = cached_plan(first)
     base = dict(zip(lengths, (2.0, 3.0, 4.0, 5.0), strict=False))
     zero, lines = plan.element_arrays(kind(**base).linkage())
     steps = {n: plan.element_arrays(kind(**{**base, n: base[n] + 1}).linkage())[0] - zero for n in base}
@@ -268,13 +268,13 @@ def _starts(made: Designs, path: Reals, branch: str | None) -> tuple[Reals, Real
     plan, count = made.plan, len(made)
     labels = read_branch(plan, branch)
     if not plan.larger and (branch is not None or plan.lower.home is None):
-        signs, unknowns = starting(plan, labels, path[0])
+        signs, unknowns = starting_state(plan, labels, path[0])
         return np.tile(signs, (count, 1)), np.tile(unknowns, (count, 1))
     signs = np.ones((count, len(plan.dyads)))
     unknowns = np.full((count, plan.unknowns), np.nan)
     for n in range(count):
         try:
-            signs[n], unknowns[n] = start_of(planned(made.linkage(n)), path[0], branch)
+            signs[n], unknowns[n] = starting_configuration(cached_plan(made.linkage(n)), path[0], branch)
         except Unassembled:
             signs[n] = np.nan
     return signs, unknowns

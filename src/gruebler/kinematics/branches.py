@@ -19,26 +19,26 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.motion.program import GROUP
 from gruebler.errors import LinkageError
-from gruebler.kinematics.plan import Dyad, Larger, Plan
+from gruebler.kinematics.plan import Dyad, HigherGroup, Plan
 
-__all__ = ["branch_of", "modes_of", "pose_before", "read_branch"]
+__all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
 
 Reals = NDArray[np.float64]
 
 
-def part_at_fault(plan: Plan, number: int) -> Dyad | Larger:
+def part_at_fault(plan: Plan, number: int) -> Dyad | HigherGroup:
     """What the kernel's number of a dyad (from 0) or larger group (-1, -2, ...) stands for."""
     return plan.dyads[number] if number >= 0 else plan.larger[-1 - number]
 
 
-def choices(plan: Plan) -> tuple[Dyad | Larger, ...]:
+def labelled_groups(plan: Plan) -> tuple[Dyad | HigherGroup, ...]:
     """The groups that have a label; one with wheels has none."""
     return tuple(part for part in plan.parts if (part.branching if isinstance(part, Dyad) else not part.contacts))
 
 
 def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ...]:
     """The labels of a text such as ``+-`` or ``+,2,-``; `LinkageError` says what is expected."""
-    parts = choices(plan)
+    parts = labelled_groups(plan)
     default = tuple("+" if isinstance(part, Dyad) else "1" for part in parts)
     if branch is None:
         return default
@@ -54,12 +54,14 @@ def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ..
     return tuple(labels)
 
 
-def _name(plan: Plan, part: Dyad | Larger) -> str:
+def _name(plan: Plan, part: Dyad | HigherGroup) -> str:
     group = plan.decomposition.groups[part.group]
     return f"{group.form()} {{{', '.join(group.links)}}}"
 
 
-def starting(plan: Plan, labels: tuple[str, ...], drives: Reals, last: Larger | None = None) -> tuple[Reals, Reals]:
+def starting_state(
+    plan: Plan, labels: tuple[str, ...], drives: Reals, last: HigherGroup | None = None
+) -> tuple[Reals, Reals]:
     """The signs of the dyads and the unknowns of larger groups (before the last) at a start.
 
     Raises `Unassembled` for a group that has no such mode there.
@@ -67,13 +69,13 @@ def starting(plan: Plan, labels: tuple[str, ...], drives: Reals, last: Larger | 
     signs = np.ones(len(plan.dyads))
     unknowns = np.zeros(plan.unknowns)
     found = 0
-    for part, label in zip(choices(plan), labels, strict=False):
+    for part, label in zip(labelled_groups(plan), labels, strict=False):
         if part == last:
             break
         if isinstance(part, Dyad):
             signs[part.number] = -1 if label == "-" else 1
             continue
-        modes = modes_of(plan, part, drives, signs, unknowns)
+        modes = modes_of_group(plan, part, drives, signs, unknowns)
         if len(modes) < int(label):
             raise Unassembled(part)
         count = 3 * len(part.roots)
@@ -85,7 +87,7 @@ def starting(plan: Plan, labels: tuple[str, ...], drives: Reals, last: Larger | 
 class Unassembled(Exception):
     """A group that cannot be assembled at a start."""
 
-    def __init__(self, part: Dyad | Larger) -> None:
+    def __init__(self, part: Dyad | HigherGroup) -> None:
         super().__init__(part)
         self.part = part
 
@@ -94,13 +96,13 @@ def branch_of(plan: Plan, roots: Reals, unknowns: Reals, drives: Reals) -> tuple
     """The labels of a pose."""
     labels, found = [], 0
     signs = np.where(roots < 0, -1.0, 1.0)
-    for part in choices(plan):
+    for part in labelled_groups(plan):
         if isinstance(part, Dyad):
             labels.append("-" if roots[part.number] < 0 else "+")
             continue
         count = 3 * len(part.roots)
         mine = unknowns[found : found + count].reshape(-1, 3)
-        modes = modes_of(plan, part, drives, signs, unknowns)
+        modes = modes_of_group(plan, part, drives, signs, unknowns)
         far = [_distance(mode, mine, plan.lower.size) for mode in modes]
         labels.append(str(1 + int(np.argmin(far))) if far and min(far) < 1e-6 else "0")
         found += count
@@ -113,7 +115,7 @@ def _distance(one: Reals, other: Reals, size: float) -> float:
     return float(max(np.abs(gap[:, :2]).max() / size, angles.max()))
 
 
-def modes_of(plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals) -> Reals:
+def modes_of_group(plan: Plan, part: HigherGroup, drives: Reals, signs: Reals, unknowns: Reals) -> Reals:
     """All assembly modes of a larger group with everything before it placed: (modes, bodies, 3)."""
     from gruebler.kinematics.assembly_modes import conditions as closing_conditions
     from gruebler.kinematics.triads import assembly_modes
@@ -131,7 +133,7 @@ def modes_of(plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Re
 
 
 def pose_before(
-    plan: Plan, part: Larger, drives: Reals, signs: Reals, unknowns: Reals
+    plan: Plan, part: HigherGroup, drives: Reals, signs: Reals, unknowns: Reals
 ) -> tuple[NDArray[np.complex128], NDArray[np.complex128]]:
     """Where the links lie before a group is placed: against the frame, or against the root of their body."""
     from gruebler.kinematics.kernel_calls import run_rows

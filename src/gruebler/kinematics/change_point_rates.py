@@ -9,14 +9,14 @@ from gruebler.kinematics.kernel_calls import run_rows
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 
-__all__ = ["mend_rates"]
+__all__ = ["set_change_point_rates"]
 
 Reals = NDArray[np.float64]
 _SINGULAR = 1e-5  # below this root the linear equations of the rates lose too many digits
 _STEP = 0.04  # radians (or part of the size): how far from a change point rates are taken to find those at it
 
 
-def mend_rates(made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals) -> tuple[int, ...]:
+def set_change_point_rates(made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals) -> tuple[int, ...]:
     """Put the limits of the rates where the linkage passes an exact change point: the linear equations fail there.
 
     Along a branch the rates are analytic in the drive. They are found at eight places around the row and interpolated

@@ -17,14 +17,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.configuration_curve import System, Traced, on_curve, system, trace_circuit
+from gruebler.kinematics.configuration_curve import (
+    ClosureSystem,
+    TracedCurve,
+    closure_system,
+    nearest_on_curve,
+    trace_circuit,
+)
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.root_finding import Samples, zeros
+from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.kinematics.solve import move
-from gruebler.linkages import Linkage, Named, with_lower_pairs
+from gruebler.linkages import Linkage, LinkPoint, with_lower_pairs
 from gruebler.notebook import Brief
 
-__all__ = ["ChangePoint", "Circuit", "Extreme", "Stretch", "circuit"]
+__all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
 
 Reals = NDArray[np.float64]
 Quantity = Callable[[Poses, int], Reals]
@@ -39,7 +45,7 @@ _TRIALS = 1024  # values of the drive that are tried for a start
 _REACH = 4.0  # ways of a driven slide up to that many sizes are tried
 
 
-class Extreme(NamedTuple):
+class Extremum(NamedTuple):
     """A place where something is largest or smallest."""
 
     arc: float
@@ -60,7 +66,7 @@ class ChangePoint(NamedTuple):
     """Whether more than two curves meet there, or two that touch one another."""
 
 
-class Stretch(NamedTuple):
+class MonotonePiece(NamedTuple):
     """A piece of the circuit on which the drive never turns back."""
 
     start: float
@@ -79,8 +85,8 @@ class Circuit(Brief):
     """
 
     linkage: Linkage
-    system: System
-    traced: Traced
+    system: ClosureSystem
+    traced: TracedCurve
     turned: float
     """What is added to the drive's angle so that it begins near the value asked for."""
 
@@ -118,7 +124,7 @@ class Circuit(Brief):
         Raises `LinkageError` for places off the end of an open circuit. Cost: 10 to 100 us a position.
         """
         from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.tracing import Curve, evaluate
+        from gruebler._numeric.motion.tracing import SampleBuffer, evaluate_pose
         from gruebler._numeric.work_estimates import sampling
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
@@ -134,9 +140,9 @@ class Circuit(Brief):
         x, t = traced.poses[segments], traced.tangents[segments]
         between = np.flatnonzero(traced.arcs[segments] != place)
         if len(between):
-            curve, n = Curve(*traced[:3], np.zeros(0)), self.system.unknowns
+            curve, n = SampleBuffer(*traced[:3], np.zeros(0)), self.system.unknowns
             near, slopes = np.empty((2, len(between), n))
-            evaluated = for_work(evaluate, sampling(n, len(between)))
+            evaluated = for_work(evaluate_pose, sampling(n, len(between)))
             found = evaluated(
                 self.system.conditions, curve, place[between], segments[between], near, slopes, self.system.room
             )
@@ -164,7 +170,7 @@ class Circuit(Brief):
         """The angle of a link at the samples, continuous; (samples,)."""
         return self.samples.angle(link)
 
-    def point(self, name: str | Named) -> Reals:
+    def point(self, name: str | LinkPoint) -> Reals:
         """A named point or a joint at the samples; (samples, 2)."""
         return self.samples.point(name)
 
@@ -197,20 +203,20 @@ class Circuit(Brief):
         """
         ends = quantity(self.samples, 0)[[0, -1]]
         again = self.closed and abs(ends[1] - ends[0]) <= _AGAIN * np.abs(quantity(self.samples, 0)).max()
-        samples = Samples(self.arcs, period=self.length if again else None, ends=True)
-        found = zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
+        samples = FunctionSamples(self.arcs, period=self.length if again else None, ends=True)
+        found = find_zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
         return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in found))
 
-    def extremes(self, quantity: Quantity, natural: float = 1.0) -> tuple[Extreme, ...]:
+    def extremes(self, quantity: Quantity, natural: float = 1.0) -> tuple[Extremum, ...]:
         """All extremes of something along the curve, in order; values to rounding.
 
         ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
         """
-        samples = Samples(self.arcs, period=self.length if self.closed else None)
-        found = zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
+        samples = FunctionSamples(self.arcs, period=self.length if self.closed else None)
+        found = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
         arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in found]
         values = quantity(self.at(arcs), 0)
-        return tuple(sorted(Extreme(at, float(v), not z.rises) for at, z, v in zip(arcs, found, values, strict=True)))
+        return tuple(sorted(Extremum(at, float(v), not z.rises) for at, z, v in zip(arcs, found, values, strict=True)))
 
     def _wrapped(self, arc: float) -> float:
         """The same place of a closed circuit, from 0 to its length."""
@@ -224,13 +230,13 @@ class Circuit(Brief):
         return min(values), max(values)
 
     @cached_property
-    def drive_limits(self) -> tuple[Extreme, ...]:
+    def drive_limits(self) -> tuple[Extremum, ...]:
         """Where the drive turns back: dead centres of the linkage for this drive."""
         turns = all(drive.direction.startswith("R") for drive in self.system.lower.mechanism.drives)
         return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
 
     @property
-    def stretches(self) -> tuple[Stretch, ...]:
+    def stretches(self) -> tuple[MonotonePiece, ...]:
         """The pieces between limits of the drive, in order; the first one contains the first sample."""
         ends = [limit.arc for limit in self.drive_limits]
         if not self.closed:
@@ -241,7 +247,7 @@ class Circuit(Brief):
             ends = [0.0, self.length]
         values = self.at(ends).drive().tolist()
         pairs = itertools.pairwise(zip(ends, values, strict=True))
-        return tuple(Stretch(one, two, (v, w)) for (one, v), (two, w) in pairs)
+        return tuple(MonotonePiece(one, two, (v, w)) for (one, v), (two, w) in pairs)
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
@@ -319,9 +325,9 @@ def circuit(
     count = len(linkage.mechanism.drives)
     if count > 1:
         raise LinkageError(f"a circuit has one drive at most, but this linkage has {count}")
-    made = system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
+    made = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, made, branch, drive)
-    found = Circuit(linkage, made, Traced(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
+    found = Circuit(linkage, made, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0
     if lower.mechanism.drives:
         value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
@@ -335,14 +341,14 @@ def circuit(
 
 
 def _start(
-    linkage: Linkage, made: System, branch: str | Iterable[str] | None, drive: float | None
+    linkage: Linkage, made: ClosureSystem, branch: str | Iterable[str] | None, drive: float | None
 ) -> tuple[Reals, Reals]:
     """A pose and its tangent."""
     lower = made.lower
     if lower.home is not None and branch is None and drive is None:
         rows = [lower.home[link] for link in made.bodies]
         x = np.array([(p.x / lower.size, p.y / lower.size, p.angle) for p in rows]).ravel()
-        pose, tangent, _, rank = on_curve(made, made.with_arms(x))
+        pose, tangent, _, rank = nearest_on_curve(made, made.with_arms(x))
         return _movable(made, pose, tangent, rank)
     best: tuple[Reals, Reals] | None = None
     largest = 0.0
@@ -350,7 +356,7 @@ def _start(
         assembled = _assembled(linkage, made, value, branch)
         if assembled is None:
             continue
-        pose, tangent, gauge, rank = on_curve(made, assembled)
+        pose, tangent, gauge, rank = nearest_on_curve(made, assembled)
         if drive is not None or abs(gauge) > largest:
             best, largest = _movable(made, pose, tangent, rank), abs(gauge)
         if largest > _SINGULAR:
@@ -361,7 +367,7 @@ def _start(
     return best
 
 
-def _movable(made: System, pose: Reals, tangent: Reals, rank: int) -> tuple[Reals, Reals]:
+def _movable(made: ClosureSystem, pose: Reals, tangent: Reals, rank: int) -> tuple[Reals, Reals]:
     """Pose and tangent, if there is one way to move on."""
     if rank == made.unknowns:
         raise LinkageError("the linkage cannot move: its joints hold every link")
@@ -383,7 +389,7 @@ def _trial_values(lower: Linkage) -> Iterator[float]:
         yield reach * (2 * ((part + 0.637) % 1) - 1)
 
 
-def _assembled(linkage: Linkage, made: System, value: float, branch: str | Iterable[str] | None) -> Reals | None:
+def _assembled(linkage: Linkage, made: ClosureSystem, value: float, branch: str | Iterable[str] | None) -> Reals | None:
     """The pose at a drive value, or None."""
     try:
         motion = move(linkage, [value], branch=branch)

@@ -16,15 +16,15 @@ from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import MESH, POLAR, RACK, RIDE, contact_conditions, law_tables
-from gruebler.kinematics.contours import Law
-from gruebler.linkages import Element, Linkage, Place
+from gruebler.kinematics.contours import PiecewiseLaw
+from gruebler.linkages import Element, Linkage, Pose2D
 from gruebler.linkages.elements import direction
-from gruebler.linkages.wheels import arms, round_joints
+from gruebler.linkages.wheels import carriers, round_joints
 
 if TYPE_CHECKING:
-    from gruebler._numeric.motion.tracing import Conditions, Curve, Scratch
+    from gruebler._numeric.motion.tracing import LoopConditions, SampleBuffer, TraceScratch
 
-__all__ = ["Change", "System", "Traced", "on_curve", "system", "trace_circuit"]
+__all__ = ["ChangeSample", "ClosureSystem", "TracedCurve", "closure_system", "nearest_on_curve", "trace_circuit"]
 
 Reals = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ _SMALL = 0.2  # below this gauge a redundantly constrained linkage is looked at 
 
 
 @dataclass(frozen=True, eq=False)
-class System:
+class ClosureSystem:
     """The closing conditions of all joints of a linkage with lower pairs.
 
     The unknowns are x, y and angle of each link but the frame, and of an arm between the centres of two wheels that no
@@ -50,8 +50,8 @@ class System:
     """The links; the arms are numbered behind them."""
     arms: tuple[tuple[tuple[int, str], tuple[int, str]], ...]
     """For each arm the wheels between which it lies, by joint and link."""
-    conditions: Conditions
-    room: Scratch
+    conditions: LoopConditions
+    room: TraceScratch
     equations: int
     meshes: tuple[NDArray[np.int64], NDArray[np.int64]]
     """The equations that hold the phases of wheels, and their conditions."""
@@ -68,12 +68,12 @@ class System:
 
     def with_arms(self, x: Reals) -> Reals:
         """The unknowns if those of the links are given; the wheels mesh in this position from now on."""
-        where = {link: Place(*x[3 * k : 3 * k + 3]) for k, link in enumerate(self.bodies)}
+        where = {link: Pose2D(*x[3 * k : 3 * k + 3]) for k, link in enumerate(self.bodies)}
         rows = [x]
         for ends in self.arms:
             elements = [self.lower.elements[key] for key in ends]
             centres = [
-                complex(*where.get(link, Place(0, 0, 0)).put(e.x / self.lower.size, e.y / self.lower.size))
+                complex(*where.get(link, Pose2D(0, 0, 0)).put(e.x / self.lower.size, e.y / self.lower.size))
                 for (_, link), e in zip(ends, elements, strict=True)
             ]
             rows.append(np.array([centres[0].real, centres[0].imag, phase(centres[1] - centres[0])]))
@@ -96,14 +96,16 @@ class System:
         if not self.redundant:
             return np.arange(self.equations)
         from gruebler._numeric.compiling import for_work
-        from gruebler._numeric.motion.tracing import settle
+        from gruebler._numeric.motion.tracing import settle_on_curve
         from gruebler._numeric.work_estimates import sampling
 
-        for_work(settle, sampling(self.unknowns, 1))(self.conditions, x.copy(), np.ones(self.unknowns), self.room)
+        for_work(settle_on_curve, sampling(self.unknowns, 1))(
+            self.conditions, x.copy(), np.ones(self.unknowns), self.room
+        )
         return np.sort(self.room.order[: self.unknowns - 1])
 
 
-class Change(NamedTuple):
+class ChangeSample(NamedTuple):
     """A change point: its pose, exactly, and the sample before it."""
 
     pose: Reals
@@ -112,7 +114,7 @@ class Change(NamedTuple):
     """Whether more than one other curve goes through it, or one that touches this one."""
 
 
-class Traced(NamedTuple):
+class TracedCurve(NamedTuple):
     """Samples of a curve, in order."""
 
     arcs: Reals
@@ -121,23 +123,23 @@ class Traced(NamedTuple):
     closed: bool
     ended: str
     """Empty if closed; ``long`` or ``singular``."""
-    changes: tuple[Change, ...]
+    changes: tuple[ChangeSample, ...]
     start: float
     """The length at which the start lies."""
 
 
-def system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> System:
+def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> ClosureSystem:
     """The equations of a linkage with lower pairs, some links of which do not turn against each other.
 
     `LinkageError` if it has more than one freedom by count.
     """
     from gruebler._numeric.motion.closure import EQUATIONS, PIN, SLIDE, TRAIN, TRAVEL
-    from gruebler._numeric.motion.tracing import Conditions, scratch
+    from gruebler._numeric.motion.tracing import LoopConditions, new_trace_scratch
 
     chain, frame, size = lower.mechanism.chain, lower.mechanism.frame, lower.size
     bodies = tuple(link for link in chain.links if link != frame)
     keys = tuple(lower.elements)
-    wheels, held = round_joints(lower.mechanism, lower.elements), arms(lower.mechanism, lower.elements)
+    wheels, held = round_joints(lower.mechanism, lower.elements), carriers(lower.mechanism, lower.elements)
     rows: list[_Row] = []
     free: list[tuple[tuple[int, str], tuple[int, str]]] = []
     for number, joint in enumerate(chain.joints):
@@ -176,7 +178,7 @@ def system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> System:
         rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
     ends_of = [end for row in rows for end in row.places]
     laws, pieces = law_tables([row.law for row in rows])
-    conditions = Conditions(
+    conditions = LoopConditions(
         np.array([row.kind for row in rows], np.int64),
         np.array([owner for row in rows for owner in row.owners], np.int64),
         np.array([[point] for point, _ in ends_of], np.complex128),
@@ -191,7 +193,9 @@ def system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> System:
         raise LinkageError(
             f"a circuit is the motion of a linkage with one freedom, but this one has {unknowns - equations}"
         )
-    return System(lower, bodies, tuple(free), conditions, scratch(conditions), equations, (first[meshes], meshes))
+    return ClosureSystem(
+        lower, bodies, tuple(free), conditions, new_trace_scratch(conditions), equations, (first[meshes], meshes)
+    )
 
 
 class _Row(NamedTuple):
@@ -202,7 +206,7 @@ class _Row(NamedTuple):
     places: tuple[tuple[complex, complex], tuple[complex, complex]]
     """Point and direction on both sides."""
     values: tuple[float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0)
-    law: Law = Law(())
+    law: PiecewiseLaw = PiecewiseLaw(())
 
 
 def _at(lower: Linkage, key: tuple[int, str]) -> tuple[complex, complex]:
@@ -214,25 +218,27 @@ def _direction(element: Element) -> complex:
     return rect(1, direction(element))
 
 
-def on_curve(made: System, x: Reals) -> tuple[Reals, Reals, float, int]:
-    """The nearest pose on the curve, tangent, gauge (`Curve`) and rank there; `LinkageError` if none is near.
+def nearest_on_curve(made: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float, int]:
+    """The nearest pose on the curve, tangent, gauge (`SampleBuffer`) and rank there; `LinkageError` if none is near.
 
     The error is raised for a pose that is off by more than 0.05, in sizes and radians.
     """
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.motion.tracing import settle
+    from gruebler._numeric.motion.tracing import settle_on_curve
     from gruebler._numeric.work_estimates import sampling
 
     pose = x.copy()
     _, matrix = made.linearised(pose)
     tangent = np.linalg.svd(matrix)[2][-1].copy()
-    arrived, miss, gauge, rank = for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent, made.room)
+    arrived, miss, gauge, rank = for_work(settle_on_curve, sampling(made.unknowns, 1))(
+        made.conditions, pose, tangent, made.room
+    )
     if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == made.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
 
 
-def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: float) -> Traced:
+def trace_circuit(made: ClosureSystem, pose: Reals, tangent: Reals, step: float, most: float) -> TracedCurve:
     """The circuit through a pose, forwards until it closes; if it does not, backwards as well."""
     ahead = _follow(made, pose, tangent, step, most)
     if ahead.closed:
@@ -241,7 +247,7 @@ def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: 
     length, last = back.arcs[-1], len(back.arcs) - 1
     changes = [c._replace(sample=last - 1 - c.sample) for c in reversed(back.changes)]
     changes += [c._replace(sample=last + c.sample) for c in ahead.changes]
-    return Traced(
+    return TracedCurve(
         np.concatenate([length - back.arcs[:0:-1], length + ahead.arcs]),
         np.concatenate([back.poses[:0:-1], ahead.poses]),
         np.concatenate([-back.tangents[:0:-1], ahead.tangents]),
@@ -252,18 +258,18 @@ def trace_circuit(made: System, pose: Reals, tangent: Reals, step: float, most: 
     )
 
 
-def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: float) -> Traced:
+def _follow(made: ClosureSystem, pose: Reals, tangent: Reals, longest: float, most: float) -> TracedCurve:
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.motion.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle, trace
+    from gruebler._numeric.motion.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle_on_curve, trace_curve
     from gruebler._numeric.work_estimates import sampling
 
     curve = _room(64, made.unknowns)
     curve.poses[0], curve.tangents[0] = pose, tangent
-    put = for_work(settle, sampling(made.unknowns, 1))
+    put = for_work(settle_on_curve, sampling(made.unknowns, 1))
     curve.gauges[0] = put(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
-    count, step, changes = 1, longest / 4, list[Change]()
+    count, step, changes = 1, longest / 4, list[ChangeSample]()
     while True:
-        follow = for_work(trace, sampling(made.unknowns, len(curve.arcs) - count))
+        follow = for_work(trace_curve, sampling(made.unknowns, len(curve.arcs) - count))
         status, count, step = follow(made.conditions, curve, count, step, longest, most, made.room)
         if status == FULL:
             curve = _larger(curve)
@@ -281,7 +287,7 @@ def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: flo
                     status = -1
                     break
                 continue
-            changes.append(Change(found, count - 1, several))
+            changes.append(ChangeSample(found, count - 1, several))
             count += 1
             if _is_start(curve, count - 1):
                 status = CLOSED
@@ -289,7 +295,7 @@ def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: flo
         else:
             break
     arcs, poses, tangents = (part[:count].copy() for part in curve[:3])
-    samples = Traced(arcs, poses, tangents, status == CLOSED, "", tuple(changes), 0.0)
+    samples = TracedCurve(arcs, poses, tangents, status == CLOSED, "", tuple(changes), 0.0)
     if made.redundant:
         samples = samples._replace(changes=_quiet_changes(made, samples, curve.gauges[:count]))
     else:
@@ -298,27 +304,27 @@ def _follow(made: System, pose: Reals, tangent: Reals, longest: float, most: flo
     return samples._replace(ended="" if status == CLOSED else "long" if status == LONG else "singular")
 
 
-def _room(samples: int, unknowns: int) -> Curve:
-    from gruebler._numeric.motion.tracing import Curve
+def _room(samples: int, unknowns: int) -> SampleBuffer:
+    from gruebler._numeric.motion.tracing import SampleBuffer
 
     shape = (samples, unknowns)
-    return Curve(np.zeros(samples), np.zeros(shape), np.zeros(shape), np.zeros(samples))
+    return SampleBuffer(np.zeros(samples), np.zeros(shape), np.zeros(shape), np.zeros(samples))
 
 
-def _larger(curve: Curve) -> Curve:
+def _larger(curve: SampleBuffer) -> SampleBuffer:
     out = _room(2 * len(curve.arcs), curve.poses.shape[1])
     for new, old in zip(out, curve, strict=True):
         new[: len(old)] = old
     return out
 
 
-def _is_start(curve: Curve, sample: int) -> bool:
+def _is_start(curve: SampleBuffer, sample: int) -> bool:
     gap = curve.poses[sample] - curve.poses[0]
     gap[2::3] -= 2 * np.pi * np.round(gap[2::3] / (2 * np.pi))
     return bool(sample > 1 and np.abs(gap).max() < 1e-9 and curve.tangents[sample] @ curve.tangents[0] > 0.9)
 
 
-def _change(made: System, one: Reals, two: Reals) -> Reals | None:
+def _change(made: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
     """The pose between two neighbouring samples in which the Jacobian loses its rank; None if it does not on the curve.
 
     Newton's method on F(x) + beta psi = 0, J(x)^T psi = 0, |psi| = 1 for x, psi, beta; beta is 0 at a change point.
@@ -347,7 +353,7 @@ def _change(made: System, one: Reals, two: Reals) -> Reals | None:
     return None
 
 
-def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
+def _meeting(made: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
     """The pose between two neighbouring samples in which other curves meet this one, and how many ranks are lost there.
 
     The pose is None if there is none.
@@ -356,12 +362,12 @@ def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> tuple[Real
     the place is the zero of a cubic through four values, the pose lies on cubics through four poses.
     """
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.motion.tracing import settle
+    from gruebler._numeric.motion.tracing import settle_on_curve
     from gruebler._numeric.work_estimates import sampling
 
     def at(part: float) -> tuple[Reals, float]:
         pose = one + part * (two - one)
-        for_work(settle, sampling(made.unknowns, 1))(made.conditions, pose, tangent.copy(), made.room)
+        for_work(settle_on_curve, sampling(made.unknowns, 1))(made.conditions, pose, tangent.copy(), made.room)
         return pose, float(np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2])
 
     before, behind = at(0.0)[1], at(1.0)[1]
@@ -383,7 +389,7 @@ def _meeting(made: System, one: Reals, two: Reals, tangent: Reals) -> tuple[Real
     return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost
 
 
-def _touches(made: System, samples: Traced, gauges: Reals) -> Iterator[Change]:
+def _touches(made: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iterator[ChangeSample]:
     """Change points at which the determinant is zero without a change of its sign."""
     size = np.abs(gauges)
     wide = np.concatenate([[np.inf], size, [np.inf]])
@@ -395,10 +401,10 @@ def _touches(made: System, samples: Traced, gauges: Reals) -> Iterator[Change]:
         pose, _ = _meeting(made, samples.poses[k], samples.poses[k + 1], samples.tangents[k])
         if pose is not None and (last is None or np.abs(pose - last).max() > _BORDER):
             last = pose
-            yield Change(pose, k, True)
+            yield ChangeSample(pose, k, True)
 
 
-def _curvature(made: System, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
+def _curvature(made: ClosureSystem, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
     """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
     out, h = np.empty((len(x), len(x))), 1e-5
     for k in range(len(x)):
@@ -410,7 +416,7 @@ def _curvature(made: System, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> R
     return out
 
 
-def _quiet_changes(made: System, samples: Traced, gauges: Reals) -> tuple[Change, ...]:
+def _quiet_changes(made: ClosureSystem, samples: TracedCurve, gauges: Reals) -> tuple[ChangeSample, ...]:
     """Change points of a redundantly constrained linkage: there is no determinant; its shortest row has a minimum 0."""
     out = []
     for k in range(1, len(gauges) - 1):
@@ -423,5 +429,5 @@ def _quiet_changes(made: System, samples: Traced, gauges: Reals) -> tuple[Change
             if pose is None or np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2] > 1e-9:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
-            out.append(Change(pose, k if ahead else k - 1, several))
+            out.append(ChangeSample(pose, k if ahead else k - 1, several))
     return tuple(out)

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contours import COEFFICIENTS, Law, cam_law, turn_law
+from gruebler.kinematics.contours import COEFFICIENTS, PiecewiseLaw, cam_law, turn_law
 from gruebler.kinematics.noncircular import transfer_of
-from gruebler.linkages import Circle, Disc, Driver, Element, Line, Linkage, NonCircular, Wheel
+from gruebler.linkages import CamDisc, Circle, Element, GenevaDriver, Line, Linkage, NonCircular, Wheel
 from gruebler.linkages.elements import INVERSE, direction
-from gruebler.linkages.wheels import factors
+from gruebler.linkages.wheels import rolling_factors
 
 __all__ = ["PIN", "SLIDE", "Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
 
@@ -35,7 +35,7 @@ class Condition(NamedTuple):
     owners: tuple[int, int]
     """The bodies of the group that carry them, -1 for what is known."""
     values: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    law: Law = Law(())
+    law: PiecewiseLaw = PiecewiseLaw(())
 
     @property
     def winds(self) -> bool:
@@ -50,11 +50,11 @@ def contact_conditions(
     one, other = (lower.elements[keys[side]] for side in sides)
     if _rank(other) < _rank(one):
         one, other, sides, owners = other, one, sides[::-1], owners[::-1]
-    if isinstance(one, Disc):
+    if isinstance(one, CamDisc):
         return [Condition(POLAR, sides, owners, (one.base * one.scale, 0.0, 0.0), cam_law(one))]
-    if isinstance(other, Disc):
+    if isinstance(other, CamDisc):
         return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(other))]
-    if isinstance(one, Driver | NonCircular):
+    if isinstance(one, GenevaDriver | NonCircular):
         raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(one, other))
         found = _phased(lower, keys, raw)
         if isinstance(one, NonCircular):
@@ -66,7 +66,7 @@ def contact_conditions(
             raw = Condition(RACK, sides, owners, (other.radius * side_of(lower, keys, sides), 1.0, 0.0))
         else:
             assert isinstance(one, Wheel)
-            raw = Condition(MESH, sides, owners, (*factors(one, other), 0.0))
+            raw = Condition(MESH, sides, owners, (*rolling_factors(one, other), 0.0))
         out.append(_phased(lower, keys, raw))
     if pair == "rolling" or isinstance(other, Circle):
         assert isinstance(other, Wheel | Circle)
@@ -83,7 +83,7 @@ def _rank(element: Element) -> int:
     """Which element comes first in a condition."""
     if isinstance(element, NonCircular):
         return 3 if element.transfer == INVERSE else 2
-    return next((k for k, kind in enumerate((Line, Disc, Driver)) if isinstance(element, kind)), 3)
+    return next((k for k, kind in enumerate((Line, CamDisc, GenevaDriver)) if isinstance(element, kind)), 3)
 
 
 def _check_phase(lower: Linkage, keys: Keys, found: Condition) -> None:
@@ -112,7 +112,7 @@ def _phased(lower: Linkage, keys: Keys, raw: Condition) -> Condition:
     return raw._replace(values=(one, two, one * first + two * second))
 
 
-def law_at(law: Law, angle: float) -> float:
+def law_at(law: PiecewiseLaw, angle: float) -> float:
     """The value of a law."""
     turns = floor((angle - law.pieces[0][0] + law.pieces[0][1]) / (2 * pi))
     place = angle - 2 * pi * turns
@@ -134,7 +134,7 @@ def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float
     return angles[1] - angles[0], 0.0
 
 
-def law_tables(laws: Sequence[Law]) -> tuple[list[tuple[float, float, float]], NDArray[np.float64]]:
+def law_tables(laws: Sequence[PiecewiseLaw]) -> tuple[list[tuple[float, float, float]], NDArray[np.float64]]:
     """For each law its first piece, the number of pieces and the advance; and all pieces."""
     rows: list[tuple[float, ...]] = []
     found = []

@@ -15,9 +15,9 @@ from gruebler.cams import Cam, CamError, Flat, Roller, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geneva import Geneva
 from gruebler.kinematics.noncircular import transfer_of
-from gruebler.linkages import Cross, Disc, Driver, Element, NonCircular
+from gruebler.linkages import CamDisc, Element, GenevaDriver, GenevaWheel, NonCircular
 
-__all__ = ["COEFFICIENTS", "Law", "cam_law", "cam_of", "turn_law"]
+__all__ = ["COEFFICIENTS", "PiecewiseLaw", "cam_law", "cam_of", "turn_law"]
 
 Reals = NDArray[np.float64]
 COEFFICIENTS = 12
@@ -27,7 +27,7 @@ _NO_TURN = 1e-12  # radians: between joints of a law that are nearer lies nothin
 _SHORTEST = 0.04  # radians: shorter pieces would lose in their rates what they gain in themselves
 
 
-class Law(NamedTuple):
+class PiecewiseLaw(NamedTuple):
     """A function of an angle on one turn."""
 
     pieces: tuple[tuple[float, ...], ...]
@@ -37,7 +37,7 @@ class Law(NamedTuple):
     joints: tuple[float, ...] = ()
     """The angles at which it is not smooth: where rises, falls, dwells and the pieces of their laws begin."""
 
-    def scaled(self, size: float, logarithm: bool) -> Law:
+    def scaled(self, size: float, logarithm: bool) -> PiecewiseLaw:
         """The same in another unit of length: values by size, of a logarithm less its logarithm."""
         if logarithm:
             return self._replace(pieces=tuple((m, h, c - log(size), *rest) for m, h, c, *rest in self.pieces))
@@ -45,7 +45,7 @@ class Law(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def cam_of(disc: Disc) -> Cam:
+def cam_of(disc: CamDisc) -> Cam:
     """The cam of an element, in its own unit; `LinkageError` for one that cannot be."""
     try:
         if disc.flat and (disc.roller or disc.offset or disc.arm):
@@ -63,12 +63,12 @@ def cam_of(disc: Disc) -> Cam:
     return cam
 
 
-def _roller(disc: Disc) -> Roller:
+def _roller(disc: CamDisc) -> Roller:
     return Roller(disc.roller, disc.offset, disc.arm, disc.distance)
 
 
 @lru_cache(maxsize=64)
-def cam_law(disc: Disc) -> Law:
+def cam_law(disc: CamDisc) -> PiecewiseLaw:
     """The curve of a cam.
 
     For a roller: the logarithm of the pitch curve's radius by its direction; for a flat face: its distance by the
@@ -119,7 +119,7 @@ def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:
 
 
 @lru_cache(maxsize=64)
-def turn_law(one: Driver | NonCircular, other: Element) -> Law:
+def turn_law(one: GenevaDriver | NonCircular, other: Element) -> PiecewiseLaw:
     """The angle of a Geneva wheel, or of a non-circular wheel, by that of its driver, both against the line of centres.
 
     `LinkageError` for a pair that cannot be.
@@ -130,11 +130,11 @@ def turn_law(one: Driver | NonCircular, other: Element) -> Law:
         bounds = [*(pair.breaks or (0.0,)), 2 * pi]
         law = _law(lambda t, _a, _b: -pair.at(t), bounds, advance=-2 * pi * float(pair.mean))
         return law._replace(joints=law.joints if pair.breaks else ())
-    assert isinstance(other, Cross)
+    assert isinstance(other, GenevaWheel)
     return _geneva_law(one, other)
 
 
-def _geneva_law(driver: Driver, cross: Cross) -> Law:
+def _geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:
     try:
         drive = Geneva(cross.slots, cross.internal, driver.pins)
     except GrueblerError as error:
@@ -148,7 +148,7 @@ def _geneva_law(driver: Driver, cross: Cross) -> Law:
 
 def _law(
     function: Callable[[Reals, float, float], Reals], bounds: Sequence[float], base: float = 0.0, advance: float = 0.0
-) -> Law:
+) -> PiecewiseLaw:
     """Polynomials for ``base + function``, through Chebyshev's points between the bounds, halved until they are exact.
 
     Coefficients are sums in closed form, not the solution of a system, and those that are rounding are 0: a dwell
@@ -177,4 +177,4 @@ def _law(
     for low, high in pairwise(bounds):
         if high - low > _NO_TURN:
             add(low, high)
-    return Law(tuple(out), advance, tuple(bounds))
+    return PiecewiseLaw(tuple(out), advance, tuple(bounds))

@@ -12,7 +12,7 @@ from gruebler.kinematics.plan import Plan
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
-__all__ = ["Rows", "follow_path", "run_rows", "without_first"]
+__all__ = ["SolvedRows", "follow_path", "run_rows", "without_first"]
 
 Reals = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -20,7 +20,7 @@ _AT_IT = 1e-12  # of the size: a row so near to the shortest way of a slide is t
 _AT_CHANGE = 1e-7  # below this root a path that turns back is taken to turn back in a change point
 
 
-class Rows(NamedTuple):
+class SolvedRows(NamedTuple):
     """What the kernel wrote."""
 
     status: int
@@ -35,10 +35,10 @@ class Rows(NamedTuple):
     unknowns: Reals
 
 
-def without_first(rows: Rows) -> Rows:
+def without_first(rows: SolvedRows) -> SolvedRows:
     """All rows but the first."""
     _, reached, at, fault, places, turns, rates, whole, roots, unknowns = rows
-    return Rows(
+    return SolvedRows(
         rows.status,
         max(reached - 1, 0),
         max(at - 1, 0.0),
@@ -52,7 +52,7 @@ def without_first(rows: Rows) -> Rows:
     )
 
 
-def follow_path(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> Rows:
+def follow_path(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
     """Run the kernel so that a path that rests or turns back in a change point is retraced."""
     rows = run_rows(made.program, made, path, speeds, order, signs, unknowns)
     if _lingers(made, path, rows):
@@ -62,7 +62,7 @@ def follow_path(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals
     return rows
 
 
-def _lingers(made: Plan, path: Reals, rows: Rows) -> bool:
+def _lingers(made: Plan, path: Reals, rows: SolvedRows) -> bool:
     """Whether the path rests or turns back in a change point of a dyad, or rests where a larger group may have one."""
     ways = np.diff(path, axis=0)
     corners = np.flatnonzero((ways[1:] * ways[:-1] <= 0).all(axis=1)) + 1
@@ -81,7 +81,9 @@ def _without_rests(path: Reals) -> tuple[Ints, Ints]:
     return np.flatnonzero(moves), np.cumsum(moves) - 1
 
 
-def _with_rests(rows: Rows, kept: Ints, again: Ints, made: Plan, path: Reals, speeds: Reals, order: int) -> Rows:
+def _with_rests(
+    rows: SolvedRows, kept: Ints, again: Ints, made: Plan, path: Reals, speeds: Reals, order: int
+) -> SolvedRows:
     """The rows of a path whose rests were left out; rates there are solved with the speeds that are given for them."""
     count = int(np.searchsorted(again, rows.reached))
     pick = again[:count]
@@ -111,7 +113,7 @@ def _with_rests(rows: Rows, kept: Ints, again: Ints, made: Plan, path: Reals, sp
     )
 
 
-def _there_and_back(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> Rows:
+def _there_and_back(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
     """Run the kernel; where one drive turns back in a change point, go on from before it, so that the path is retraced.
 
     In a change point a dyad's sign is that of the way onward; for the way back it is the one before.
@@ -139,9 +141,9 @@ def _there_and_back(made: Plan, path: Reals, speeds: Reals, order: int, signs: R
     return rows
 
 
-def _joined(rows: Rows, count: int, back: Rows, whole: NDArray[np.int32]) -> Rows:
+def _joined(rows: SolvedRows, count: int, back: SolvedRows, whole: NDArray[np.int32]) -> SolvedRows:
     """The first rows, then what another run found behind its first row."""
-    return Rows(
+    return SolvedRows(
         back.status,
         count + back.reached - 1,
         count - 1 + back.at,
@@ -157,7 +159,7 @@ def _joined(rows: Rows, count: int, back: Rows, whole: NDArray[np.int32]) -> Row
 
 def run_rows(
     program: Program, made: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
-) -> Rows:
+) -> SolvedRows:
     """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`; idle rollers are held."""
     idle = made.held
     if len(idle) and path.shape[1] < len(made.lower.mechanism.drives):
@@ -167,11 +169,11 @@ def run_rows(
     extra = _passed(made, path)
     if len(extra):
         return _with_extra_rows(program, made, path, speeds, order, signs, unknowns, extra)
-    from gruebler._numeric.motion.path import run
-    from gruebler._numeric.motion.program import Poses
+    from gruebler._numeric.motion.path import run_path
+    from gruebler._numeric.motion.program import PoseBuffer
 
     rows, links = len(path), len(made.lower.mechanism.chain.links)
-    poses = Poses(
+    poses = PoseBuffer(
         np.empty((order + 1, links, rows), np.complex128),
         np.empty((links, rows), np.complex128),
         np.empty((order, links, rows)),
@@ -182,9 +184,9 @@ def run_rows(
     if speeds is None:
         speeds = np.zeros((order, *path.shape))
     speeds = np.ascontiguousarray(speeds)
-    status, count, at, fault = run(program, path, speeds, signs, unknowns, poses)
+    status, count, at, fault = run_path(program, path, speeds, signs, unknowns, poses)
     found: list[Any] = [array[..., :count].swapaxes(-1, -2) for array in poses]
-    return Rows(status, count, at, fault, *found)
+    return SolvedRows(status, count, at, fault, *found)
 
 
 def _passed(made: Plan, path: Reals) -> Reals:
@@ -207,7 +209,7 @@ def _with_extra_rows(
     signs: Reals,
     unknowns: Reals,
     extra: Reals,
-) -> Rows:
+) -> SolvedRows:
     at = np.concatenate([np.arange(len(path), dtype=np.float64), extra])
     by_place = np.argsort(at, kind="stable")
     at, asked = at[by_place], by_place < len(path)
@@ -225,7 +227,7 @@ def _with_extra_rows(
     pick = np.flatnonzero(asked[: rows.reached])
     low = min(int(rows.at), len(at) - 1)
     high = min(low + 1, len(at) - 1)
-    return Rows(
+    return SolvedRows(
         rows.status,
         len(pick),
         float(at[low] + (rows.at - low) * (at[high] - at[low])),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from gruebler.kinematics.motion import Motion
 
-__all__ = ["drive_text", "stopped"]
+__all__ = ["drive_value_text", "stop_message"]
 
 _SAID = {
     ("unbounded", "en"): "At {drives} the drive stands at its limit: there are no finite rates.",
@@ -33,20 +33,22 @@ _SAID = {
 }
 
 
-def stopped(motion: Motion, lang: str) -> str:
+def stop_message(motion: Motion, lang: str) -> str:
     """See `Motion.message`."""
     stop, said = motion.stop, "de" if lang == "de" else "en"
     out = []
     if motion.unbounded:
         first = tuple(float(v) for v in motion.drives[motion.unbounded[0]])
-        out.append(_SAID["unbounded", said].format(drives=drive_text(motion, first)))
+        out.append(_SAID["unbounded", said].format(drives=drive_value_text(motion, first)))
     if stop is not None:
         links = ", ".join(stop.links)
-        out.append(_SAID[stop.reason, said].format(drives=drive_text(motion, stop.drives), form=stop.form, links=links))
+        out.append(
+            _SAID[stop.reason, said].format(drives=drive_value_text(motion, stop.drives), form=stop.form, links=links)
+        )
     return " ".join(out)
 
 
-def drive_text(motion: Motion, values: tuple[float, ...]) -> str:
+def drive_value_text(motion: Motion, values: tuple[float, ...]) -> str:
     """Drive values with the names of their joints, turning ones in degrees."""
     mechanism = motion.linkage.mechanism
     out = []

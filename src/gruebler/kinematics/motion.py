@@ -15,9 +15,9 @@ from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
 from gruebler.kinematics.plan import Plan
-from gruebler.linkages import Circle, Disc, Driver, Line, Linkage, Named, NonCircular, Place, Wheel
+from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, LinkPoint, NonCircular, Pose2D, Wheel
 from gruebler.linkages.elements import INVERSE
-from gruebler.linkages.wheels import arms, factors, round_joints, sliding_joint
+from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sliding_joint
 from gruebler.notebook import Brief
 
 __all__ = ["Motion", "Stop", "joint_openings"]
@@ -86,9 +86,9 @@ class Motion(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Where and why it stopped, and in which rows rates are not finite; else empty."""
-        from gruebler.kinematics.messages import stopped
+        from gruebler.kinematics.messages import stop_message
 
-        return stopped(self, lang)
+        return stop_message(self, lang)
 
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
@@ -102,7 +102,7 @@ class Motion(Brief):
         out: Reals = self.rates[order - 1, :, self._link(link)] if order else self.angle(link)
         return out
 
-    def point(self, name: str | Named, order: int = 0) -> Reals:
+    def point(self, name: str | LinkPoint, order: int = 0) -> Reals:
         """A named point or a joint: its position, or its velocity (1), acceleration (2), jerk (3); (rows, 2).
 
         A joint is seen as a point of its link at the frame, else of the link named first.
@@ -110,10 +110,10 @@ class Motion(Brief):
         z = self.complex_point(name, order)
         return np.stack([z.real, z.imag], axis=1)
 
-    def complex_point(self, name: str | Named, order: int = 0) -> Complexes:
+    def complex_point(self, name: str | LinkPoint, order: int = 0) -> Complexes:
         """`point` as x + iy; (rows,)."""
         self._ordered(order)
-        place = name if isinstance(name, Named) else self.linkage.named(name)[-1]
+        place = name if isinstance(name, LinkPoint) else self.linkage.named(name)[-1]
         k = self._link(place.link)
         arm = self.turns[:, k] * complex(place.x, place.y)
         if order == 0:
@@ -129,12 +129,12 @@ class Motion(Brief):
 
     def slide(self, joint: str | int, order: int = 0) -> Reals:
         """The way of a sliding joint from the first link's point to the second's, or its derivative; (rows,)."""
-        return slide(self, joint, order)
+        return _displacement(self, joint, order)
 
-    def home(self, row: int = 0) -> dict[str, Place]:
+    def home(self, row: int = 0) -> dict[str, Pose2D]:
         """Where the links lie in a row, as a home for `Linkage.with_home`."""
         return {
-            link: Place(float(z.real), float(z.imag), float(self.angle(link)[row]))
+            link: Pose2D(float(z.real), float(z.imag), float(self.angle(link)[row]))
             for link in self.linkage.mechanism.chain.links
             for z in [self.places[0, row, self._link(link)]]
         }
@@ -142,7 +142,7 @@ class Motion(Brief):
     @cached_property
     def closure(self) -> float:
         """The largest distance by which a joint of any pose is open, relative to the linkage's size."""
-        return openness(self)
+        return _closure_error(self)
 
     @property
     def branch(self) -> tuple[str, ...]:
@@ -153,7 +153,7 @@ class Motion(Brief):
 
     def _repr_svg_(self) -> str | None:
         """The first pose with some others thinly, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def _link(self, link: str) -> int:
         links: Sequence[str] = self.plan.lower.mechanism.chain.links
@@ -171,7 +171,7 @@ class Motion(Brief):
             )
 
 
-def slide(motion: Motion, joint: str | int, order: int) -> Reals:
+def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
     """See `Motion.slide`."""
     mechanism = motion.linkage.mechanism
     number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
@@ -188,7 +188,8 @@ def slide(motion: Motion, joint: str | int, order: int) -> Reals:
     assert isinstance(line, Line)
     far = elements[number, other]
     gaps = [
-        motion.complex_point(Named(other, far.x, far.y), k) - motion.complex_point(Named(first, line.x, line.y), k)
+        motion.complex_point(LinkPoint(other, far.x, far.y), k)
+        - motion.complex_point(LinkPoint(first, line.x, line.y), k)
         for k in range(order + 1)
     ]
     k = motion._link(first)
@@ -207,10 +208,10 @@ def slide(motion: Motion, joint: str | int, order: int) -> Reals:
     return out
 
 
-_LEADING = (Disc, Driver, NonCircular)
+_LEADING = (CamDisc, GenevaDriver, NonCircular)
 
 
-def openness(motion: Motion) -> float:
+def _closure_error(motion: Motion) -> float:
     """See `Motion.closure`."""
     lower = motion.plan.lower
     wheels = round_joints(lower.mechanism, lower.elements)
@@ -239,7 +240,7 @@ def _open_contact(motion: Motion, number: int) -> float:
     if isinstance(one, _LEADING) or isinstance(other, _LEADING):
         return _open_curve(motion, number) / linkage.size
     assert isinstance(other, Wheel | Circle)
-    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
     touching = chain.joints[number].pair.name == "rolling" or isinstance(other, Circle)
     if isinstance(one, Line):
         gap *= np.conj(motion.turns[:, motion._link(a)] * rect(1, one.angle))
@@ -248,10 +249,10 @@ def _open_contact(motion: Motion, number: int) -> float:
     else:
         assert isinstance(one, Wheel | Circle)
         far = np.abs(np.abs(gap) - abs(one.radius + other.radius))
-        arm = arms(linkage.mechanism, elements).get(number)
+        arm = carriers(linkage.mechanism, elements).get(number)
         along = np.unwrap(np.angle(gap)) if arm is None else motion.angle(arm.link)
         if isinstance(one, Wheel) and isinstance(other, Wheel):
-            first, second = factors(one, other)
+            first, second = rolling_factors(one, other)
             rolled = first * (motion.angle(a) - along) + second * (motion.angle(b) - along)
     largest = float(far.max()) if touching else 0.0
     if isinstance(other, Wheel):
@@ -264,13 +265,13 @@ def _open_curve(motion: Motion, number: int) -> float:
     elements = motion.linkage.elements
     a, b = motion.linkage.mechanism.chain.joints[number].links
     last = elements[number, b]
-    if isinstance(last, Disc | Driver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
+    if isinstance(last, CamDisc | GenevaDriver) or (isinstance(last, NonCircular) and last.transfer != INVERSE):
         a, b = b, a
     one, other = elements[number, a], elements[number, b]
-    assert isinstance(one, Disc | Driver | NonCircular)
-    gap = _at(motion, b, other.x, other.y) - _at(motion, a, one.x, one.y)
+    assert isinstance(one, CamDisc | GenevaDriver | NonCircular)
+    gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
     along = motion.turns[:, motion._link(a)] * rect(1, one.angle)
-    if isinstance(one, Driver | NonCircular):
+    if isinstance(one, GenevaDriver | NonCircular):
         law = turn_law(one, other)
         bearing = np.unwrap(np.angle(gap))
         turned = motion.angle(a) + one.angle - bearing
@@ -301,7 +302,7 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
         if not isinstance(linkage.elements[number, first], Line):
             first, other = other, first  # noqa: PLW2901
         one, two = linkage.elements[number, first], linkage.elements[number, other]
-        gap = (_at(motion, other, two.x, two.y) - _at(motion, first, one.x, one.y)) / linkage.size
+        gap = (_point_at(motion, other, two.x, two.y) - _point_at(motion, first, one.x, one.y)) / linkage.size
         if isinstance(one, Line):
             line = motion.turns[:, motion._link(first)] * rect(1, one.angle)
             if joint.pair.name != "double_slide":
@@ -313,6 +314,6 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
     return out
 
 
-def _at(motion: Motion, link: str, x: float, y: float) -> Complexes:
+def _point_at(motion: Motion, link: str, x: float, y: float) -> Complexes:
     k = motion._link(link)
     return motion.places[0, :, k] + motion.turns[:, k] * complex(x, y)

@@ -11,7 +11,7 @@ from math import radians
 import numpy as np
 
 from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
-from gruebler.assur import Decomposition, Group, decompose
+from gruebler.assur import Decomposition, SolvedGroup, decompose
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
 from gruebler.kinematics.redundancy import independent_part
@@ -20,7 +20,7 @@ from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
 from gruebler.notebook import Brief
 
-__all__ = ["Dyad", "Larger", "Plan", "plan"]
+__all__ = ["Dyad", "HigherGroup", "Plan", "plan"]
 
 _DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
 _LETTERS = {"revolute": "R", "prismatic": "P"}
@@ -50,7 +50,7 @@ class Dyad:
 
 
 @dataclass(frozen=True)
-class Larger:
+class HigherGroup:
     """A group that is solved by Newton's method."""
 
     group: int
@@ -73,7 +73,7 @@ class Plan(Brief):
     lower: Linkage
     """The same with turning and sliding joints only, and without redundant conditions."""
     decomposition: Decomposition
-    parts: tuple[Dyad | Larger, ...]
+    parts: tuple[Dyad | HigherGroup, ...]
     """Dyads and larger groups in solving order."""
     operations: tuple[tuple[int, ...], ...]
     conditions: tuple[tuple[Condition, ...], ...]
@@ -89,9 +89,9 @@ class Plan(Brief):
         return tuple(part for part in self.parts if isinstance(part, Dyad))
 
     @property
-    def larger(self) -> tuple[Larger, ...]:
+    def larger(self) -> tuple[HigherGroup, ...]:
         """The larger groups in solving order."""
-        return tuple(part for part in self.parts if isinstance(part, Larger))
+        return tuple(part for part in self.parts if isinstance(part, HigherGroup))
 
     @property
     def wheels(self) -> bool:
@@ -238,7 +238,7 @@ class _Planner:
         self.number = {key: k for k, key in enumerate(self.keys)}
         self.operations: list[tuple[int, ...]] = []
         self.conditions: list[tuple[Condition, ...]] = []
-        self.parts: list[Dyad | Larger] = []
+        self.parts: list[Dyad | HigherGroup] = []
         self.against: dict[str, str] = {}
 
     def made(self) -> Plan:
@@ -276,7 +276,7 @@ class _Planner:
             self.operations.append((kind, k, self.number[joint, first], self.number[joint, other], sign))
             self.against[other] = root
 
-    def _group(self, number: int, group: Group) -> None:
+    def _group(self, number: int, group: SolvedGroup) -> None:
         base = self.lower.mechanism.frame if self.lower.mechanism.frame in group.base else group.base[0]
         roots = tuple(body[0] for body in group.bodies)
         dyad = self._dyad(group, base)
@@ -291,7 +291,7 @@ class _Planner:
             self.operations.append((GROUP, count))
             self.conditions.append(self._conditions(group, base, roots))
             contacts = any(member.pair.name not in _LETTERS for _, member in group.joints)
-            self.parts.append(Larger(number, roots, count, base, contacts))
+            self.parts.append(HigherGroup(number, roots, count, base, contacts))
         for root in roots:
             for link in [link for link, at in self.against.items() if at == root and link != root]:
                 self.operations.append((CARRY, self.chain.index(link), self.chain.index(root)))
@@ -303,7 +303,7 @@ class _Planner:
         link = next(link for link in self.chain.joints[joint].links if self.against.get(link) == root)
         return self.number[joint, link]
 
-    def _dyad(self, group: Group, base: str) -> tuple[int, list[int], str, str] | None:
+    def _dyad(self, group: SolvedGroup, base: str) -> tuple[int, list[int], str, str] | None:
         if (
             len(group.bodies) != 2
             or len(group.joints) != 3
@@ -332,7 +332,7 @@ class _Planner:
         ]
         return _DYADS[form], elements, first, second
 
-    def _conditions(self, group: Group, base: str, roots: tuple[str, ...]) -> tuple[Condition, ...]:
+    def _conditions(self, group: SolvedGroup, base: str, roots: tuple[str, ...]) -> tuple[Condition, ...]:
         out: list[Condition] = []
         for joint, member in group.joints:
             sides = [(self._element(joint, base), -1)] if member.outer else []

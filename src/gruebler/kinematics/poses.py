@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, nearest
-from gruebler.linkages import Element, Line, Linkage, Named, Place
+from gruebler.linkages import Element, Line, Linkage, LinkPoint, Pose2D
 from gruebler.linkages.wheels import sliding_joint
 from gruebler.notebook import Brief
 
@@ -41,21 +41,21 @@ class Poses(Brief):
         """The angle of a link against the frame; (rows,)."""
         return self.turns[_order(order), :, self._link(link)]
 
-    def point(self, name: str | Named, order: int = 0) -> Reals:
+    def point(self, name: str | LinkPoint, order: int = 0) -> Reals:
         """A named point or a joint; (rows, 2)."""
         z = self.complex_point(name, order)
         return np.stack([z.real, z.imag], axis=1)
 
-    def complex_point(self, name: str | Named, order: int = 0) -> Complexes:
+    def complex_point(self, name: str | LinkPoint, order: int = 0) -> Complexes:
         """`point` as x + iy; (rows,)."""
-        place = name if isinstance(name, Named) else self.linkage.named(name)[-1]
+        place = name if isinstance(name, LinkPoint) else self.linkage.named(name)[-1]
         k = self._link(place.link)
         arm = np.exp(1j * self.turns[0, :, k]) * complex(place.x, place.y)
         factor = 1 if _order(order) == 0 else 1j * self.turns[1, :, k]
         out: Complexes = self.places[order, :, k] + factor * arm
         return out
 
-    def distance(self, one: str | Named, other: str | Named, order: int = 0) -> Reals:
+    def distance(self, one: str | LinkPoint, other: str | LinkPoint, order: int = 0) -> Reals:
         """The distance of two points, or its derivative (not where they coincide); (rows,)."""
         gap = self.complex_point(other) - self.complex_point(one)
         if _order(order) == 0:
@@ -90,12 +90,12 @@ class Poses(Brief):
             return self.angle(other, order) - self.angle(first, order) + (self.turned if order == 0 else 0.0)
         return self._way(self.lower, drive.joint, first, other, order, 1)
 
-    def home(self, row: int = 0) -> dict[str, Place]:
+    def home(self, row: int = 0) -> dict[str, Pose2D]:
         """Where the links lie in one position, as a home for `Linkage`."""
         z, angle = self.places[0, row], self.turns[0, row]
         chain = self.lower.mechanism.chain
         return {
-            link: Place(z[k].real, z[k].imag, float(angle[k]))
+            link: Pose2D(z[k].real, z[k].imag, float(angle[k]))
             for link in self.linkage.mechanism.chain.links
             for k in [chain.links.index(link)]
         }
@@ -113,7 +113,7 @@ class Poses(Brief):
         line, far = linkage.elements[joint, first], linkage.elements[joint, other]
         k = self._link(first)
         direction = np.exp(1j * self.turns[0, :, k]) * along * _direction(line)
-        here, there = Named(first, line.x, line.y), Named(other, far.x, far.y)
+        here, there = LinkPoint(first, line.x, line.y), LinkPoint(other, far.x, far.y)
         gap = self.complex_point(there) - self.complex_point(here)
         if _order(order) == 1:
             rate = self.complex_point(there, 1) - self.complex_point(here, 1)

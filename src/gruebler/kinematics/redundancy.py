@@ -50,7 +50,7 @@ class Independent(NamedTuple):
     """The joints, by number in the linkage as it was given, that the independent part does not close by itself."""
 
 
-class _Row(NamedTuple):
+class _ConditionRow(NamedTuple):
     """Where a closing condition belongs."""
 
     joint: int
@@ -97,7 +97,7 @@ def independent_part(linkage: Linkage) -> Independent:
             "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) it "
             "is moved along the conditions that are independent there. `gruebler freedoms` says what its sizes allow."
         )
-    conditions = _Conditions(linkage)
+    conditions = ReferenceConditions(linkage)
     x = conditions.settled()
     _, matrix = conditions.linearised(x)
     drives = conditions.drives(x)
@@ -118,7 +118,7 @@ def independent_part(linkage: Linkage) -> Independent:
     return Independent(_released(linkage, chosen), tuple(sorted({one.joint for one in chosen})))
 
 
-class _Conditions:
+class ReferenceConditions:
     """The closing conditions of pins, slides, pins in slots and double slides, one joint after the other.
 
     The unknowns are x, y (in sizes) and angle of each link but the frame.
@@ -129,10 +129,10 @@ class _Conditions:
         chain = linkage.mechanism.chain
         self.chain = chain
         self.bodies = tuple(link for link in chain.links if link != linkage.mechanism.frame)
-        self.rows: list[_Row] = []
+        self.rows: list[_ConditionRow] = []
         for number, joint in enumerate(chain.joints):
             for other in joint.links[1:]:
-                self.rows += [_Row(number, (joint.links[0], other))] * (
+                self.rows += [_ConditionRow(number, (joint.links[0], other))] * (
                     1 if joint.pair.name in ("roll_slide", "double_slide") else 2
                 )
 
@@ -246,12 +246,12 @@ def _stresses(matrix: Reals) -> Reals:
     return out
 
 
-def _stressed(conditions: _Conditions, forces: Reals) -> set[int]:
+def _stressed(conditions: ReferenceConditions, forces: Reals) -> set[int]:
     """The joints that hold one another."""
     return {row.joint for row, mine in zip(conditions.rows, forces, strict=False) if np.abs(mine).max(initial=0) > 1e-7}
 
 
-def _releases(conditions: _Conditions, x: Reals) -> Iterator[_Release]:
+def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:
     """Everything that may be released; nothing at driven joints."""
     linkage = conditions.linkage
     joints = conditions.chain.joints
@@ -282,7 +282,7 @@ def _releases(conditions: _Conditions, x: Reals) -> Iterator[_Release]:
                 yield _Release(1, number, link, force, None)
 
 
-def _force(conditions: _Conditions, number: int, link: str) -> Reals:
+def _force(conditions: ReferenceConditions, number: int, link: str) -> Reals:
     """What a joint transmits to one of its links, (1 or 2, rows), from the forces of all conditions."""
     mine = conditions.of(number)
     each = 1 if conditions.chain.joints[number].pair.name in ("roll_slide", "double_slide") else 2

@@ -14,12 +14,12 @@ from gruebler.kinematics.contacts import home_angles
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Line
 
-__all__ = ["Home", "at_home", "check_home"]
+__all__ = ["ReferencePose", "check_reference", "pose_at_reference"]
 
 Reals = NDArray[np.float64]
 
 
-class Home(NamedTuple):
+class ReferencePose(NamedTuple):
     """Drive values, signs of dyads and unknowns of larger groups in the home position."""
 
     drives: Reals
@@ -27,7 +27,7 @@ class Home(NamedTuple):
     unknowns: Reals
 
 
-def at_home(plan: Plan, near: Reals) -> Home:
+def pose_at_reference(plan: Plan, near: Reals) -> ReferencePose:
     """The home position; turning drives by whole turns as near as possible to given values, but not with wheels."""
     drives = np.array([_drive(plan, k) for k in range(len(plan.linkage.mechanism.drives))])
     for k, drive in enumerate(plan.linkage.mechanism.drives):
@@ -36,10 +36,10 @@ def at_home(plan: Plan, near: Reals) -> Home:
     signs = np.array([_sign(plan, dyad) for dyad in plan.dyads])
     unknowns = [_against(plan, root, part.base) for part in plan.larger for root in part.roots]
     windings = [home_angles(plan.lower, plan.keys, condition) for condition in plan.windings]
-    return Home(drives, signs, np.concatenate([np.array(unknowns).ravel(), np.array(windings).ravel()]))
+    return ReferencePose(drives, signs, np.concatenate([np.array(unknowns).ravel(), np.array(windings).ravel()]))
 
 
-def check_home(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:
+def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:
     """`LinkageError` if a solved pose is far from the home position: then the joints are not closed there."""
     assert plan.lower.home is not None
     for k, link in enumerate(plan.lower.mechanism.chain.links):

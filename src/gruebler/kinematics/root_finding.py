@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Samples", "Zero", "bracketed", "sampled", "vanishing", "zeros"]
+__all__ = ["FunctionSamples", "Zero", "bracketed_root", "find_zeros", "sample_function", "vanishing"]
 
 Reals = NDArray[np.float64]
 Jet = Callable[[Reals], Reals]
@@ -37,7 +37,7 @@ class Zero(NamedTuple):
     """Whether the function is larger behind it than before (for 2: whether it touches from below)."""
 
 
-def bracketed(function: Callable[[Reals], Reals], low: Reals, high: Reals) -> Reals:
+def bracketed_root(function: Callable[[Reals], Reals], low: Reals, high: Reals) -> Reals:
     """One zero in each bracket: Chandrupatla's method (inverse quadratic steps, else bisection), all at once.
 
     Args:
@@ -47,7 +47,7 @@ def bracketed(function: Callable[[Reals], Reals], low: Reals, high: Reals) -> Re
 
     Error: a few roundings of the place, if the function's own are no larger. Cost: some 8 calls.
 
-    >>> bracketed(lambda x: x**2 - 2, np.array([0.0]), np.array([2.0])).round(12).tolist()
+    >>> bracketed_root(lambda x: x**2 - 2, np.array([0.0]), np.array([2.0])).round(12).tolist()
     [1.414213562373]
     """
     a, b = high.copy(), low.copy()
@@ -78,7 +78,7 @@ def bracketed(function: Callable[[Reals], Reals], low: Reals, high: Reals) -> Re
     return out
 
 
-class Samples(NamedTuple):
+class FunctionSamples(NamedTuple):
     """Where a function is sampled, and where it is not smooth."""
 
     grid: Reals
@@ -93,7 +93,7 @@ class Samples(NamedTuple):
     """Whether zeros at the first and the last place count; with a period there are no ends."""
 
 
-class _Part(NamedTuple):
+class _SmoothPart(NamedTuple):
     """A stretch between joints with samples of a function: places and rows of its jet."""
 
     low: float
@@ -107,7 +107,7 @@ class _Part(NamedTuple):
         return float(np.quantile(np.abs(self.rows[0]), 0.9))
 
 
-def zeros(jet: Jet, samples: Samples | Reals, least: float = 0.0) -> tuple[Zero, ...]:
+def find_zeros(jet: Jet, samples: FunctionSamples | Reals, least: float = 0.0) -> tuple[Zero, ...]:
     """All zeros between the first and the last place of a grid, in order, each once in a period.
 
     Between neighbours of the grid a crossing is seen by the sign; if the first derivative is known, so are two
@@ -116,11 +116,11 @@ def zeros(jet: Jet, samples: Samples | Reals, least: float = 0.0) -> tuple[Zero,
     A stretch between joints on which the function vanishes has no zeros, nor has a function that is not larger than
     `least` over nine tenths of every stretch.
 
-    >>> [(round(zero.at, 9), zero.multiplicity) for zero in zeros(lambda x: np.stack([x**3, 3 * x**2, 6 * x]),
+    >>> [(round(zero.at, 9), zero.multiplicity) for zero in find_zeros(lambda x: np.stack([x**3, 3 * x**2, 6 * x]),
     ...     np.linspace(-1, 1.1, 20))]
     [(0.0, 3)]
     """
-    samples = samples if isinstance(samples, Samples) else Samples(samples)
+    samples = samples if isinstance(samples, FunctionSamples) else FunctionSamples(samples)
     jet = _repeated(jet, samples)
     found: list[Zero] = []
     parts = _parts(jet, samples)
@@ -135,12 +135,12 @@ def zeros(jet: Jet, samples: Samples | Reals, least: float = 0.0) -> tuple[Zero,
     return tuple(sorted(found))
 
 
-def sampled(jet: Jet, samples: Samples) -> list[Reals]:
+def sample_function(jet: Jet, samples: FunctionSamples) -> list[Reals]:
     """The rows of a function on each stretch between joints; (derivatives, places) each."""
     return [part.rows for part in _parts(_repeated(jet, samples), samples)]
 
 
-def vanishing(jet: Jet, samples: Samples, least: float = 0.0) -> tuple[tuple[float, float], ...]:
+def vanishing(jet: Jet, samples: FunctionSamples, least: float = 0.0) -> tuple[tuple[float, float], ...]:
     """The stretches from joint to joint on which a function vanishes, if it does not vanish everywhere.
 
     A function that is analytic between its joints vanishes between two of them if it does so on a part of that
@@ -151,17 +151,17 @@ def vanishing(jet: Jet, samples: Samples, least: float = 0.0) -> tuple[tuple[flo
     return () if all(gone) else tuple((run[0].low, run[-1].high) for run in _runs(parts, gone, True, samples.period))
 
 
-def _repeated(jet: Jet, samples: Samples) -> Jet:
+def _repeated(jet: Jet, samples: FunctionSamples) -> Jet:
     """The same function, asked within one period only."""
     start, period = samples.grid[0], samples.period
     return jet if period is None else lambda x: jet(start + (x - start) % period)
 
 
-def _parts(jet: Jet, samples: Samples) -> list[_Part]:
+def _parts(jet: Jet, samples: FunctionSamples) -> list[_SmoothPart]:
     """The stretches between joints, with samples at both ends of each; with a period beginning at the first joint."""
     grid, joints, period = samples.grid, np.array(samples.joints), samples.period
     if not len(joints):
-        return [_Part(float(grid[0]), float(grid[-1]), grid, jet(grid))]
+        return [_SmoothPart(float(grid[0]), float(grid[-1]), grid, jet(grid))]
     if period is not None:
         bounds = np.append(joints, joints[0] + period)
         grid = np.sort(joints[0] + (grid[:-1] - joints[0]) % period)
@@ -177,21 +177,21 @@ def _parts(jet: Jet, samples: Samples) -> list[_Part]:
         places.append(np.unique(np.concatenate([[low], low + (high - low) * inner, own, [high]])))
     rows = np.split(jet(np.concatenate(places)), np.cumsum([len(at) for at in places])[:-1], axis=1)
     return [
-        _Part(float(low), float(high), at, part)
+        _SmoothPart(float(low), float(high), at, part)
         for low, high, at, part in zip(bounds[:-1], bounds[1:], places, rows, strict=True)
     ]
 
 
-def _noise(samples: Samples, row: int) -> float:
+def _noise(samples: FunctionSamples, row: int) -> float:
     return samples.noise[row] if row < len(samples.noise) else _NONE
 
 
-def _vanishing(parts: list[_Part], samples: Samples, least: float) -> list[bool]:
+def _vanishing(parts: list[_SmoothPart], samples: FunctionSamples, least: float) -> list[bool]:
     size = max(part.usual for part in parts)
     return [not part.usual > max(least, _noise(samples, 0) * size) for part in parts]
 
 
-def _runs(parts: list[_Part], marks: list[bool], mark: bool, period: float | None) -> Iterator[list[_Part]]:
+def _runs(parts: list[_SmoothPart], marks: list[bool], mark: bool, period: float | None) -> Iterator[list[_SmoothPart]]:
     """The runs of parts with a mark; with a period one that goes over its end is not cut there."""
     if period is not None and len(set(marks)) > 1:
         first = next(k for k in range(len(parts)) if marks[k - 1] != marks[k])
@@ -204,7 +204,9 @@ def _runs(parts: list[_Part], marks: list[bool], mark: bool, period: float | Non
             yield [part for part, _ in run]
 
 
-def _zeros_of(jet: Jet, stretch: list[_Part], samples: Samples, usual: Reals, period: float | None) -> list[Zero]:
+def _zeros_of(
+    jet: Jet, stretch: list[_SmoothPart], samples: FunctionSamples, usual: Reals, period: float | None
+) -> list[Zero]:
     """The zeros within parts that follow one another; with a period they are followed by themselves."""
     at, rows = np.concatenate([part.at for part in stretch]), np.concatenate([part.rows for part in stretch], axis=1)
     joints = np.array([part.low for part in stretch[1:]])
@@ -250,7 +252,7 @@ def _zeros_of(jet: Jet, stretch: list[_Part], samples: Samples, usual: Reals, pe
     )
 
 
-def _at_joint(jet: Jet, joints: Reals, low: float, high: float, samples: Samples, usual: Reals) -> Zero:
+def _at_joint(jet: Jet, joints: Reals, low: float, high: float, samples: FunctionSamples, usual: Reals) -> Zero:
     """The zero at a joint, the middle one of several between which the function vanishes."""
     at = float(joints[0] + joints[-1]) / 2
     edge = min(_BESIDE * float(samples.grid[-1] - samples.grid[0]), (high - low) / 4)
@@ -265,7 +267,7 @@ def _crossings(jet: Jet, left: Reals, right: Reals, usual: float) -> list[Zero]:
     """The zeros in brackets, but no jumps."""
     if not len(left):
         return []
-    found, rises = bracketed(lambda x: jet(x)[0], left, right), jet(left)[0] < 0
+    found, rises = bracketed_root(lambda x: jet(x)[0], left, right), jet(left)[0] < 0
     near = np.abs(jet(found)[0]) <= _JUMP * usual
     return [Zero(float(x), 1, bool(up)) for x, up in zip(found[near], rises[near], strict=True)]
 
@@ -276,7 +278,7 @@ def _dips(jet: Jet, grid: Reals, rows: Reals) -> tuple[Reals, Reals]:
     dip = (side == np.sign(rows[0][1:])) & (side * rows[1][:-1] < 0) & (side * rows[1][1:] >= 0)
     if not dip.any():
         return np.empty(0), np.empty(0)
-    return bracketed(lambda x: jet(x)[1], grid[:-1][dip], grid[1:][dip]), side[dip]
+    return bracketed_root(lambda x: jet(x)[1], grid[:-1][dip], grid[1:][dip]), side[dip]
 
 
 def _triple(jet: Jet, zero: Zero, grid: Reals, usual: Reals) -> Zero:
@@ -289,7 +291,7 @@ def _triple(jet: Jet, zero: Zero, grid: Reals, usual: Reals) -> Zero:
     last = jet(ends)[2]
     if not last[0] * last[1] < 0:
         return zero
-    at = bracketed(lambda x: jet(x)[2], ends[:1], ends[1:])
+    at = bracketed_root(lambda x: jet(x)[2], ends[:1], ends[1:])
     value, slope = jet(at)[:2, 0]
     if abs(value) <= _NONE * usual[0] and abs(slope) <= 1e3 * _NONE * usual[1]:
         return Zero(float(at[0]), 3, zero.rises)

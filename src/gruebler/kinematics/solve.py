@@ -10,16 +10,23 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError
-from gruebler.kinematics.branches import Unassembled, choices, modes_of, part_at_fault, read_branch, starting
-from gruebler.kinematics.change_point_rates import mend_rates
+from gruebler.kinematics.branches import (
+    Unassembled,
+    labelled_groups,
+    modes_of_group,
+    part_at_fault,
+    read_branch,
+    starting_state,
+)
+from gruebler.kinematics.change_point_rates import set_change_point_rates
 from gruebler.kinematics.drive_rows import drive_path, drive_speeds
-from gruebler.kinematics.kernel_calls import Rows, follow_path, run_rows, without_first
+from gruebler.kinematics.kernel_calls import SolvedRows, follow_path, run_rows, without_first
 from gruebler.kinematics.motion import Motion, Stop, joint_openings
-from gruebler.kinematics.plan import Dyad, Larger, Plan, plan
-from gruebler.kinematics.reference_pose import at_home, check_home
+from gruebler.kinematics.plan import Dyad, HigherGroup, Plan, plan
+from gruebler.kinematics.reference_pose import check_reference, pose_at_reference
 from gruebler.linkages import Linkage
 
-__all__ = ["all_branches", "motion_of", "move", "planned", "start_of"]
+__all__ = ["all_branches", "cached_plan", "motion_from_rows", "move", "starting_configuration"]
 
 Reals = NDArray[np.float64]
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
@@ -28,7 +35,7 @@ _REASONS = {1: "limit", 2: "singular", 3: "start"}
 
 
 @lru_cache(maxsize=64)
-def planned(linkage: Linkage) -> Plan:
+def cached_plan(linkage: Linkage) -> Plan:
     """The plan of a linkage, kept for the next call."""
     return plan(linkage)
 
@@ -68,39 +75,39 @@ def move(
     >>> len(motion), motion.complete, bool(motion.closure < 1e-13)
     (361, True, True)
     """
-    made = linkage if isinstance(linkage, Plan) else planned(linkage)
+    made = linkage if isinstance(linkage, Plan) else cached_plan(linkage)
     path = drive_path(made, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
         raise LinkageError(f"the order is 0, 1, 2 or 3, not {order!r}")
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     try:
-        signs, unknowns = start_of(made, path[0], branch)
+        signs, unknowns = starting_configuration(made, path[0], branch)
     except Unassembled as found:
         return _never(made, path, upto, found)
     rows = follow_path(made, path, speeds, upto, signs, unknowns)
     if not rows.reached and made.larger and branch is None and made.lower.home is not None:
         rows = _from_home(made, path, speeds, upto)
-    motion = motion_of(made, path, rows)
+    motion = motion_from_rows(made, path, rows)
     if motion.stop is not None and motion.stop.reason == "open" and branch is None and made.lower.home is not None:
         # the start may be a change point of the independent part: the way from home tells the way on
-        motion = motion_of(made, path, _from_home(made, path, speeds, upto))
+        motion = motion_from_rows(made, path, _from_home(made, path, speeds, upto))
     if upto:
-        motion = replace(motion, unbounded=mend_rates(made, motion, path, speeds, signs))
+        motion = replace(motion, unbounded=set_change_point_rates(made, motion, path, speeds, signs))
     return motion
 
 
-def start_of(made: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
+def starting_configuration(made: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
     """Signs of dyads and unknowns of larger groups at the first row."""
-    if not made.wheels and (branch is not None or made.lower.home is None or not choices(made)):
-        return starting(made, read_branch(made, branch), first)
-    begin = at_home(made, first)
+    if not made.wheels and (branch is not None or made.lower.home is None or not labelled_groups(made)):
+        return starting_state(made, read_branch(made, branch), first)
+    begin = pose_at_reference(made, first)
     if branch is not None:
         begin = begin._replace(signs=_other_signs(made, begin.signs, read_branch(made, branch)))
     path = np.array([begin.drives, first])
     rows = run_rows(made.program, made, path, None, 0, begin.signs, begin.unknowns)
     if rows.reached and branch is None:
-        check_home(made, rows.places[0, 0], rows.turns[0])
+        check_reference(made, rows.places[0, 0], rows.turns[0])
     if rows.reached < 2:
         raise Unassembled(part_at_fault(made, rows.fault))
     return np.where(rows.roots[1] < 0, -1.0, 1.0), rows.unknowns[1]
@@ -109,19 +116,19 @@ def start_of(made: Plan, first: Reals, branch: str | Iterable[str] | None) -> tu
 def _other_signs(made: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
     """The signs of these labels, in a linkage with wheels: they may differ from the home's behind the last wheel."""
     out = signs.copy()
-    for part, label in zip(choices(made), labels, strict=True):
-        if isinstance(part, Larger):
+    for part, label in zip(labelled_groups(made), labels, strict=True):
+        if isinstance(part, HigherGroup):
             raise LinkageError("branch: a linkage with wheels and a larger group is assembled as in its home only")
         out[part.number] = -1.0 if label == "-" else 1.0
         behind = made.parts[made.parts.index(part) :]
-        if out[part.number] != signs[part.number] and any(isinstance(p, Larger) and p.contacts for p in behind):
+        if out[part.number] != signs[part.number] and any(isinstance(p, HigherGroup) and p.contacts for p in behind):
             raise LinkageError("branch: what wheels depend on is assembled as in the home, where their teeth are known")
     return out
 
 
-def _from_home(made: Plan, path: Reals, speeds: Reals, order: int) -> Rows:
+def _from_home(made: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
     """A path that starts in a change point: what is placed there, and the way on, is known from the way to it."""
-    begin = at_home(made, path[0])
+    begin = pose_at_reference(made, path[0])
     path, speeds = np.concatenate([[begin.drives], path]), np.concatenate([speeds[:, :1], speeds], axis=1)
     return without_first(follow_path(made, path, speeds, order, begin.signs, begin.unknowns))
 
@@ -143,7 +150,7 @@ def _never(made: Plan, path: Reals, order: int, found: Unassembled) -> Motion:
     )
 
 
-def motion_of(made: Plan, path: Reals, rows: Rows) -> Motion:
+def motion_from_rows(made: Plan, path: Reals, rows: SolvedRows) -> Motion:
     """What the kernel wrote, as a motion."""
     stop = None
     if rows.status:
@@ -197,18 +204,18 @@ def _while_closed(motion: Motion) -> Motion:
     )
 
 
-def _stop(made: Plan, at: float, drives: Reals, part: Dyad | Larger, reason: str) -> Stop:
+def _stop(made: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason: str) -> Stop:
     group = made.decomposition.groups[part.group]
     return Stop(at, tuple(float(v) for v in drives), group.links, group.form(), reason)
 
 
 def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:
     """Every branch that can be assembled at these drive values."""
-    yield from _extended(plan, drives, choices(plan), ())
+    yield from _extended(plan, drives, labelled_groups(plan), ())
 
 
 def _extended(
-    plan: Plan, drives: Reals, parts: tuple[Dyad | Larger, ...], labels: tuple[str, ...]
+    plan: Plan, drives: Reals, parts: tuple[Dyad | HigherGroup, ...], labels: tuple[str, ...]
 ) -> Iterator[tuple[str, ...]]:
     pass
 
@@ -222,7 +229,7 @@ def _extended(
             yield from _extended(plan, drives, parts, (*labels, label))
         return
     try:
-        modes = modes_of(plan, part, drives, *starting(plan, labels, drives, part))
+        modes = modes_of_group(plan, part, drives, *starting_state(plan, labels, drives, part))
     except Unassembled:
         return
     for number in range(len(modes)):

@@ -17,13 +17,13 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics.assembly_modes import (
     PIN,
     SLIDE,
-    Conditions,
+    AssemblyModes,
+    GroupConditions,
+    GroupSolver,
     Method,
-    Modes,
     Reals,
-    Solver,
     conditions,
-    ordered,
+    ordered_modes,
     search_modes,
 )
 
@@ -106,17 +106,17 @@ class _Locus(NamedTuple):
         return self.g0 + self.g1 * z, self.c0 + (self.c1 * z).real
 
 
-def is_triad(group: Conditions) -> bool:
+def is_triad(group: GroupConditions) -> bool:
     """Whether `triad_modes` answers for a group: four bodies and what is known, two joined by three legs."""
     return _truss(group) is not None
 
 
-def assembly_modes(group: Conditions, *, seed: int = 0) -> Modes:
+def assembly_modes(group: GroupConditions, *, seed: int = 0) -> AssemblyModes:
     """All assembly modes: exactly for groups of four bodies, by `search_modes` for all others."""
     return triad_modes(group) if is_triad(group) else search_modes(group, seed=seed)
 
 
-def triad_modes(group: Conditions) -> Modes:
+def triad_modes(group: GroupConditions) -> AssemblyModes:
     """All assembly modes of a group of four bodies (class III or IV).
 
     Errors: poses to some roundings of the group's size, in a singular pose to their square root. Two modes nearer than
@@ -149,14 +149,14 @@ def triad_modes(group: Conditions) -> Modes:
     legs = _centred(truss.legs, size)
     turns = None if any(map(_is_loose, legs)) else _turns(legs)
     found, counts, movable = _settled(legs, turns or [])
-    poses, order = ordered([_seen_from_known(pose, truss, size) for pose in found], size, 4)
+    poses, order = ordered_modes([_seen_from_known(pose, truss, size) for pose in found], size, 4)
     method: Method = "degenerate" if turns is None or movable else "exact"
-    return Modes(poses, tuple(counts[k] for k in order), method, BOUNDS[forms])
+    return AssemblyModes(poses, tuple(counts[k] for k in order), method, BOUNDS[forms])
 
 
 def _settled(legs: Sequence[_Leg], turns: Sequence[complex]) -> tuple[list[Reals], list[int], bool]:
     """The isolated poses that belong to turns of the hub, their multiplicities; and whether there are movable ones."""
-    solver = Solver(_conditions(legs))
+    solver = GroupSolver(_conditions(legs))
     found: list[Reals] = []
     for turn in turns:
         for trial in _trials(legs, turn):
@@ -172,7 +172,7 @@ def _settled(legs: Sequence[_Leg], turns: Sequence[complex]) -> tuple[list[Reals
     return [found[k] for k in still], [counts[k] for k in still], len(still) < len(found)
 
 
-def _truss(group: Conditions) -> _Truss | None:
+def _truss(group: GroupConditions) -> _Truss | None:
     """Base and hub: what is known if it has three joints, else the lowest body with three, and the other one."""
     if group.bodies != 4:
         return None
@@ -190,7 +190,7 @@ def _truss(group: Conditions) -> _Truss | None:
     return _Truss(base, hub, tuple(sorted(legs, key=lambda leg: (leg.form, leg.body))))
 
 
-def _joint(group: Conditions, one: int, other: int) -> tuple[str, _End, _End] | None:
+def _joint(group: GroupConditions, one: int, other: int) -> tuple[str, _End, _End] | None:
     """The only joint between two bodies: its letter and its elements; None if there is not one."""
     found = []
     for c, kind in enumerate(group.kinds):
@@ -226,7 +226,7 @@ def _centred(legs: Sequence[_Leg], size: float) -> tuple[_Leg, ...]:
     )
 
 
-def _conditions(legs: Sequence[_Leg]) -> Conditions:
+def _conditions(legs: Sequence[_Leg]) -> GroupConditions:
     """The same group seen from its base: body 0 is the hub, 1 to 3 are the legs."""
     kinds = {"R": PIN, "P": SLIDE}
     rows = []

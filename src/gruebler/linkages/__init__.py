@@ -3,22 +3,34 @@
 `Linkage` holds the sizes of any planar mechanism; docs/theory/kinematics.md has the conventions.
 """
 
-from gruebler.linkages.elements import Circle, Cross, Disc, Driver, Element, Line, Named, NonCircular, Pin, Place, Wheel
+from gruebler.linkages.elements import (
+    CamDisc,
+    Circle,
+    Element,
+    GenevaDriver,
+    GenevaWheel,
+    Line,
+    LinkPoint,
+    NonCircular,
+    Pin,
+    Pose2D,
+    Wheel,
+)
 from gruebler.linkages.lower_pairs import with_lower_pairs
 from gruebler.linkages.model import Linkage
 
 __all__ = [
+    "CamDisc",
     "Circle",
-    "Cross",
-    "Disc",
-    "Driver",
     "Element",
+    "GenevaDriver",
+    "GenevaWheel",
     "Line",
+    "LinkPoint",
     "Linkage",
-    "Named",
     "NonCircular",
     "Pin",
-    "Place",
+    "Pose2D",
     "Wheel",
     "with_lower_pairs",
 ]

@@ -12,19 +12,19 @@ __all__ = [
     "CENTRED",
     "INVERSE",
     "ROUND",
+    "CamDisc",
     "Circle",
-    "Cross",
-    "Disc",
-    "Driver",
     "Element",
+    "GenevaDriver",
+    "GenevaWheel",
     "Line",
-    "Named",
+    "LinkPoint",
     "NonCircular",
     "Pin",
-    "Place",
+    "Pose2D",
     "Wheel",
+    "check_elements_fit",
     "direction",
-    "fitting",
     "read_element",
 ]
 
@@ -66,7 +66,7 @@ class Circle(NamedTuple):
     radius: float
 
 
-class Disc(NamedTuple):
+class CamDisc(NamedTuple):
     """A disc cam, by the lift that it gives a follower (`gruebler.cams`): a roller, or a flat face across its motion.
 
     ``x, y`` is the axis; the cam's own frame is turned by the angle; lengths, those of the lift too, are multiplied by
@@ -89,7 +89,7 @@ class Disc(NamedTuple):
     face: float = 0.0
 
 
-class Driver(NamedTuple):
+class GenevaDriver(NamedTuple):
     """The driver of a Geneva drive: its axis, the direction of a pin, the number of pins."""
 
     x: float
@@ -98,7 +98,7 @@ class Driver(NamedTuple):
     pins: int = 1
 
 
-class Cross(NamedTuple):
+class GenevaWheel(NamedTuple):
     """The slotted wheel of a Geneva drive: its axis, the direction of a slot, the number of slots."""
 
     x: float
@@ -128,20 +128,20 @@ class NonCircular(NamedTuple):
 INVERSE = "inverse"
 """The transfer function of the second of two non-circular wheels."""
 
-Element = Pin | Line | Wheel | Circle | Disc | Driver | Cross | NonCircular
+Element = Pin | Line | Wheel | Circle | CamDisc | GenevaDriver | GenevaWheel | NonCircular
 
 ROUND = (Wheel, Circle)
 """The elements with a centre and a radius."""
-CENTRED = (Wheel, Circle, Disc, Driver, Cross, NonCircular)
+CENTRED = (Wheel, Circle, CamDisc, GenevaDriver, GenevaWheel, NonCircular)
 """The elements that turn about a centre and touch another element."""
 
 
 def direction(element: Element) -> float:
     """The angle of an element on its link; 0 for one that has none."""
-    return element.angle if isinstance(element, Line | Disc | Driver | Cross | NonCircular) else 0.0
+    return element.angle if isinstance(element, Line | CamDisc | GenevaDriver | GenevaWheel | NonCircular) else 0.0
 
 
-class Named(NamedTuple):
+class LinkPoint(NamedTuple):
     """A point of a link that has a name, such as a coupler point."""
 
     link: str
@@ -149,7 +149,7 @@ class Named(NamedTuple):
     y: float
 
 
-class Place(NamedTuple):
+class Pose2D(NamedTuple):
     """Where a link lies: its origin, and the angle of its x axis."""
 
     x: float
@@ -159,7 +159,7 @@ class Place(NamedTuple):
     def put(self, x: float, y: float) -> tuple[float, float]:
         """Where a point of the link lies.
 
-        >>> Place(1.0, 0.0, 0.0).put(2.0, 3.0)
+        >>> Pose2D(1.0, 0.0, 0.0).put(2.0, 3.0)
         (3.0, 3.0)
         """
         c, s = cos(self.angle), sin(self.angle)
@@ -176,9 +176,9 @@ _KINDS: dict[type, str] = {
     Line: "a line [x, y, angle]",
     Wheel: "a wheel (at, radius or teeth)",
     Circle: "a circle (at, circle)",
-    Disc: "a cam (at, cam)",
-    Driver: "pins (at, pins)",
-    Cross: "slots (at, slots)",
+    CamDisc: "a cam (at, cam)",
+    GenevaDriver: "pins (at, pins)",
+    GenevaWheel: "slots (at, slots)",
     NonCircular: "a non-circular wheel (at, transfer)",
 }
 
@@ -191,10 +191,10 @@ _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
         (Wheel, Line),
         (Circle, Circle),
         (Circle, Line),
-        (Disc, Circle),
-        (Disc, Pin),
-        (Disc, Line),
-        (Driver, Cross),
+        (CamDisc, Circle),
+        (CamDisc, Pin),
+        (CamDisc, Line),
+        (GenevaDriver, GenevaWheel),
         (NonCircular, NonCircular),
     ),
     "double_slide": ((Line, Line),),
@@ -202,7 +202,7 @@ _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
 }
 
 
-def fitting(pair: Pair, name: str, elements: dict[str, Element]) -> None:
+def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> None:
     """Check that a joint has the elements of its pair; `LinkageError` names the joint."""
     if pair.name not in _WANTED:
         raise LinkageError(f"{name}: dimensions of this kind of joint ({pair.name}) are not known here")
@@ -226,7 +226,7 @@ def read_element(raw: object, where: str) -> Element:
     """
     if isinstance(raw, Wheel | Circle):
         return _round(raw, where)
-    if isinstance(raw, Disc | Driver | Cross | NonCircular):
+    if isinstance(raw, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
         if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
             raise LinkageError(f"{where}: teeth: expected a positive number, but found {raw.teeth}")
         x, y, angle = (_number(value, where) for value in raw[:3])

@@ -11,7 +11,7 @@ from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import pair
 from gruebler.linkages.elements import Circle, Element, Line, Pin
 from gruebler.linkages.model import Linkage
-from gruebler.linkages.wheels import arms, redundant, round_joints
+from gruebler.linkages.wheels import carriers, redundant_wheels, round_joints
 from gruebler.mechanism import Drive, Mechanism
 
 __all__ = ["with_lower_pairs"]
@@ -86,8 +86,8 @@ def _to_do(linkage: Linkage) -> tuple[list[int], set[int], set[int]]:
     """The joints to split, to leave out, and to take for a roll-slide pair."""
     mechanism, elements = linkage.mechanism, linkage.elements
     joints = mechanism.chain.joints
-    wheels, held = round_joints(mechanism, elements), arms(mechanism, elements)
-    idle = redundant(mechanism, elements) | {
+    wheels, held = round_joints(mechanism, elements), carriers(mechanism, elements)
+    idle = redundant_wheels(mechanism, elements) | {
         n for n in held if all(isinstance(elements[n, link], Circle) for link in wheels[n])
     }
     eased = {n for n in held if n not in idle and joints[n].pair.name == "rolling"}

@@ -15,19 +15,19 @@ from gruebler.linkages.elements import (
     CENTRED,
     INVERSE,
     ROUND,
+    CamDisc,
     Circle,
-    Disc,
     Element,
     Line,
-    Named,
+    LinkPoint,
     NonCircular,
     Pin,
-    Place,
+    Pose2D,
     Wheel,
-    fitting,
+    check_elements_fit,
     read_element,
 )
-from gruebler.linkages.wheels import check_wheels, settled
+from gruebler.linkages.wheels import check_wheels, resolve_wheels
 from gruebler.mechanism import Mechanism
 
 __all__ = ["Linkage"]
@@ -67,9 +67,9 @@ class Linkage:
 
     mechanism: Mechanism
     elements: Mapping[tuple[int, str], Element]
-    points: Mapping[str, Named]
+    points: Mapping[str, LinkPoint]
     unit: str
-    home: Mapping[str, Place] | None
+    home: Mapping[str, Pose2D] | None
     outputs: tuple[str, ...]
 
     def __init__(
@@ -93,7 +93,7 @@ class Linkage:
                     raise LinkageError(f"{chain.joint_names()[number]} is no joint of {link!r}")
                 made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
         self._check_joints(mechanism, made)
-        made = settled(mechanism, made)
+        made = resolve_wheels(mechanism, made)
         check_wheels(mechanism, made)
         named = {
             name: _named(mechanism, name, *place) if len(place) == 3 else _refuse_point(name)
@@ -118,7 +118,7 @@ class Linkage:
             for link in joint.links:
                 if (number, link) not in made:
                     raise LinkageError(f"{names[number]} has no dimensions on {link!r}")
-            fitting(joint.pair, names[number], {link: made[number, link] for link in joint.links})
+            check_elements_fit(joint.pair, names[number], {link: made[number, link] for link in joint.links})
         if any(isinstance(element, CENTRED) for element in made.values()):
             return  # shafts on one axis
         for link in mechanism.chain.links:
@@ -155,7 +155,7 @@ class Linkage:
         >>> drawn.length("1", 0, 1), drawn.home["1"].angle
         (2.0, 1.5707963267948966)
         """
-        return from_drawing(mechanism, places, points or {}, unit=unit, outputs=tuple(outputs))
+        return _from_drawing(mechanism, places, points or {}, unit=unit, outputs=tuple(outputs))
 
     # --- what it is ----------------------------------------------------------------------------------
 
@@ -171,7 +171,7 @@ class Linkage:
         a, b = self.element(first, link), self.element(second, link)
         return hypot(a.x - b.x, a.y - b.y)
 
-    def named(self, name: str) -> tuple[Named, ...]:
+    def named(self, name: str) -> tuple[LinkPoint, ...]:
         """The point of that name, or of the joint of that name (on each of its links, the frame's first).
 
         Raises `LinkageError` for a name that is neither, with the nearest one that is.
@@ -184,7 +184,7 @@ class Linkage:
             known = [*self.points, *chain.joint_names()]
             raise LinkageError(f"there is no point {name!r}{nearest(name, known)}; known are {', '.join(known)}")
         links = sorted(chain.joints[number].links, key=lambda link: link != self.mechanism.frame)
-        return tuple(Named(link, *self.elements[number, link][:2]) for link in links)
+        return tuple(LinkPoint(link, *self.elements[number, link][:2]) for link in links)
 
     @cached_property
     def size(self) -> float:
@@ -229,7 +229,7 @@ class Linkage:
         def element(e: Element) -> Element:
             if isinstance(e, Wheel | Circle):
                 return e._replace(x=e.x * factor, y=e.y * factor, radius=e.radius * factor)
-            if isinstance(e, Disc):
+            if isinstance(e, CamDisc):
                 return e._replace(x=e.x * factor, y=e.y * factor, scale=e.scale * factor)
             return e._replace(x=e.x * factor, y=e.y * factor)
 
@@ -245,7 +245,7 @@ class Linkage:
         """The mirror image in the x axis: every y and every angle with the other sign."""
 
         def element(e: Element) -> Element:
-            if isinstance(e, Disc):
+            if isinstance(e, CamDisc):
                 raise LinkageError("the mirror image of a cam is another cam: give its lift the other way round")
             if isinstance(e, NonCircular) and e.transfer != INVERSE and not e.transfer.lstrip().startswith("ellipse"):
                 raise LinkageError("the mirror image of a non-circular wheel is another one: reverse its lift")
@@ -292,7 +292,7 @@ class Linkage:
 
     def _repr_svg_(self) -> str | None:
         """The linkage to scale, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def __repr__(self) -> str:
         return f"<linkage {self.mechanism.text()}>"
@@ -330,16 +330,16 @@ def _link(mechanism: Mechanism, link: str, where: str) -> str:
     return link
 
 
-def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> Named:
+def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> LinkPoint:
     pin = read_element([x, y], f"the point {name!r}")
-    return Named(_link(mechanism, link, f"the point {name!r}"), pin.x, pin.y)
+    return LinkPoint(_link(mechanism, link, f"the point {name!r}"), pin.x, pin.y)
 
 
-def _refuse_point(name: str) -> Named:
+def _refuse_point(name: str) -> LinkPoint:
     raise LinkageError(f"the point {name!r} needs a link and two coordinates")
 
 
-def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Place]:
+def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
     out = {}
     for link in mechanism.chain.links:
         if link not in home and link != mechanism.frame:
@@ -347,7 +347,7 @@ def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) 
         line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
         if not isinstance(line, Line):
             raise LinkageError(f"home, {link}: expected x, y and an angle")
-        out[link] = Place(*line)
+        out[link] = Pose2D(*line)
     for link in home:
         _link(mechanism, link, "home")
     if any(abs(v) > 1e-12 for v in (*out[mechanism.frame][:2], out[mechanism.frame].angle % (2 * pi))):
@@ -355,7 +355,7 @@ def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) 
     return out
 
 
-def from_drawing(
+def _from_drawing(
     mechanism: Mechanism,
     places: Mapping[str | int, object],
     points: Mapping[str, tuple[str, float, float]],
@@ -364,8 +364,8 @@ def from_drawing(
     outputs: tuple[str, ...],
 ) -> Linkage:
     """See `Linkage.drawn`."""
-    drawn = _elements(mechanism, places)
-    home = {link: _own(mechanism, link, drawn) for link in mechanism.chain.links}
+    drawn = _drawn_elements(mechanism, places)
+    home = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
         x, y = home[link].seen(element.x, element.y)
@@ -382,7 +382,7 @@ def from_drawing(
     return Linkage(mechanism, elements, seen, unit=unit, home=home, outputs=outputs)
 
 
-def _elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:
+def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:
     """The elements in coordinates of the plane."""
     chain, names = mechanism.chain, mechanism.chain.joint_names()
     given = {joint_number(mechanism, joint): raw for joint, raw in places.items()}
@@ -426,10 +426,10 @@ def _at_the_pin(link: str, line: Line, drawn: Mapping[tuple[int, str], Element])
     return line
 
 
-def _own(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int, str], Element]) -> Place:
+def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int, str], Element]) -> Pose2D:
     """The coordinates of a link: origin and x axis in the plane."""
     if link == mechanism.frame:
-        return Place(0.0, 0.0, 0.0)
+        return Pose2D(0.0, 0.0, 0.0)
     driven = {drive.joint for drive in mechanism.drives}
     mine = sorted((number not in driven, number, e) for (number, owner), e in drawn.items() if owner == link)
     elements = [element for _, _, element in mine]
@@ -437,6 +437,6 @@ def _own(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int, str], Elemen
     pins = [e for e in elements if isinstance(e, Pin)]
     first = pins[0] if pins else elements[0]
     if lines:
-        return Place(first.x, first.y, lines[0].angle)
+        return Pose2D(first.x, first.y, lines[0].angle)
     far = next((p for p in pins[1:] if hypot(p.x - first.x, p.y - first.y) > 0), None)
-    return Place(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)
+    return Pose2D(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)

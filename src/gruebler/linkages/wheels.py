@@ -12,10 +12,30 @@ from math import atan2, floor, hypot, log2
 from typing import NamedTuple, Protocol
 
 from gruebler.errors import LinkageError
-from gruebler.linkages.elements import CENTRED, INVERSE, Circle, Disc, Driver, Element, Line, NonCircular, Pin, Wheel
+from gruebler.linkages.elements import (
+    CENTRED,
+    INVERSE,
+    CamDisc,
+    Circle,
+    Element,
+    GenevaDriver,
+    Line,
+    NonCircular,
+    Pin,
+    Wheel,
+)
 from gruebler.mechanism import Mechanism
 
-__all__ = ["Arm", "arms", "check_wheels", "factors", "redundant", "round_joints", "settled", "sliding_joint"]
+__all__ = [
+    "Carrier",
+    "carriers",
+    "check_wheels",
+    "redundant_wheels",
+    "resolve_wheels",
+    "rolling_factors",
+    "round_joints",
+    "sliding_joint",
+]
 
 Elements = Mapping[tuple[int, str], Element]
 _SAME = 1e-9  # of a length: a distance that fits
@@ -30,7 +50,7 @@ class _Sized(Protocol):
     def elements(self) -> Elements: ...
 
 
-class Arm(NamedTuple):
+class Carrier(NamedTuple):
     """The link that holds the centres of two wheels or circles, and their distance on it."""
 
     link: str
@@ -39,12 +59,12 @@ class Arm(NamedTuple):
     """Of the second centre, seen from the first, in the link's coordinates."""
 
 
-def factors(one: Wheel, other: Wheel) -> tuple[float, float]:
+def rolling_factors(one: Wheel, other: Wheel) -> tuple[float, float]:
     """What the turns of two wheels against the line of centres are multiplied by; exact from tooth numbers.
 
-    >>> factors(Wheel(0, 0, 12.3, 20), Wheel(0, 0, -36.9, -60))
+    >>> rolling_factors(Wheel(0, 0, 12.3, 20), Wheel(0, 0, -36.9, -60))
     (10.0, -30.0)
-    >>> factors(Wheel(0, 0, 20.0, belt="open"), Wheel(0, 0, 30.0, belt="open"))
+    >>> rolling_factors(Wheel(0, 0, 20.0, belt="open"), Wheel(0, 0, 30.0, belt="open"))
     (20.0, -30.0)
     """
     a, b = one.radius, other.radius
@@ -70,7 +90,7 @@ def sliding_joint(linkage: _Sized, number: int) -> bool:
     return any(isinstance(linkage.elements[number, link], Line) for link in links)
 
 
-def arms(mechanism: Mechanism, elements: Elements) -> dict[int, Arm]:
+def carriers(mechanism: Mechanism, elements: Elements) -> dict[int, Carrier]:
     """For each pair of wheels or circles the link that carries both centres by pins, if there is one."""
     wheels = round_joints(mechanism, elements)
     if not wheels:
@@ -89,7 +109,7 @@ def arms(mechanism: Mechanism, elements: Elements) -> dict[int, Arm]:
             ]
             if link not in (a, b) and ends[0] is not None and ends[1] is not None:
                 x, y = ends[1].x - ends[0].x, ends[1].y - ends[0].y
-                found[number] = Arm(link, hypot(x, y), atan2(y, x))
+                found[number] = Carrier(link, hypot(x, y), atan2(y, x))
                 break
     return found
 
@@ -114,11 +134,11 @@ def _axes(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], tup
     return axis
 
 
-def settled(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], Element]:
+def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], Element]:
     """The elements with a radius for each wheel that has tooth numbers only: from the distance of the centres."""
     out = dict(elements)
     bare = {number for (number, _), e in elements.items() if isinstance(e, Wheel) and not e.radius}
-    held = arms(mechanism, elements) if bare else {}
+    held = carriers(mechanism, elements) if bare else {}
     for number in bare:
         links = mechanism.chain.joints[number].links
         wheels = [e for e in (elements[number, link] for link in links) if isinstance(e, Wheel)]
@@ -136,7 +156,7 @@ def settled(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, str], E
 
 def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
     """`LinkageError` names the joint whose wheels do not fit together."""
-    held = arms(mechanism, elements)
+    held = carriers(mechanism, elements)
     for number, links in round_joints(mechanism, elements).items():
         name = mechanism.chain.joint_names()[number]
         joint = mechanism.chain.joints[number]
@@ -145,10 +165,10 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
         if any(drive.joint == number for drive in mechanism.drives):
             raise LinkageError(f"{name}: a pair of wheels is not driven; drive a shaft")
         one, other = (elements[number, link] for link in links)
-        if isinstance(one, Disc) or isinstance(other, Disc):
-            _check_disc(name, *((one, other) if isinstance(one, Disc) else (other, one)))
+        if isinstance(one, CamDisc) or isinstance(other, CamDisc):
+            _check_disc(name, *((one, other) if isinstance(one, CamDisc) else (other, one)))
             continue
-        if isinstance(one, Driver) or isinstance(other, Driver):
+        if isinstance(one, GenevaDriver) or isinstance(other, GenevaDriver):
             continue
         if isinstance(one, NonCircular):
             assert isinstance(other, NonCircular)
@@ -188,7 +208,7 @@ def _reach(elements: Elements, link: str) -> float:
 
 
 def _check_disc(name: str, disc: Element, other: Element) -> None:
-    assert isinstance(disc, Disc)
+    assert isinstance(disc, CamDisc)
     if disc.flat != isinstance(other, Line):
         raise LinkageError(f"{name}: a cam for a flat face touches a line, one for a roller a circle or a pin")
     radius = other.radius if isinstance(other, Circle) else 0.0
@@ -223,16 +243,16 @@ def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Ci
         raise LinkageError(f"{name}: the modules differ: {modules}")
 
 
-def redundant(mechanism: Mechanism, elements: Elements) -> set[int]:
+def redundant_wheels(mechanism: Mechanism, elements: Elements) -> set[int]:
     """The pairs of wheels on common arms that repeat what pairs before them say, such as those of a second planet."""
     known: list[dict[str, Fraction]] = []
     out = set()
-    for number, arm in arms(mechanism, elements).items():
+    for number, arm in carriers(mechanism, elements).items():
         a, b = mechanism.chain.joints[number].links
         one, other = elements[number, a], elements[number, b]
         if not isinstance(one, Wheel) or not isinstance(other, Wheel):
             continue
-        size_a, size_b = (Fraction(x) for x in factors(one, other))
+        size_a, size_b = (Fraction(x) for x in rolling_factors(one, other))
         row = {a: size_a, b: size_b}
         row[arm.link] = row.get(arm.link, Fraction(0)) - size_a - size_b
         row.pop(mechanism.frame, None)

@@ -7,14 +7,14 @@ fully is a question of size.
 """
 
 from gruebler.mechanism.drives import DriveReport, check_drives
-from gruebler.mechanism.inversion import Driven, driven_mechanisms, inversions
+from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.mechanism.model import Drive, Mechanism
 from gruebler.mechanism.roles import Role, roles
 
 __all__ = [
     "Drive",
     "DriveReport",
-    "Driven",
+    "DrivenMechanism",
     "Mechanism",
     "Role",
     "check_drives",

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from gruebler.mechanism.model import Mechanism
 from gruebler.mobility import generic
-from gruebler.mobility.placement import Lock
+from gruebler.mobility.placement import LockedFreedom
 
 __all__ = ["DriveReport", "check_drives"]
 
@@ -66,7 +66,7 @@ def check_drives(mechanism: Mechanism) -> DriveReport:
     1
     """
     chain = mechanism.chain
-    locks = [Lock(d.joint, d.direction, d.between) for d in mechanism.drives]
+    locks = [LockedFreedom(d.joint, d.direction, d.between) for d in mechanism.drives]
     free, locked = generic(chain), generic(chain, locks)
     first = len(locked.placement.rows) - len(locks)
     still = set(next(cluster for cluster in locked.clusters if mechanism.frame in cluster))

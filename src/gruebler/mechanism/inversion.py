@@ -21,25 +21,25 @@ from gruebler.isomorphism import Permutation, code, orbits, symmetry
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.model import Drive, Mechanism
 
-__all__ = ["Driven", "driven_mechanisms", "family", "inversions"]
+__all__ = ["DrivenMechanism", "driven_mechanisms", "family", "inversions"]
 
 
 @dataclass(frozen=True, slots=True)
-class Driven:
+class DrivenMechanism:
     """A driven mechanism, with its output link if one was asked for."""
 
     mechanism: Mechanism
     output: str | None = None
 
     @classmethod
-    def parse(cls, text: str) -> Driven:
+    def parse(cls, text: str) -> DrivenMechanism:
         """The driven mechanism of a text, as `text` writes it; errors as for `Mechanism.parse`."""
         return cls(*Mechanism.parse_with_output(text))
 
     def text(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
         """The mechanism's text, with a mark ``output=LINK`` if there is one; `parse` takes it back.
 
-        >>> Driven.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1); output=3").text()
+        >>> DrivenMechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1); output=3").text()
         'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1); output=3'
         """
         mark = "" if self.output is None else f"; output={link_text(self.output)}"
@@ -59,7 +59,7 @@ def inversions(chain: Chain) -> list[Mechanism]:
 
 def driven_mechanisms(
     chain: Chain, *, drives: int = 1, at_frame: bool = True, output: bool = False, fixed_only: bool = False
-) -> Iterator[Driven]:
+) -> Iterator[DrivenMechanism]:
     """One driven mechanism for each orbit of (frame, drives), or of (frame, drives, output link).
 
     Args:
@@ -90,7 +90,7 @@ def driven_mechanisms(
         frame, chosen, out = orbit[0]
         mechanism = Mechanism(chain, chain.links[frame], [_drive(chain, f) for f in chosen])
         if not fixed_only or check_drives(mechanism).fixed:
-            yield Driven(mechanism, chain.links[out] if out >= 0 else None)
+            yield DrivenMechanism(mechanism, chain.links[out] if out >= 0 else None)
 
 
 Freedom = tuple[int, str, tuple[int, int]]

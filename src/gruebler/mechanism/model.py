@@ -149,7 +149,7 @@ class Mechanism:
 
     def _repr_svg_(self) -> str | None:
         """The structure picture, for notebooks."""
-        return notebook.picture(self) if notebook.picture else None
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"a mechanism does not change; build another one instead of setting {name!r}")

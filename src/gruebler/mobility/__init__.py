@@ -1,7 +1,7 @@
 """How many freedoms a chain has, by the formula and in truth, and what is wrong where the two differ."""
 
 from gruebler.mobility.circuits import Overconstrained, overconstrained
-from gruebler.mobility.counting import Count, count, counted
+from gruebler.mobility.counting import Count, count_freedoms, counted
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
 from gruebler.mobility.rank import Generic, TooLargeError, generic, generic_mobility
 from gruebler.mobility.report import MobilityReport, Verdict, mobility_report
@@ -16,7 +16,7 @@ __all__ = [
     "Overconstrained",
     "TooLargeError",
     "Verdict",
-    "count",
+    "count_freedoms",
     "counted",
     "generic",
     "generic_mobility",

@@ -25,9 +25,9 @@ from gruebler._numeric.modular import (
     echelon,
     left_null_space,
     left_null_spaces,
+    modular_product,
     null_space_by_column,
-    product,
-    reduced,
+    reduced_echelon,
 )
 from gruebler.mobility.rank import Generic
 
@@ -76,7 +76,7 @@ def overconstrained(rank: Generic) -> tuple[Overconstrained, ...]:
         if basis is None or not 1 < part.dimension <= _LARGEST:
             found.append(_as_a_whole(rank, part, basis))
         else:
-            found += _Part(rank, part, basis).minimal_supports()
+            found += _StressedPart(rank, part, basis).minimal_supports()
     return tuple(sorted(found, key=lambda one: (len(one.links), one.joints)))
 
 
@@ -168,7 +168,7 @@ def _in_every_stress(rank: Generic, part: _Rows, basis: dict[int, Support]) -> t
     return tuple(found)
 
 
-class _Part:
+class _StressedPart:
     """One connected part of the stress space, with the loads that its stresses put on links and joints.
 
     Links whose loads vanish for the same stresses are in or out together, and so are joints: one of each class is
@@ -214,16 +214,16 @@ class _Part:
         """The subspaces, each once, that leave one class of links unloaded, where anything is left."""
         out = {}
         if len(space) > 1:
-            for kernel in left_null_spaces([product(space, load) for load in self.classes.values()]):
+            for kernel in left_null_spaces([modular_product(space, load) for load in self.classes.values()]):
                 if 0 < len(kernel) < len(space):
-                    smaller = reduced(product(kernel, space))
+                    smaller = reduced_echelon(modular_product(kernel, space))
                     out[smaller.tobytes()] = smaller
         return out
 
     def _describe(self, space: Matrix, *, minimal: bool) -> Overconstrained:
-        loaded = {key for key, load in self.classes.items() if product(space, load).any()}
+        loaded = {key for key, load in self.classes.items() if modular_product(space, load).any()}
         links = tuple(self.chain.links[link] for link, key in self.links.items() if key in loaded)
-        on_joints = {key: product(space, load) for key, load in self.joint_classes.items()}
+        on_joints = {key: modular_product(space, load) for key, load in self.joint_classes.items()}
         on_joints = {key: load for key, load in on_joints.items() if load.any()}
         ends = {key for key, load in on_joints.items() if len(left_null_space(load)) == 0}
         joints = tuple(joint for joint, key in self.joints.items() if key in on_joints)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from gruebler.chain import Chain
 from gruebler.errors import ChainError
 
-__all__ = ["Count", "count", "counted"]
+__all__ = ["Count", "count_freedoms", "counted"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +32,7 @@ class Count:
     def formula(self) -> str:
         """The formula with its numbers.
 
-        >>> count(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).formula()
+        >>> count_freedoms(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).formula()
         'F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1'
         """
         symbols = "".join(f" - {_factor(u)}g{f}" for u, f, _ in self.terms)
@@ -42,7 +42,7 @@ class Count:
     def criterion(self) -> str:
         """The criterion of constrained motion, F = 1 written as a sum that must be 0.
 
-        >>> count(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).criterion()
+        >>> count_freedoms(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).criterion()
         '3n - 4 - 2 g1 = 12 - 4 - 8 = 0'
         """
         symbols = "".join(f" - {_factor(u)}g{f}" for u, f, _ in self.terms)
@@ -54,7 +54,7 @@ def _factor(u: int) -> str:
     return "" if u == 1 else f"{u} "
 
 
-def count(chain: Chain, b: int | None = None) -> Count:
+def count_freedoms(chain: Chain, b: int | None = None) -> Count:
     """The count with all that it is made of.
 
     Args:
@@ -83,4 +83,4 @@ def counted(chain: Chain, b: int | None = None) -> int:
     >>> counted(Chain.parse("spatial: R(frame-spindle) H(spindle-nut) P(nut-frame)"), b=2)
     1
     """
-    return count(chain, b).value
+    return count_freedoms(chain, b).value

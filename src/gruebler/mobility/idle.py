@@ -14,14 +14,14 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from gruebler._numeric.modular import P, inverse
+from gruebler._numeric.modular import P, modular_inverse
 from gruebler.chain import Chain
 from gruebler.mobility.rank import Generic
 
-__all__ = ["IdleFreedom", "When", "between_balls", "idle_freedoms"]
+__all__ = ["IdleCondition", "IdleFreedom", "between_balls", "idle_freedoms"]
 
 
-class When(StrEnum):
+class IdleCondition(StrEnum):
     """Under which condition a freedom is idle."""
 
     ALWAYS = "always"
@@ -34,7 +34,7 @@ class IdleFreedom:
 
     links: tuple[str, ...]
     freedoms: int
-    when: When
+    when: IdleCondition
 
 
 def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
@@ -44,10 +44,10 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
     >>> from gruebler.mobility.rank import generic
     >>> rod = Chain.parse("spatial: R(frame-arm1) S(arm1-rod) S(rod-arm2) R(arm2-frame)")
     >>> idle_freedoms(generic(rod), "frame")
-    (IdleFreedom(links=('rod',), freedoms=1, when=<When.ALWAYS: 'always'>),)
+    (IdleFreedom(links=('rod',), freedoms=1, when=<IdleCondition.ALWAYS: 'always'>),)
     >>> ram = Chain.parse("spatial: R(frame-arm) S(arm-rod) P(rod-barrel) S(barrel-frame)")
     >>> idle_freedoms(generic(ram), "frame")
-    (IdleFreedom(links=('rod', 'barrel'), freedoms=1, when=<When.ALWAYS: 'always'>),)
+    (IdleFreedom(links=('rod', 'barrel'), freedoms=1, when=<IdleCondition.ALWAYS: 'always'>),)
     """
     chain = rank.chain
     joints: dict[str, list[int]] = {link: [] for link in chain.links}
@@ -60,10 +60,10 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
             continue
         left = chain.space.b - _rank((f for k in mine for f in rank.placement.functionals[k]), chain.space.b)
         if left:
-            found.append(IdleFreedom((link,), left, When.ALWAYS))
+            found.append(IdleFreedom((link,), left, IdleCondition.ALWAYS))
         elif rank.mobility >= 2 and _may_be_roller(rank, mine, frame):
-            found.append(IdleFreedom((link,), 1, When.ROUND))
-    found += [IdleFreedom(part, 1, When.ALWAYS) for part, _ in between_balls(chain, frame)]
+            found.append(IdleFreedom((link,), 1, IdleCondition.ROUND))
+    found += [IdleFreedom(part, 1, IdleCondition.ALWAYS) for part, _ in between_balls(chain, frame)]
     return tuple(sorted(found, key=lambda idle: chain.index(idle.links[0])))
 
 
@@ -112,7 +112,7 @@ def _rank(rows: Iterable[tuple[int, ...]], most: int) -> int:
                 rest = [(a - factor * b) % P for a, b in zip(rest, known, strict=True)]
         if any(rest):
             pivot = next(k for k, value in enumerate(rest) if value)
-            scale = inverse(rest[pivot])
+            scale = modular_inverse(rest[pivot])
             basis.append((pivot, [value * scale % P for value in rest]))
             if len(basis) == most:
                 break

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator, Sequence
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import GrueblerError
 from gruebler.mobility.circuits import Overconstrained
-from gruebler.mobility.idle import When
+from gruebler.mobility.idle import IdleCondition
 from gruebler.mobility.report import MobilityReport, Verdict
 
-__all__ = ["LANGUAGES", "explain", "verdict_word"]
+__all__ = ["LANGUAGES", "explain_mobility", "verdict_word"]
 
 LANGUAGES = ("en", "de")
 
@@ -172,12 +172,12 @@ def verdict_word(verdict: Verdict, lang: str) -> str:
     return _VERDICTS[verdict][_column(lang)]
 
 
-def explain(report: MobilityReport, lang: str = "en") -> str:
+def explain_mobility(report: MobilityReport, lang: str = "en") -> str:
     """The whole report as lines of text.
 
     >>> from gruebler.mobility.report import mobility_report
     >>> from gruebler.chain import Chain
-    >>> print(explain(mobility_report(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))))
+    >>> print(explain_mobility(mobility_report(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))))
     Chain: R(0-1) R(1-2) R(2-3) R(3-0)
     Links: n = 4 (4 binary)
     Joints: g1 = 4, one independent loop
@@ -250,7 +250,7 @@ def _findings(report: MobilityReport, lang: str, say: Say) -> Iterator[str]:
     elif report.immobile_joints:
         yield say("immobile", joints=_list(names, report.immobile_joints))
     for idle in report.idle_freedoms:
-        key = "idle_always" if idle.when is When.ALWAYS else "idle_round"
+        key = "idle_always" if idle.when is IdleCondition.ALWAYS else "idle_round"
         key = "idle_part" if len(idle.links) > 1 else key
         yield say(key, link=", ".join(idle.links), freedoms=idle.freedoms, generic=report.generic)
     for link, k in chain.degrees.items():

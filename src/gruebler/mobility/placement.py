@@ -24,7 +24,7 @@ from gruebler._numeric.modular import P, Row
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Space
 
-__all__ = ["Lock", "Placement", "place"]
+__all__ = ["LockedFreedom", "Placement", "random_placement"]
 
 _SPATIAL = Space.SPATIAL.directions
 _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotation) + 1 (origin) + 1 (pitch)
@@ -47,7 +47,7 @@ class Placement:
         return _ENTRY_DEGREE * (rank + 1) / P
 
 
-class Lock(NamedTuple):
+class LockedFreedom(NamedTuple):
     """A freedom taken away: one motion direction of a joint, between two of its links."""
 
     joint: int
@@ -55,7 +55,7 @@ class Lock(NamedTuple):
     between: tuple[str, str]
 
 
-def place(chain: Chain, seed: int, locks: Sequence[Lock] = ()) -> Placement:
+def random_placement(chain: Chain, seed: int, locks: Sequence[LockedFreedom] = ()) -> Placement:
     """Place the chain at random; the same seed gives the same placement.
 
     A joint of k links binds its first link to each of the k - 1 others. The rows of locked freedoms come last.

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from gruebler._numeric.modular import CoreTooLarge, Echelon, Row, echelon, null_space, random_solutions, transposed
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
-from gruebler.mobility.placement import Lock, Placement, place
+from gruebler.mobility.placement import LockedFreedom, Placement, random_placement
 from gruebler.mobility.sparsity import pebble_mobility, theorem
 
 __all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
@@ -96,7 +96,7 @@ class Generic:
         return random_solutions(self.stress_form, _SAMPLES)
 
 
-def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) -> Generic:
+def generic(chain: Chain, locks: Sequence[LockedFreedom] = (), *, large: bool = False) -> Generic:
     """The generic rank of a chain, with its certificate, some freedoms locked if wanted.
 
     Cost: about linear for chains that grow dyad by dyad, cubic in the dense core of others; see
@@ -110,7 +110,7 @@ def generic(chain: Chain, locks: Sequence[Lock] = (), *, large: bool = False) ->
     known = None
     best: tuple[Placement, Echelon] | None = None
     for attempt in range(_TRIES):
-        placement = place(chain, _FIRST_SEED + attempt, locks)
+        placement = random_placement(chain, _FIRST_SEED + attempt, locks)
         form = _eliminated(placement.rows, placement.columns, large=large)
         if form.rank == min(len(placement.rows), placement.columns):
             return Generic(chain, placement, form, True, 0.0, large)

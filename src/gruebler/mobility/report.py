@@ -8,7 +8,7 @@ from typing import Any
 
 from gruebler.chain import Chain
 from gruebler.mobility.circuits import Overconstrained, overconstrained
-from gruebler.mobility.counting import Count, count
+from gruebler.mobility.counting import Count, count_freedoms
 from gruebler.mobility.idle import IdleFreedom, idle_freedoms
 from gruebler.mobility.rank import generic
 from gruebler.notebook import Brief
@@ -69,9 +69,9 @@ class MobilityReport(Brief):
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.mobility.messages import explain
+        from gruebler.mobility.messages import explain_mobility
 
-        return explain(self, lang)
+        return explain_mobility(self, lang)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`; the joints as texts that tell one from another."""
@@ -126,7 +126,7 @@ def mobility_report(
     """
     still = chain.links[0] if frame is None else frame
     chain.index(still)
-    number = count(chain, b)
+    number = count_freedoms(chain, b)
     rank = generic(chain, large=large)
     clusters = rank.clusters
     member = {link: k for k, cluster in enumerate(clusters) for link in cluster}

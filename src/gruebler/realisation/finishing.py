@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Motion
-from gruebler.kinematics.reference_pose import at_home
-from gruebler.kinematics.solve import move, planned
+from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.solve import cached_plan, move
 from gruebler.linkages import Line, Linkage
-from gruebler.realisation.layout_program import Sketch, places
-from gruebler.realisation.layout_trial import FLOOR, Trial, closes, range_path
+from gruebler.realisation.layout_program import LayoutProgram, joint_places
+from gruebler.realisation.layout_trial import FLOOR, LayoutTrial, range_path, returns_to_start
 from gruebler.realisation.measures import conditioning
 
-__all__ = ["Finished", "finished", "judged"]
+__all__ = ["FinishedLinkage", "finish_linkage", "motion_quality"]
 
 Reals = NDArray[np.float64]
 Ranges = tuple[tuple[float, float], ...]
@@ -28,7 +28,7 @@ _LOSS = 0.9  # of the quality that rounding may cost
 _OPEN = 1e-12
 
 
-class Finished(NamedTuple):
+class FinishedLinkage(NamedTuple):
     """A linkage of rounded sizes, where its drives move, and how well."""
 
     linkage: Linkage
@@ -36,11 +36,11 @@ class Finished(NamedTuple):
     quality: float
 
 
-def finished(sketch: Sketch, drawing: Reals, trial: Trial, unit: str) -> Finished | None:
+def finish_linkage(sketch: LayoutProgram, drawing: Reals, trial: LayoutTrial, unit: str) -> FinishedLinkage | None:
     """The linkage of the coarsest rounding that moves as the drawing does, if there is one."""
     straight = _straight(sketch, drawing)
     scale = sketch.size(straight) / sketch.size(drawing)
-    drawn = Linkage.drawn(sketch.mechanism, places(sketch.mechanism, sketch.slots, straight), unit=unit)
+    drawn = Linkage.drawn(sketch.mechanism, joint_places(sketch.mechanism, sketch.slots, straight), unit=unit)
     asked = max(FLOOR, _LOSS * _moved(drawn, trial, scale, 0.0)[1])
     for length, angle in _GRADES:
         linkage = _home_rounded(_rounded(drawn, length, radians(angle)), length)
@@ -48,27 +48,27 @@ def finished(sketch: Sketch, drawing: Reals, trial: Trial, unit: str) -> Finishe
             continue
         ranges, quality = _moved(linkage, trial, scale, length)
         if quality >= asked:
-            return Finished(linkage, ranges, quality)
+            return FinishedLinkage(linkage, ranges, quality)
     return None
 
 
-def _moved(linkage: Linkage, trial: Trial, scale: float, length: float) -> tuple[Ranges, float]:
+def _moved(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -> tuple[Ranges, float]:
     """The ranges of a linkage and the smallest measure in them; 0 if it does not move through them."""
     ranges = _ranges(linkage, trial, scale, length)
     motion = move(linkage, range_path(ranges, full=trial.full, rows=361))
-    quality = judged(motion, full=trial.full)
+    quality = motion_quality(motion, full=trial.full)
     return ranges, quality if quality and motion.closure < _OPEN else 0.0
 
 
-def judged(motion: Motion, *, full: bool) -> float:
+def motion_quality(motion: Motion, *, full: bool) -> float:
     """The smallest measure of a motion; 0 if it does not reach its end, or, going round, does not close."""
     plan = motion.plan
-    if not motion.complete or (full and not closes(motion.places[0], motion.turns, plan.lower.size)):
+    if not motion.complete or (full and not returns_to_start(motion.places[0], motion.turns, plan.lower.size)):
         return 0.0
     return float(conditioning(plan, plan.program, motion.places[0], motion.turns, motion.roots).min())
 
 
-def _straight(sketch: Sketch, drawing: Reals) -> Reals:
+def _straight(sketch: LayoutProgram, drawing: Reals) -> Reals:
     """The frame's driven (else first) joint at the origin, its slide or its farthest pin along the x axis; scaled."""
     mechanism, slides = sketch.mechanism, sketch.slides
     mine = [k for k, joint in enumerate(mechanism.chain.joints) if mechanism.frame in joint.links]
@@ -100,7 +100,7 @@ def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
 
 def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
     """The linkage with a home position of sensible drive values that is closed; None if it cannot be assembled."""
-    home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives)))
+    home = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
     turning = [drive.direction.startswith("R") for drive in linkage.mechanism.drives]
     values: list[float] = [
         radians(round(degrees(value))) if turns else _grid(value, length)
@@ -120,9 +120,9 @@ def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
     return linkage._changed(home=at)
 
 
-def _ranges(linkage: Linkage, trial: Trial, scale: float, length: float) -> Ranges:
+def _ranges(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -> Ranges:
     """The ranges of a drawing as values of the linkage's drives, their ends rounded inwards if a unit is given."""
-    home = at_home(planned(linkage), np.zeros(len(linkage.mechanism.drives)))
+    home = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
     out = []
     for value, (low, high), drive in zip(home.drives, trial.ranges, linkage.mechanism.drives, strict=True):
         turning = drive.direction.startswith("R")

@@ -24,7 +24,7 @@ from gruebler.mechanism import Mechanism
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
-__all__ = ["Setting", "Sketch", "check_drawable", "places", "sketch"]
+__all__ = ["KernelLayout", "LayoutProgram", "check_drawable", "joint_places", "layout_program"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -33,7 +33,7 @@ _DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
 _RRR, _RRP, _RPR = 2, 3, 4
 
 
-class Setting(NamedTuple):
+class KernelLayout(NamedTuple):
     """A drawing as the kernel takes it."""
 
     program: Program
@@ -44,7 +44,7 @@ class Setting(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Sketch:
+class LayoutProgram:
     """The joints of a mechanism, to be drawn."""
 
     mechanism: Mechanism
@@ -150,7 +150,7 @@ class Sketch:
         z = drawing[mine, 0] + 1j * drawing[mine, 1]
         return float(np.abs(z[:, None] - z).max()) if len(mine) > 1 else np.inf
 
-    def setting(self, drawing: Reals) -> Setting:
+    def setting(self, drawing: Reals) -> KernelLayout:
         """What the kernel takes."""
         places = drawing[self.joints]
         points = places[:, 0] + 1j * places[:, 1]
@@ -163,7 +163,7 @@ class Sketch:
         for row in self.plan.operations:
             if row[0] in (_RRR, _RRP, _RPR):
                 signs[row[9]] = 1.0 if _side(row, points, lines) >= 0 else -1.0
-        return Setting(made, signs, np.zeros(3 * len(program.roots)))
+        return KernelLayout(made, signs, np.zeros(3 * len(program.roots)))
 
 
 def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
@@ -176,17 +176,17 @@ def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
     return float((lines[inner].conjugate() * (points[other] - points[outer])).real)
 
 
-def sketch(mechanism: Mechanism) -> Sketch:
+def layout_program(mechanism: Mechanism) -> LayoutProgram:
     """What there is to draw; `LinkageError` for joints without dimensions and for drives that do not fix the motion."""
     chain = mechanism.chain
     check_drawable(chain)
     slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.name == "roll_slide")
-    made = plan(Linkage.drawn(mechanism, places(mechanism, slots, _anywhere(len(chain.joints)))))
+    made = plan(Linkage.drawn(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
     split = []
     for number, joint in enumerate(chain.joints):
         ways = {"roll_slide": (1, 1), "double_slide": (1, 1j)}.get(joint.pair.name, (1,))
         split += [(number, way) for way in ways]
-    return Sketch(
+    return LayoutProgram(
         mechanism,
         slots,
         made,
@@ -206,7 +206,7 @@ def check_drawable(chain: Chain) -> None:
             )
 
 
-def places(
+def joint_places(
     mechanism: Mechanism, slots: tuple[tuple[int, str], ...], drawing: Reals
 ) -> dict[str | int, tuple[object, ...]]:
     """A drawing as `Linkage.drawn` takes it."""

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.kinematics.kernel_calls import Rows, run_rows
-from gruebler.realisation.layout_program import Setting, Sketch
+from gruebler.kinematics.kernel_calls import SolvedRows, run_rows
+from gruebler.realisation.layout_program import KernelLayout, LayoutProgram
 from gruebler.realisation.measures import conditioning
 
-__all__ = ["FLOOR", "Trial", "closes", "followed", "range_path", "tried"]
+__all__ = ["FLOOR", "LayoutTrial", "closed_path_quality", "range_path", "returns_to_start", "try_layout"]
 
 Reals = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ _STROKE = 0.3  # of the size, to either side: a longer stroke is not sought
 _LENGTH, _GAP, _FRAME, _CROSSING = 0.15, 0.1, 0.4, 0.97
 
 
-class Trial(NamedTuple):
+class LayoutTrial(NamedTuple):
     """What a drawing is worth."""
 
     score: float
@@ -37,10 +37,10 @@ class Trial(NamedTuple):
     """The smallest measure in that range."""
 
 
-_NOTHING = Trial(0.0, (), False, 0.0)
+_NOTHING = LayoutTrial(0.0, (), False, 0.0)
 
 
-def tried(sketch: Sketch, drawing: Reals, wanted: float) -> Trial:
+def try_layout(sketch: LayoutProgram, drawing: Reals, wanted: float) -> LayoutTrial:
     """Move a drawing and judge it.
 
     Args:
@@ -56,15 +56,15 @@ def tried(sketch: Sketch, drawing: Reals, wanted: float) -> Trial:
     turning = all(drive.direction.startswith("R") for drive in drives)
     if turning:
         around = ((0.0, 2 * np.pi),) * len(drives)
-        quality = followed(sketch, setting, range_path(around, full=True))
+        quality = closed_path_quality(sketch, setting, range_path(around, full=True))
         if quality >= FLOOR:
-            return Trial(1 + beauty * min(quality / wanted, 1.0), around, True, quality)
+            return LayoutTrial(1 + beauty * min(quality / wanted, 1.0), around, True, quality)
     ranges, quality = _limited(sketch, setting) if len(drives) == 1 else _swinging(sketch, setting)
     if not ranges:
         return _NOTHING
     unit = [2 * np.pi if d.direction.startswith("R") else 2 * _STROKE * setting.program.size for d in drives]
     share = min(min(1.0, (r[1] - r[0]) / u) for r, u in zip(ranges, unit, strict=True))
-    return Trial(share * beauty * (0.5 + 0.5 * min(quality / wanted, 1.0)), ranges, False, quality)
+    return LayoutTrial(share * beauty * (0.5 + 0.5 * min(quality / wanted, 1.0)), ranges, False, quality)
 
 
 def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int = _ROWS) -> Reals:
@@ -80,26 +80,26 @@ def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int
     return np.stack([(a + b) / 2 + (b - a) / 2 * wave for (a, b), wave in zip(ranges, waves, strict=False)], axis=1)
 
 
-def _run(sketch: Sketch, setting: Setting, path: Reals) -> tuple[Rows, Reals]:
+def _run(sketch: LayoutProgram, setting: KernelLayout, path: Reals) -> tuple[SolvedRows, Reals]:
     """The rows that are reached and their measures."""
     rows = run_rows(setting.program, sketch.plan, path, None, 0, setting.signs, setting.unknowns)
     return rows, conditioning(sketch.plan, setting.program, rows.places[0], rows.turns, rows.roots)
 
 
-def closes(places: NDArray[np.complex128], turns: NDArray[np.complex128], size: float) -> bool:
+def returns_to_start(places: NDArray[np.complex128], turns: NDArray[np.complex128], size: float) -> bool:
     """Whether the last pose is the first: a larger group may come back in another assembly mode."""
     return bool(abs(places[-1] - places[0]).max() < 1e-6 * size and abs(turns[-1] - turns[0]).max() < 1e-6)
 
 
-def followed(sketch: Sketch, setting: Setting, path: Reals) -> float:
+def closed_path_quality(sketch: LayoutProgram, setting: KernelLayout, path: Reals) -> float:
     """The smallest measure on a closed path; 0 if it cannot be followed to its end or does not close."""
     rows = run_rows(setting.program, sketch.plan, path, None, 0, setting.signs, setting.unknowns)
-    if rows.reached < len(path) or not closes(rows.places[0], rows.turns, setting.program.size):
+    if rows.reached < len(path) or not returns_to_start(rows.places[0], rows.turns, setting.program.size):
         return 0.0
     return float(conditioning(sketch.plan, setting.program, rows.places[0], rows.turns, rows.roots).min())
 
 
-def _limited(sketch: Sketch, setting: Setting) -> tuple[tuple[tuple[float, float], ...], float]:
+def _limited(sketch: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
     """How far one drive moves to both sides of the drawn position, and the smallest measure there."""
     turning = sketch.mechanism.drives[0].direction.startswith("R")
     most = 2 * np.pi if turning else _STROKE * setting.program.size
@@ -117,18 +117,18 @@ def _limited(sketch: Sketch, setting: Setting) -> tuple[tuple[tuple[float, float
     return ((ends[0], ends[1]),), worst
 
 
-def _swinging(sketch: Sketch, setting: Setting) -> tuple[tuple[tuple[float, float], ...], float]:
+def _swinging(sketch: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
     """The widest of some ranges about the drawn position through which all drives move at once."""
     for swing in _SWINGS:
         units = [np.pi if d.direction.startswith("R") else setting.program.size / 2 for d in sketch.mechanism.drives]
         ranges = tuple((-swing * unit, swing * unit) for unit in units)
-        quality = followed(sketch, setting, range_path(ranges, full=False))
+        quality = closed_path_quality(sketch, setting, range_path(ranges, full=False))
         if quality >= FLOOR:
             return ranges, quality
     return (), 0.0
 
 
-def _beauty(sketch: Sketch, drawing: Reals) -> float:
+def _beauty(sketch: LayoutProgram, drawing: Reals) -> float:
     """1 if no length is short, no joints are near each other, the frame is wide, and nothing crosses; else less."""
     z = drawing[:, 0] + 1j * drawing[:, 1]
     size = sketch.size(drawing)

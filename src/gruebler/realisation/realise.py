@@ -8,10 +8,10 @@ from gruebler.assur import decompose
 from gruebler.errors import LinkageError
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic
-from gruebler.realisation.finishing import finished
-from gruebler.realisation.layout_program import check_drawable, sketch
+from gruebler.realisation.finishing import finish_linkage
+from gruebler.realisation.layout_program import check_drawable, layout_program
 from gruebler.realisation.result import Realisation
-from gruebler.realisation.search import searched
+from gruebler.realisation.search import search_layouts
 
 __all__ = ["realise", "with_drives"]
 
@@ -55,13 +55,13 @@ def realise(
     reasons = (parts.message("en"), parts.message("de")) if driven.drives else _NOTHING_TO_DRIVE
     if not (driven.drives and parts.complete):
         return Realisation(driven, None, (), False, 0.0, 0, seed, reasons)
-    drawn = sketch(driven)
+    drawn = layout_program(driven)
     turning = all(drive.direction.startswith("R") for drive in driven.drives)
     best, tries = None, 0
     for again in range(_AGAIN):
-        found = searched(drawn, seed=seed + (again << 32), budget=budget, wanted=wanted)
+        found = search_layouts(drawn, seed=seed + (again << 32), budget=budget, wanted=wanted)
         tries += found.tries
-        done = finished(drawn, found.drawing, found.trial, unit) if found.trial.score else None
+        done = finish_linkage(drawn, found.drawing, found.trial, unit) if found.trial.score else None
         if done is not None and (best is None or found.trial.score > best[1].score):
             best = done, found.trial
         if best is not None and (best[1].full or not turning):

@@ -9,7 +9,7 @@ from math import degrees
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.analysis.drive_cycle import Span, follow
+from gruebler.analysis.drive_cycle import CycleSpan, drive_cycle
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
@@ -75,9 +75,9 @@ class Realisation(Brief):
         return self.linkage is not None
 
     @cached_property
-    def span(self) -> Span | None:
+    def span(self) -> CycleSpan | None:
         """From where to where a single drive moves at all, between its limits, as `measures` has it; else None."""
-        return follow(self.linkage).span if self.linkage is not None and len(self.ranges) == 1 else None
+        return drive_cycle(self.linkage).span if self.linkage is not None and len(self.ranges) == 1 else None
 
     def path(self, rows: int = 361) -> NDArray[np.float64]:
         """Drive values through the ranges, for `move`: (rows, drives); several drives wind at different speeds."""

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.realisation.layout_program import Sketch
-from gruebler.realisation.layout_trial import Trial, tried
+from gruebler.realisation.layout_program import LayoutProgram
+from gruebler.realisation.layout_trial import LayoutTrial, try_layout
 
-__all__ = ["Found", "searched"]
+__all__ = ["SearchResult", "search_layouts"]
 
 Reals = NDArray[np.float64]
 
@@ -20,26 +20,26 @@ _DRAWING, _PATIENCE = 0.5, 80  # share of the budget for random drawings; change
 _CLOSE = 1e-3  # a score so near to the best possible is good enough
 
 
-class Found(NamedTuple):
+class SearchResult(NamedTuple):
     """The best drawing of a search."""
 
     drawing: Reals
-    trial: Trial
+    trial: LayoutTrial
     tries: int
 
 
-def searched(sketch: Sketch, *, seed: int, budget: int, wanted: float) -> Found:
+def search_layouts(sketch: LayoutProgram, *, seed: int, budget: int, wanted: float) -> SearchResult:
     """The best drawing of at most `budget` tried; same seed, same drawing."""
     rng = np.random.default_rng(seed)
-    kept: list[Found] = []
+    kept: list[SearchResult] = []
     goal = (2 if all(d.direction.startswith("R") for d in sketch.mechanism.drives) else 1) - _CLOSE
     tries = turning = 0
     while tries < max(1, int(_DRAWING * budget)) and turning < _ENOUGH and not (kept and kept[0].trial.score > goal):
         drawing = sketch.tied(_drawn(sketch, rng))
-        trial = tried(sketch, drawing, wanted)
+        trial = try_layout(sketch, drawing, wanted)
         tries += 1
         turning += trial.full
-        kept = sorted([*kept, Found(drawing, trial, tries)], key=lambda f: (-f.trial.score, f.tries))[:_KEPT]
+        kept = sorted([*kept, SearchResult(drawing, trial, tries)], key=lambda f: (-f.trial.score, f.tries))[:_KEPT]
     for number, start in enumerate(kept):
         share = (budget - tries) // (len(kept) - number)
         kept[number] = _improved(sketch, start, rng, share, wanted, goal) if start.trial.score else start
@@ -47,26 +47,28 @@ def searched(sketch: Sketch, *, seed: int, budget: int, wanted: float) -> Found:
         if kept[number].trial.score > goal:
             break
     best = max(kept, key=lambda found: found.trial.score)
-    return Found(best.drawing, best.trial, tries)
+    return SearchResult(best.drawing, best.trial, tries)
 
 
-def _improved(sketch: Sketch, start: Found, rng: np.random.Generator, budget: int, wanted: float, goal: float) -> Found:
+def _improved(
+    sketch: LayoutProgram, start: SearchResult, rng: np.random.Generator, budget: int, wanted: float, goal: float
+) -> SearchResult:
     """Random changes, kept if they are better; their size follows their success."""
     drawing, best = start.drawing, start.trial
     step, idle, tries = 0.1, 0, 0
     while tries < budget and idle < _PATIENCE and best.score <= goal:
         changed = sketch.tied(_changed(sketch, drawing, rng, step))
-        trial = tried(sketch, changed, wanted)
+        trial = try_layout(sketch, changed, wanted)
         tries, idle = tries + 1, idle + 1
         step = max(0.005, step * 0.97)
         if trial.score > best.score:
             if trial.score > best.score + 1e-3:
                 idle = 0
             drawing, best, step = changed, trial, min(0.2, step * 1.4)
-    return Found(drawing, best, tries)
+    return SearchResult(drawing, best, tries)
 
 
-def _drawn(sketch: Sketch, rng: np.random.Generator) -> Reals:
+def _drawn(sketch: LayoutProgram, rng: np.random.Generator) -> Reals:
     """Joints in the unit square away from each other; one link of each turning drive made small about its joint."""
     count = len(sketch.mechanism.chain.joints)
     out = np.empty((count, 3))
@@ -81,7 +83,7 @@ def _drawn(sketch: Sketch, rng: np.random.Generator) -> Reals:
     return out
 
 
-def _small_link(sketch: Sketch, between: tuple[str, str], rng: np.random.Generator) -> str | None:
+def _small_link(sketch: LayoutProgram, between: tuple[str, str], rng: np.random.Generator) -> str | None:
     """The moving link of a drive, or now and then the other; None: let chance decide for each joint."""
     frame, chance = sketch.mechanism.frame, rng.uniform()
     links = sorted(between, key=lambda link: (link == frame, len(_joints(sketch, link))))
@@ -91,11 +93,11 @@ def _small_link(sketch: Sketch, between: tuple[str, str], rng: np.random.Generat
     return straight[0] if chance < 0.8 or len(straight) == 1 else straight[1]
 
 
-def _joints(sketch: Sketch, link: str) -> list[int]:
+def _joints(sketch: LayoutProgram, link: str) -> list[int]:
     return [k for k, joint in enumerate(sketch.mechanism.chain.joints) if link in joint.links]
 
 
-def _shrink(sketch: Sketch, drawing: Reals, pivot: int, link: str | None, rng: np.random.Generator) -> None:
+def _shrink(sketch: LayoutProgram, drawing: Reals, pivot: int, link: str | None, rng: np.random.Generator) -> None:
     """Draw the joints of a link, or each joint by chance, near a pivot."""
     centre = drawing[pivot, :2].copy()
     if link is None:
@@ -107,7 +109,7 @@ def _shrink(sketch: Sketch, drawing: Reals, pivot: int, link: str | None, rng: n
     drawing[mine, :2] = centre + factor * (drawing[mine, :2] - centre)
 
 
-def _changed(sketch: Sketch, drawing: Reals, rng: np.random.Generator, step: float) -> Reals:
+def _changed(sketch: LayoutProgram, drawing: Reals, rng: np.random.Generator, step: float) -> Reals:
     """One joint, all joints, or one link in size."""
     out, size = drawing.copy(), sketch.size(drawing)
     kind = rng.integers(0, 3)

@@ -5,35 +5,35 @@ with their Jacobian. `freedoms` takes it, or a planar `Linkage`, and compares th
 sizes, at the pose, and finite. docs/theory/freedoms.md has the conventions, the theorems and what may err.
 """
 
-from gruebler.screws.closed_poses import known
+from gruebler.screws.closed_poses import has_only_lower_pairs
 from gruebler.screws.closing import Closing
-from gruebler.screws.finite_mobility import Evidence, Finite
-from gruebler.screws.following import follow, joint_value
-from gruebler.screws.instant_mobility import Instant
+from gruebler.screws.finite_mobility import Evidence, FiniteMobility
+from gruebler.screws.following import follow_joint, joint_value
+from gruebler.screws.instant_mobility import InstantMobility
 from gruebler.screws.joint_geometry import Reason
 from gruebler.screws.joint_places import JointPlace
 from gruebler.screws.mobility_report import Freedoms, freedom_report, freedoms
 from gruebler.screws.model import SpatialLinkage
-from gruebler.screws.motion_groups import Group, common_group
-from gruebler.screws.rigid_motions import adjoint, exponential, hat
+from gruebler.screws.motion_groups import MotionGroup, common_group
+from gruebler.screws.rigid_motions import adjoint, exponential, twist_matrix
 
 __all__ = [
     "Closing",
     "Evidence",
-    "Finite",
+    "FiniteMobility",
     "Freedoms",
-    "Group",
-    "Instant",
+    "InstantMobility",
     "JointPlace",
+    "MotionGroup",
     "Reason",
     "SpatialLinkage",
     "adjoint",
     "common_group",
     "exponential",
-    "follow",
+    "follow_joint",
     "freedom_report",
     "freedoms",
-    "hat",
+    "has_only_lower_pairs",
     "joint_value",
-    "known",
+    "twist_matrix",
 ]

@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.linkages import Line, Linkage, Pin
-from gruebler.screws.closing import Closing, Tie
-from gruebler.screws.double_roots import sharpened
-from gruebler.screws.following import followed_together, joint_value
-from gruebler.screws.instant_mobility import at_pose
+from gruebler.screws.closing import Closing, JointFrames
+from gruebler.screws.double_roots import refined_at_double_root
+from gruebler.screws.following import follow_joints, joint_value
+from gruebler.screws.instant_mobility import instant_mobility
 from gruebler.screws.joint_places import JointPlace
 from gruebler.screws.model import SpatialLinkage
-from gruebler.screws.rigid_motions import inverse
+from gruebler.screws.rigid_motions import inverse_motion
 
-__all__ = ["known", "placed"]
+__all__ = ["closed_pose", "has_only_lower_pairs"]
 
 Reals = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ _ENOUGH = 6  # closed poses among which the best is taken
 _GOOD = 0.01  # a smallest singular value, for each unknown, with which the search for a pose stops
 
 
-def placed(
+def closed_pose(
     linkage: Linkage | SpatialLinkage, at: Sequence[float] | None = None, branch: str | Iterable[str] | None = None
 ) -> tuple[Closing, Reals]:
     """The closing conditions of a linkage and a pose: at drive values, else its home, else one that is regular.
@@ -53,7 +53,7 @@ def placed(
     return closing, _centred(closing, _settled(closing, _home(linkage)))
 
 
-def known(linkage: Linkage) -> bool:
+def has_only_lower_pairs(linkage: Linkage) -> bool:
     """Whether all its joints are pins and lines; others are given by their screws."""
     return all(isinstance(element, Pin | Line) for element in linkage.elements.values())
 
@@ -68,7 +68,7 @@ def _planar(linkage: Linkage) -> Closing:
             radii = (inf if isinstance(one, Line) else 0.0, inf if isinstance(two, Line) else 0.0)
             place = JointPlace(radii=radii if joint.pair.name == "roll_slide" else None)
             ends = _frame(one, size), _frame(two, size)
-            ties.append(Tie(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
+            ties.append(JointFrames(number, chain.index(first), chain.index(other), ends[0], ends[1], place))
     return Closing(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
 
@@ -96,7 +96,7 @@ def _settled(closing: Closing, home: Reals) -> Reals:
         gap = abs(closing.residual(home)).max()
         raise LinkageError(f"the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size")
     inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
-    return sharpened(closing, pose) if inexact else pose
+    return refined_at_double_root(closing, pose) if inexact else pose
 
 
 def _centred(closing: Closing, pose: Reals) -> Reals:
@@ -156,7 +156,7 @@ def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> 
             values.append(now + (value - now + np.pi) % (2 * np.pi) - np.pi)
         else:
             values.append(value / size)
-    return followed_together(closing, home, joints, np.array([values]))[0]
+    return follow_joints(closing, home, joints, np.array([values]))[0]
 
 
 def _assembled(closing: Closing) -> Reals:
@@ -168,15 +168,15 @@ def _assembled(closing: Closing) -> Reals:
     frame = closing.mechanism.chain.index(closing.mechanism.frame)
     for _ in range(_STARTS):
         start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.home), 3))])
-        pose = closing.settled(inverse(start[frame]) @ start, most=_PATIENT)
+        pose = closing.settled(inverse_motion(start[frame]) @ start, most=_PATIENT)
         open_by = float(abs(closing.residual(pose)).max())
         if _CLOSED < open_by < _NEARLY:  # at a double root steps only halve
-            pose = sharpened(closing, pose)
+            pose = refined_at_double_root(closing, pose)
             open_by = float(abs(closing.residual(pose)).max())
         least = min(least, open_by)
         if open_by > _CLOSED:
             continue
-        here = at_pose(closing, pose, 1e-9)
+        here = instant_mobility(closing, pose, 1e-9)
         margin = float(here.values[here.rank - 1]) / closing.unknowns
         moving = driven.isdisjoint(here.immobile), -len(here.immobile)
         found.append((here.mobility, moving, margin, pose))
@@ -187,4 +187,4 @@ def _assembled(closing: Closing) -> Reals:
             f"no position was found in which the joints can be closed: they stay open by {least:.1e} of the linkage's "
             "size at least"
         )
-    return _centred(closing, sharpened(closing, max(found, key=lambda one: one[:3])[3]))
+    return _centred(closing, refined_at_double_root(closing, max(found, key=lambda one: one[:3])[3]))

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from gruebler.chain.pairs import Space
 from gruebler.mechanism import Mechanism
-from gruebler.screws.closing_rows import Bent, rows
+from gruebler.screws.closing_rows import Bent, joint_rows
 from gruebler.screws.joint_places import JointPlace
 from gruebler.screws.model import SpatialLinkage
-from gruebler.screws.rigid_motions import exponential, exponential_rate, inverse
+from gruebler.screws.rigid_motions import exponential, exponential_rate, inverse_motion
 
-__all__ = ["Closing", "Tie"]
+__all__ = ["Closing", "JointFrames"]
 
 Reals = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _COLUMNS = {Space.PLANAR: [2, 3, 4], Space.SPHERICAL: [0, 1, 2], Space.SPATIAL: 
 
 
 @dataclass(frozen=True)
-class Tie:
+class JointFrames:
     """A joint between two of its links, with its frame on each; lengths in units of the linkage's size."""
 
     joint: int
@@ -42,7 +42,7 @@ class Closing:
     each moving link: its twist about the origin, velocities divided by the size.
     """
 
-    def __init__(self, mechanism: Mechanism, ties: Sequence[Tie], home: Reals) -> None:
+    def __init__(self, mechanism: Mechanism, ties: Sequence[JointFrames], home: Reals) -> None:
         chain = mechanism.chain
         self.mechanism = mechanism
         self.home = home
@@ -57,7 +57,7 @@ class Closing:
         weights: list[Reals] = []
         self._bent: list[tuple[int, Bent]] = []
         for k, tie in enumerate(ties):
-            for row in rows(chain.joints[tie.joint].pair, chain.space, tie.place):
+            for row in joint_rows(chain.joints[tie.joint].pair, chain.space, tie.place):
                 if callable(row):
                     self._bent.append((len(owners), row))
                 owners.append(k)
@@ -82,7 +82,7 @@ class Closing:
             scaled = JointPlace(pitch=place.pitch / size, radii=radii, pressure=place.pressure)
             first = chain.index(joint.links[0])
             for link in joint.links[1:]:
-                ties.append(Tie(number, first, chain.index(link), frames[number], frames[number], scaled))
+                ties.append(JointFrames(number, first, chain.index(link), frames[number], frames[number], scaled))
         return cls(linkage.mechanism, ties, np.tile(np.eye(4), (chain.n, 1, 1)))
 
     @property
@@ -97,7 +97,7 @@ class Closing:
 
     def seen(self, pose: Reals) -> Reals:
         """For each tie the second link's joint frame as seen from the first link's, (ties, 4, 4)."""
-        out: Reals = inverse(pose[self._first] @ self._on_first) @ (pose[self._second] @ self._on_second)
+        out: Reals = inverse_motion(pose[self._first] @ self._on_first) @ (pose[self._second] @ self._on_second)
         return out
 
     def _evaluated(self, pose: Reals) -> tuple[Reals, Reals]:
@@ -117,7 +117,7 @@ class Closing:
     def linearised(self, pose: Reals) -> tuple[Reals, Reals]:
         """Residual (equations,) and its derivative by the motion of the links, (equations, unknowns)."""
         value, weights = self._evaluated(pose)
-        left = inverse(pose[self._first] @ self._on_first)[self._owner]
+        left = inverse_motion(pose[self._first] @ self._on_first)[self._owner]
         right = (pose[self._second] @ self._on_second)[self._owner]
         m = np.swapaxes(left, 1, 2) @ weights @ np.swapaxes(right, 1, 2)
         turn = np.stack([m[:, 2, 1] - m[:, 1, 2], m[:, 0, 2] - m[:, 2, 0], m[:, 1, 0] - m[:, 0, 1]], axis=1)

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from gruebler.chain.pairs import Pair, Space
 from gruebler.screws.joint_places import JointPlace
 
-__all__ = ["Bent", "Row", "rows"]
+__all__ = ["Bent", "Row", "joint_rows"]
 
 Reals = NDArray[np.float64]
 Bent = Callable[[Reals], tuple[float, Reals]]
@@ -30,7 +30,7 @@ Row = Reals | Bent
 """Weights (4, 4) of the entries of E, or a function."""
 
 
-def rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
+def joint_rows(pair: Pair, space: Space, place: JointPlace) -> list[Row]:
     """The rows of a joint, u of them."""
     free = pair.freedoms[space]
     if space is Space.PLANAR and pair.name == "roll_slide":

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.screws.closing import Closing
-from gruebler.screws.instant_mobility import Instant, at_pose
-from gruebler.screws.obstruction import Excess
+from gruebler.screws.instant_mobility import InstantMobility, instant_mobility
+from gruebler.screws.obstruction import ObstructionMap
 
-__all__ = ["blurred", "sharpened"]
+__all__ = ["is_near_double_root", "refined_at_double_root"]
 
 Reals = NDArray[np.float64]
 
@@ -37,21 +37,21 @@ def _blur(closing: Closing, pose: Reals) -> float:
     return _SAFETY * math.sqrt(_gap(closing, pose))
 
 
-def blurred(instant: Instant) -> bool:
+def is_near_double_root(instant: InstantMobility) -> bool:
     """Whether the smallest singular value that counts may be zero as well."""
     return instant.rank > 0 and instant.gap[0] < _blur(instant.closing, instant.pose)
 
 
-def sharpened(closing: Closing, pose: Reals) -> Reals:
+def refined_at_double_root(closing: Closing, pose: Reals) -> Reals:
     """The pose beside this one in which the constraints that the blur may hide are redundant; itself if there is none.
 
-    In the map F of `Excess` such a pose is a point with F = 0 and F' = 0: F' is made zero by Newton's method.
+    In the map F of `ObstructionMap` such a pose is a point with F = 0 and F' = 0: F' is made zero by Newton's method.
     """
-    instant = at_pose(closing, pose, _ZERO)
-    if not blurred(instant):
+    instant = instant_mobility(closing, pose, _ZERO)
+    if not is_near_double_root(instant):
         return pose
     loose = replace(instant, tolerance=_blur(closing, pose))
-    excess = Excess(loose)
+    excess = ObstructionMap(loose)
     forms, k = excess.second(), np.zeros(loose.mobility)
     point = excess(k)
     for _ in range(_MOST):
@@ -63,4 +63,4 @@ def sharpened(closing: Closing, pose: Reals) -> Reals:
         return pose
     found = closing.moved(pose, point.motion)
     closed = _gap(closing, found) <= _WORSE * _gap(closing, pose)
-    return found if closed and at_pose(closing, found, _ZERO).rank == loose.rank else pose
+    return found if closed and instant_mobility(closing, found, _ZERO).rank == loose.rank else pose

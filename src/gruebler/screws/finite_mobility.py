@@ -15,12 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.notebook import Brief
-from gruebler.screws.double_roots import blurred
-from gruebler.screws.instant_mobility import Instant, at_pose
-from gruebler.screws.obstruction import Excess
-from gruebler.screws.quadratic_forms import definite, directions
+from gruebler.screws.double_roots import is_near_double_root
+from gruebler.screws.instant_mobility import InstantMobility, instant_mobility
+from gruebler.screws.obstruction import ObstructionMap
+from gruebler.screws.quadratic_forms import directions, is_definite
 
-__all__ = ["Evidence", "Finite", "finite"]
+__all__ = ["Evidence", "FiniteMobility", "finite_mobility"]
 
 Reals = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ class Evidence(StrEnum):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Finite(Brief):
+class FiniteMobility(Brief):
     """What following the velocities gave."""
 
     mobility: int
@@ -74,26 +74,28 @@ class Finite(Brief):
     """How many curves of positions meet at the pose, where they are curves and more than one was found."""
 
 
-def finite(instant: Instant) -> Finite:
+def finite_mobility(instant: InstantMobility) -> FiniteMobility:
     """Follow the velocities of a pose whose joints are closed.
 
     Cost: some 12 solutions by Newton's method; where motions branch, some 1000 more.
     """
-    if blurred(instant) and not (instant.mobility and instant.redundancy):
-        return Finite(instant.mobility, Evidence.BLURRED)
+    if is_near_double_root(instant) and not (instant.mobility and instant.redundancy):
+        return FiniteMobility(instant.mobility, Evidence.BLURRED)
     if instant.mobility == 0:
-        return Finite(0, Evidence.RIGID)
+        return FiniteMobility(0, Evidence.RIGID)
     if instant.redundancy == 0:
-        return Finite(instant.mobility, Evidence.REGULAR)
-    excess = Excess(instant)
+        return FiniteMobility(instant.mobility, Evidence.REGULAR)
+    excess = ObstructionMap(instant)
     random = np.random.default_rng(20_261_121)
     closed, reach, gap = _all_closed(excess, random, _RADII)
     if closed:
-        return Finite(instant.mobility, Evidence.FOLLOWED, reach)
+        return FiniteMobility(instant.mobility, Evidence.FOLLOWED, reach)
     return _some_or_none(excess, random, reach, gap)
 
 
-def _all_closed(excess: Excess, random: np.random.Generator, radii: tuple[float, ...]) -> tuple[bool, float, float]:
+def _all_closed(
+    excess: ObstructionMap, random: np.random.Generator, radii: tuple[float, ...]
+) -> tuple[bool, float, float]:
     """Whether F is zero in directions taken at random; how far that was seen, and by how much it is open there."""
     reach, gap, closed = 0.0, 0.0, True
     for radius in radii:
@@ -113,25 +115,25 @@ def _unit(random: np.random.Generator, size: int) -> Reals:
     return np.vstack([half, -half])
 
 
-def _some_or_none(excess: Excess, random: np.random.Generator, radius: float, gap: float) -> Finite:
+def _some_or_none(excess: ObstructionMap, random: np.random.Generator, radius: float, gap: float) -> FiniteMobility:
     """F is not zero everywhere: look for the velocities along which it is."""
     instant = excess.instant
     forms = excess.second()
     if forms is None or not radius:
-        return Finite(0, Evidence.UNDECIDED)
+        return FiniteMobility(0, Evidence.UNDECIDED)
     order = _order(excess, random, _RADII[0])
-    if (instant.mobility == 1 and abs(forms).max() > 1e-5) or (instant.mobility > 1 and definite(forms)):
-        return Finite(0, Evidence.STRESSED, radius, order, gap)
+    if (instant.mobility == 1 and abs(forms).max() > 1e-5) or (instant.mobility > 1 and is_definite(forms)):
+        return FiniteMobility(0, Evidence.STRESSED, radius, order, gap)
     ends = _zeros(excess, forms, np.eye(instant.mobility), _RADII[0], random) if instant.mobility > 1 else []
     if not ends:
-        return Finite(0, Evidence.SHAKY, radius, order, gap)
+        return FiniteMobility(0, Evidence.SHAKY, radius, order, gap)
     dimensions = _dimensions(excess, ends, random)
     best = min(max(dimensions), instant.mobility - 1)  # the zeros of an analytic map that is not zero everywhere
-    return Finite(best, Evidence.BRANCHING, _RADII[0], ways=len(dimensions) if best == 1 else 1)
+    return FiniteMobility(best, Evidence.BRANCHING, _RADII[0], ways=len(dimensions) if best == 1 else 1)
 
 
 def _zeros(
-    excess: Excess, forms: Reals, basis: Reals, radius: float, random: np.random.Generator, most: int = 1000
+    excess: ObstructionMap, forms: Reals, basis: Reals, radius: float, random: np.random.Generator, most: int = 1000
 ) -> list[Reals]:
     """Zeros of F at this distance from the pose, (mobility,) each, in the space of a basis (part, mobility).
 
@@ -150,7 +152,7 @@ def _zeros(
     return out
 
 
-def _same(excess: Excess, one: Reals, other: Reals) -> bool:
+def _same(excess: ObstructionMap, one: Reals, other: Reals) -> bool:
     """Whether two zeros lie in about the same direction, or F is below its threshold all the way between them."""
     radius = float(np.linalg.norm(one))
     cosine = float(one @ other) / radius**2
@@ -166,12 +168,12 @@ def _same(excess: Excess, one: Reals, other: Reals) -> bool:
     return True
 
 
-def _closed(excess: Excess, radius: float) -> float:
+def _closed(excess: ObstructionMap, radius: float) -> float:
     """What F may be at a zero so far from the pose."""
     return max(_OPEN, excess.instant.tolerance * radius**2)
 
 
-def _dimensions(excess: Excess, ends: list[Reals], random: np.random.Generator) -> list[int]:
+def _dimensions(excess: ObstructionMap, ends: list[Reals], random: np.random.Generator) -> list[int]:
     """The dimension of the set of positions at each of these zeros; alike ones are looked at only a few times."""
     closing = excess.instant.closing
     known: dict[tuple[int, int], list[int]] = {}
@@ -180,7 +182,7 @@ def _dimensions(excess: Excess, ends: list[Reals], random: np.random.Generator) 
         point = excess(k)
         assert point is not None  # k is a zero of F
         pose = closing.settled(closing.moved(excess.instant.pose, point.motion))
-        there = at_pose(closing, pose, excess.instant.tolerance)
+        there = instant_mobility(closing, pose, excess.instant.tolerance)
         seen = known.setdefault((there.mobility, there.redundancy), [])
         if len(seen) < _ALIKE:
             seen.append(_dimension(there, random))
@@ -188,12 +190,12 @@ def _dimensions(excess: Excess, ends: list[Reals], random: np.random.Generator) 
     return out
 
 
-def _dimension(instant: Instant, random: np.random.Generator) -> int:
+def _dimension(instant: InstantMobility, random: np.random.Generator) -> int:
     """The dimension of the set of positions where it is smooth, though its equations may be singular on it.
 
     A set of dimension d meets a space of m - d + 1 dimensions taken at random in a curve at least.
     """
-    excess = Excess(instant)
+    excess = ObstructionMap(instant)
     if _all_closed(excess, random, (_NEAR,))[0]:
         return instant.mobility
     forms = excess.second(1e-4)
@@ -204,14 +206,14 @@ def _dimension(instant: Instant, random: np.random.Generator) -> int:
     return 1
 
 
-def _order(excess: Excess, random: np.random.Generator, radius: float) -> int:
+def _order(excess: ObstructionMap, random: np.random.Generator, radius: float) -> int:
     """The power by which F grows in a direction taken at random."""
     k = _unit(random, excess.instant.mobility)[0]
     sizes = [0.0 if (point := excess(r * k)) is None else abs(point.value).max() for r in (radius, radius / 2)]
     return max(2, round(float(np.log2(sizes[0] / sizes[1])))) if min(sizes) > 0 else 2
 
 
-def _on_sphere(excess: Excess, basis: Reals, start: Reals) -> Reals | None:
+def _on_sphere(excess: ObstructionMap, basis: Reals, start: Reals) -> Reals | None:
     """A zero of F as far from the pose as a start in a space, by Gauss and Newton's method; None if it finds none."""
     radius = float(np.linalg.norm(start))
     u = start

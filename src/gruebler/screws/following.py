@@ -11,7 +11,7 @@ from gruebler.errors import LinkageError
 from gruebler.screws.closing import Closing
 from gruebler.screws.model import SpatialLinkage
 
-__all__ = ["follow", "followed", "followed_together", "joint_value"]
+__all__ = ["follow_from_pose", "follow_joint", "follow_joints", "joint_value"]
 
 Reals = NDArray[np.float64]
 
@@ -28,7 +28,7 @@ def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
     return float(np.arctan2(e[1, 0], e[0, 0]))
 
 
-def follow(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Reals:
+def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Reals:
     """The poses (values, n, 4, 4) in which a revolute or prismatic joint has these values, counted from home.
 
     Translations are in units of the linkage's size, from its centre. Between values the joint goes in steps of at most
@@ -41,7 +41,7 @@ def follow(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Real
     >>> from gruebler.mechanism import Mechanism
     >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
     >>> square = SpatialLinkage(quad, {0: (0, 0), 1: (0, 1), 2: (3, 1), 3: (3, 0)})
-    >>> follow(square, 0, [0.5])[0, 3, :2, :2].round(6).tolist()  # the other crank of a parallelogram turns as much
+    >>> follow_joint(square, 0, [0.5])[0, 3, :2, :2].round(6).tolist()  # the other crank turns as much
     [[0.877583, -0.479426], [0.479426, 0.877583]]
     """
     closing = Closing.of(linkage)
@@ -49,16 +49,16 @@ def follow(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -> Real
     number = joint if isinstance(joint, int) else chain.find_joint(joint)
     if number is None or not 0 <= number < len(chain.joints):
         raise LinkageError(f"{joint!r} is not one of the joints; they are {', '.join(chain.joint_names())}")
-    return followed(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
+    return follow_from_pose(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
 
 
-def followed(closing: Closing, pose: Reals, joint: int, values: Reals) -> Reals:
+def follow_from_pose(closing: Closing, pose: Reals, joint: int, values: Reals) -> Reals:
     """The poses (values, n, 4, 4) in which a joint has these values, followed from a pose; `LinkageError` as above."""
-    return np.array(followed_together(closing, pose, [joint], np.reshape(values, (-1, 1))))
+    return np.array(follow_joints(closing, pose, [joint], np.reshape(values, (-1, 1))))
 
 
-def followed_together(closing: Closing, pose: Reals, joints: Sequence[int], values: Reals) -> list[Reals]:
-    """`followed` for several joints at once: values (rows, joints); between rows all go evenly."""
+def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: Reals) -> list[Reals]:
+    """`follow_from_pose` for several joints at once: values (rows, joints); between rows all go evenly."""
     chain = closing.mechanism.chain
     for joint in joints:
         if chain.joints[joint].pair.name not in ("revolute", "prismatic") or chain.joints[joint].count > 1:

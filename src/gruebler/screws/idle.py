@@ -13,8 +13,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.mobility.idle import IdleFreedom, When, between_balls
-from gruebler.screws.instant_mobility import Instant
+from gruebler.mobility.idle import IdleCondition, IdleFreedom, between_balls
+from gruebler.screws.instant_mobility import InstantMobility
 from gruebler.screws.motion_groups import screws_of
 
 __all__ = ["idle_parts"]
@@ -24,7 +24,7 @@ Reals = NDArray[np.float64]
 _SAME = 1e-7  # lines and directions that differ by less, in sizes, coincide: ten times what a pose may be open by
 
 
-def idle_parts(instant: Instant, generic: Sequence[IdleFreedom]) -> tuple[IdleFreedom, ...]:
+def idle_parts(instant: InstantMobility, generic: Sequence[IdleFreedom]) -> tuple[IdleFreedom, ...]:
     """The idle freedoms of a linkage in a pose: those of almost all sizes and those of coinciding axes.
 
     Args:
@@ -34,7 +34,7 @@ def idle_parts(instant: Instant, generic: Sequence[IdleFreedom]) -> tuple[IdleFr
     Cost O(joint elements), a small singular value decomposition for each link.
     """
     chain, frame = instant.closing.mechanism.chain, instant.closing.mechanism.frame
-    known = {idle.links: idle for idle in generic if idle.when is When.ALWAYS}
+    known = {idle.links: idle for idle in generic if idle.when is IdleCondition.ALWAYS}
     alone = {}
     for link in chain.links:
         joints = [k for k, joint in enumerate(chain.joints) if link in joint.links]
@@ -44,11 +44,11 @@ def idle_parts(instant: Instant, generic: Sequence[IdleFreedom]) -> tuple[IdleFr
     for link in chain.links:
         number = max(len(alone.get(link, ())), known[(link,)].freedoms if (link,) in known else 0)
         if number:
-            out.append(IdleFreedom((link,), number, When.ALWAYS))
+            out.append(IdleFreedom((link,), number, IdleCondition.ALWAYS))
     for part, balls in between_balls(chain, frame):
         spin = _common([screws_of(instant.closing, instant.pose, k) for k in balls])
         if not all(link in alone and _within(spin, alone[link]) for link in part):  # else it is the sum of their spins
-            out.append(IdleFreedom(part, 1, When.ALWAYS))
+            out.append(IdleFreedom(part, 1, IdleCondition.ALWAYS))
     return tuple(sorted(out, key=lambda idle: chain.index(idle.links[0])))
 
 

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 from gruebler.notebook import Brief
 from gruebler.screws.closing import Closing
 
-__all__ = ["Instant", "at_pose"]
+__all__ = ["InstantMobility", "instant_mobility"]
 
 Reals = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Instant(Brief):
+class InstantMobility(Brief):
     """The singular values of the constraints at a pose, and the spaces on either side of the gap among them."""
 
     closing: Closing
@@ -94,8 +94,8 @@ class Instant(Brief):
         return tuple(out)
 
 
-def at_pose(closing: Closing, pose: Reals, tolerance: float) -> Instant:
+def instant_mobility(closing: Closing, pose: Reals, tolerance: float) -> InstantMobility:
     """The mobility at a pose. Cost cubic in the unknowns."""
     _, by_twist = closing.linearised(pose)
     left, values, right = np.linalg.svd(by_twist)
-    return Instant(closing, pose, values, left, right, tolerance)
+    return InstantMobility(closing, pose, values, left, right, tolerance)

@@ -8,9 +8,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.screws.instant_mobility import Instant
+from gruebler.screws.instant_mobility import InstantMobility
 
-__all__ = ["SAME", "Reason", "Sketch"]
+__all__ = ["SAME", "JointGeometry", "Reason"]
 
 Reals = NDArray[np.float64]
 
@@ -30,10 +30,10 @@ class Reason(NamedTuple):
     """The sentence's number: a dimension, or how many there are."""
 
 
-class Sketch:
+class JointGeometry:
     """The joints of a pose: kinds, points and axes."""
 
-    def __init__(self, instant: Instant) -> None:
+    def __init__(self, instant: InstantMobility) -> None:
         closing, pose = instant.closing, instant.pose
         self.instant = instant
         self.closing = closing

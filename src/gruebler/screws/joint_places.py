@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gruebler.chain.pairs import Pair, Space
 from gruebler.errors import LinkageError
 
-__all__ = ["JointPlace", "Vector", "axes", "read_place"]
+__all__ = ["JointPlace", "Vector", "joint_axes", "read_place"]
 
 Reals = NDArray[np.float64]
 Vector = tuple[float, float, float]
@@ -100,7 +100,7 @@ def _fitting(made: JointPlace, pair: Pair, space: Space, where: str) -> None:
     enough = needed in present or turned if len(needed) < 2 else len(present) >= 2
     if not enough:
         raise LinkageError(f"{where}: a {pair.name} joint needs its {' and '.join(needed)} axis")
-    axes(made, space, where)
+    joint_axes(made, space, where)
     if space is Space.SPHERICAL and any(made.at):
         raise LinkageError(f"{where}: on a sphere every joint is at its centre, the origin")
     if made.pitch and pair.name != "helical":
@@ -128,10 +128,10 @@ def _check_contact(made: JointPlace, pair: Pair, space: Space, where: str) -> No
         raise LinkageError(f"{where}: on a sphere the radii are angles of cones between 0 and pi")
 
 
-def axes(made: JointPlace, space: Space, where: str = "joint") -> Reals:
+def joint_axes(made: JointPlace, space: Space, where: str = "joint") -> Reals:
     """The axes as columns of a rotation; those that are not given are chosen to complete it.
 
-    >>> axes(JointPlace(x=(0, 2, 0)), Space.PLANAR).tolist()
+    >>> joint_axes(JointPlace(x=(0, 2, 0)), Space.PLANAR).tolist()
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
     given = {k: np.array(v) / hypot(*v) for k, axis in enumerate("xyz") if (v := getattr(made, axis)) is not None}

@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.chain.pairs import Space
-from gruebler.screws.joint_geometry import SAME, Reason, Sketch
+from gruebler.screws.joint_geometry import SAME, JointGeometry, Reason
 
 __all__ = ["bennett", "bricard", "cardan", "sarrus"]
 
 Reals = NDArray[np.float64]
 
 
-def bennett(s: Sketch) -> Iterator[Reason]:
+def bennett(s: JointGeometry) -> Iterator[Reason]:
     """Four skew axes, opposite links equal, length over sine of the twist the same for all, no offsets."""
     ring = s.ring()
     if ring is None or len(ring) != 4 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
@@ -33,7 +33,7 @@ def bennett(s: Sketch) -> Iterator[Reason]:
         yield Reason("bennett", s.chain.links, tuple(ring))
 
 
-def _bar(s: Sketch, one: int, other: int) -> tuple[float, float, tuple[Reals, Reals]] | None:
+def _bar(s: JointGeometry, one: int, other: int) -> tuple[float, float, tuple[Reals, Reals]] | None:
     """The distance of two axes, the sine of their angle, and the feet of their common normal; None if parallel."""
     u, v, p, q = s.axis(one), s.axis(other), s.at(one), s.at(other)
     normal = np.cross(u, v)
@@ -45,7 +45,7 @@ def _bar(s: Sketch, one: int, other: int) -> tuple[float, float, tuple[Reals, Re
     return float(np.linalg.norm(feet[0] - feet[1])), sine, feet
 
 
-def bricard(s: Sketch) -> Iterator[Reason]:
+def bricard(s: JointGeometry) -> Iterator[Reason]:
     """Six turning joints in a loop that a half-turn, or a mirror, takes to itself: Bricard's movable octahedra."""
     ring = s.ring()
     if ring is None or len(ring) != 6 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
@@ -73,7 +73,7 @@ def _maps(points: Reals, images: Reals, sense: int) -> bool:
     )
 
 
-def sarrus(s: Sketch) -> Iterator[Reason]:
+def sarrus(s: JointGeometry) -> Iterator[Reason]:
     """Six axes in a loop, three and three parallel."""
     ring = s.ring()
     if ring is None or len(ring) != 6 or s.kinds("revolute") != sorted(ring) or s.chain.space is not Space.SPATIAL:
@@ -95,7 +95,7 @@ class Hooke(NamedTuple):
     joints: tuple[int, ...]
 
 
-def _hookes_joints(s: Sketch) -> Iterator[Hooke]:
+def _hookes_joints(s: JointGeometry) -> Iterator[Hooke]:
     """The cross joints, and the crosses that are links: two turning joints whose axes meet and are not parallel."""
     for k in s.kinds("universal"):
         yield Hooke(s.at(k), frozenset(s.chain.joints[k].links), (k,))
@@ -111,7 +111,7 @@ def _hookes_joints(s: Sketch) -> Iterator[Hooke]:
                 yield Hooke(bar[2][0], frozenset(shafts), (mine[0], mine[1]))
 
 
-def cardan(s: Sketch) -> Iterator[Reason]:
+def cardan(s: JointGeometry) -> Iterator[Reason]:
     """Two Hooke's joints, each with its centre on the axis of a bearing of its shaft: both centres stand still."""
     if s.chain.space is not Space.SPATIAL:
         return

@@ -13,7 +13,7 @@ from gruebler.screws.reasons import group_count
 if TYPE_CHECKING:
     from gruebler.screws.mobility_report import Freedoms
 
-__all__ = ["LANGUAGES", "SENTENCES", "explain", "reason_text", "summary"]
+__all__ = ["LANGUAGES", "SENTENCES", "explain_freedoms", "freedoms_summary", "reason_text"]
 
 LANGUAGES = ("en", "de")
 
@@ -201,12 +201,12 @@ def _column(lang: str) -> int:
     return LANGUAGES.index(lang)
 
 
-def explain(found: Freedoms, lang: str = "en") -> str:
+def explain_freedoms(found: Freedoms, lang: str = "en") -> str:
     """The whole report as lines of text.
 
     >>> from gruebler.screws import freedoms
     >>> from gruebler.fourbar import FourBar
-    >>> print(explain(freedoms(FourBar(25, 70, 40, 70).linkage(), at=1.0)))
+    >>> print(explain_freedoms(freedoms(FourBar(25, 70, 40, 70).linkage(), at=1.0)))
     Mobility: counted 1, generic 1, instant 1, finite 1.
     Count: F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1
     Instant: 8 constraints of rank 8 on 9 velocities leave 1 at this pose. Singular values against the largest: the
@@ -217,12 +217,12 @@ def explain(found: Freedoms, lang: str = "en") -> str:
     return "\n".join(_lines(found, _column(lang)))
 
 
-def summary(found: Freedoms, lang: str = "en") -> str:
+def freedoms_summary(found: Freedoms, lang: str = "en") -> str:
     """The four numbers and the reasons.
 
     >>> from gruebler.screws import freedoms
     >>> from gruebler.fourbar import FourBar
-    >>> print(summary(freedoms(FourBar(25, 70, 40, 70).linkage()), "de"))
+    >>> print(freedoms_summary(freedoms(FourBar(25, 70, 40, 70).linkage()), "de"))
     Laufgrad: gezählt 1, generisch 1, momentan 1, endlich 1.
     """
     column = _column(lang)

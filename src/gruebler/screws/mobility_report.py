@@ -16,10 +16,10 @@ from gruebler.linkages import Linkage
 from gruebler.mobility import MobilityReport, mobility_report
 from gruebler.mobility.idle import IdleFreedom
 from gruebler.notebook import Brief
-from gruebler.screws.closed_poses import placed
-from gruebler.screws.finite_mobility import Finite, finite
+from gruebler.screws.closed_poses import closed_pose
+from gruebler.screws.finite_mobility import FiniteMobility, finite_mobility
 from gruebler.screws.idle import idle_parts
-from gruebler.screws.instant_mobility import Instant, at_pose
+from gruebler.screws.instant_mobility import InstantMobility, instant_mobility
 from gruebler.screws.joint_geometry import Reason
 from gruebler.screws.model import SpatialLinkage
 from gruebler.screws.reasons import reasons
@@ -36,8 +36,8 @@ class Freedoms(Brief):
     linkage: Linkage | SpatialLinkage
     report: MobilityReport
     """The count and the generic mobility."""
-    instant: Instant
-    finite: Finite
+    instant: InstantMobility
+    finite: FiniteMobility
     reasons: tuple[Reason, ...]
 
     @property
@@ -77,15 +77,15 @@ class Freedoms(Brief):
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.screws.messages import explain
+        from gruebler.screws.messages import explain_freedoms
 
-        return explain(self, lang)
+        return explain_freedoms(self, lang)
 
     def summary(self, lang: str = "en") -> str:
         """The four numbers in a line, and the reasons, a line each."""
-        from gruebler.screws.messages import summary
+        from gruebler.screws.messages import freedoms_summary
 
-        return summary(self, lang)
+        return freedoms_summary(self, lang)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`."""
@@ -155,10 +155,10 @@ def freedoms(
         raise LinkageError(f"expected a linkage, but found {linkage!r}")
     if isinstance(tolerance, bool) or not isinstance(tolerance, int | float) or not 0 < tolerance < 0.01:
         raise LinkageError(f"the tolerance is a number between 0 and 0.01, not {tolerance!r}")
-    closing, pose = placed(linkage, _values(at), branch)
-    instant = at_pose(closing, pose, float(tolerance))
+    closing, pose = closed_pose(linkage, _values(at), branch)
+    instant = instant_mobility(closing, pose, float(tolerance))
     report = mobility_report(linkage.mechanism.chain, frame=linkage.mechanism.frame)
-    followed = finite(instant)
+    followed = finite_mobility(instant)
     more = max(instant.mobility, followed.mobility) > report.generic
     return Freedoms(linkage, report, instant, followed, reasons(instant) if more else ())
 

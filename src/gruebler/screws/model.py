@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError, nearest
 from gruebler.mechanism import Mechanism
-from gruebler.screws.joint_places import JointPlace, Vector, axes, read_place
+from gruebler.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 
 __all__ = ["SpatialLinkage"]
 
@@ -87,7 +87,7 @@ class SpatialLinkage:
         """Point and axes of each joint at home, (joints, 4, 4)."""
         out = np.tile(np.eye(4), (len(self.places), 1, 1))
         for k, place in enumerate(self.places):
-            out[k, :3, :3] = axes(place, self.mechanism.chain.space)
+            out[k, :3, :3] = joint_axes(place, self.mechanism.chain.space)
             out[k, :3, 3] = place.at
         return out
 

@@ -15,16 +15,16 @@ from numpy.typing import NDArray
 
 from gruebler.chain.pairs import Space
 from gruebler.screws.closing import Closing
-from gruebler.screws.rigid_motions import adjoint, bracket
+from gruebler.screws.rigid_motions import adjoint, lie_bracket
 
-__all__ = ["Group", "Kind", "algebra", "common_group", "screws_of"]
+__all__ = ["MotionGroup", "MotionGroupKind", "common_group", "screws_of", "smallest_algebra"]
 
 Reals = NDArray[np.float64]
 
 _SAME = 1e-9
 
 
-class Kind(StrEnum):
+class MotionGroupKind(StrEnum):
     """The sorts of groups that matter here."""
 
     SCREW = "screw"
@@ -44,10 +44,10 @@ class Kind(StrEnum):
     SPACE = "space"
 
 
-class Group(NamedTuple):
+class MotionGroup(NamedTuple):
     """A group of motions and its dimension."""
 
-    kind: Kind
+    kind: MotionGroupKind
     dimension: int
 
 
@@ -67,11 +67,11 @@ def screws_of(closing: Closing, pose: Reals, joint: int) -> Reals:
     return np.array(out)
 
 
-def algebra(twists: Reals) -> Reals:
+def smallest_algebra(twists: Reals) -> Reals:
     """An orthonormal basis (d, 6) of the smallest Lie algebra that holds the twists (k, 6)."""
     basis = _basis(twists)
     while True:
-        brackets = np.einsum("aij,bj->abi", bracket(basis), basis).reshape(-1, 6)
+        brackets = np.einsum("aij,bj->abi", lie_bracket(basis), basis).reshape(-1, 6)
         larger = _basis(np.vstack([basis, brackets]))
         if len(larger) == len(basis):
             return basis
@@ -84,7 +84,7 @@ def _basis(twists: Reals) -> Reals:
     return out
 
 
-def common_group(closing: Closing, pose: Reals) -> Group:
+def common_group(closing: Closing, pose: Reals) -> MotionGroup:
     """The group that holds all motions of the links; of pairs that are no group, those near the pose.
 
     >>> from gruebler.mechanism import Mechanism
@@ -94,32 +94,32 @@ def common_group(closing: Closing, pose: Reals) -> Group:
     >>> made = SpatialLinkage(winch, {0: {"z": z}, 1: {"z": z, "pitch": 0.8}, 2: {"x": z, "at": (0, 5, 0)}})
     >>> closing = Closing.of(made)
     >>> common_group(closing, closing.home)
-    Group(kind=<Kind.CYLINDER: 'cylinder'>, dimension=2)
+    MotionGroup(kind=<MotionGroupKind.CYLINDER: 'cylinder'>, dimension=2)
     """
     chain = closing.mechanism.chain
     if chain.space is Space.SPHERICAL:
-        return Group(Kind.SPHERE, 3)
-    return _named(algebra(np.vstack([screws_of(closing, pose, k) for k in range(len(chain.joints))])))
+        return MotionGroup(MotionGroupKind.SPHERE, 3)
+    return _named(smallest_algebra(np.vstack([screws_of(closing, pose, k) for k in range(len(chain.joints))])))
 
 
-def _named(basis: Reals) -> Group:
+def _named(basis: Reals) -> MotionGroup:
     dimension = len(basis)
     turning = int(np.linalg.matrix_rank(basis[:, :3], tol=_SAME))
     kinds = {
-        (0, 1): Kind.SCREW,
-        (1, 1): Kind.SCREW,
-        (0, 2): Kind.TRANSLATIONS,
-        (0, 3): Kind.TRANSLATIONS,
-        (1, 2): Kind.CYLINDER,
-        (1, 3): Kind.PLANE,
-        (3, 3): Kind.SPHERE,
-        (1, 4): Kind.PARALLEL,
-        (3, 6): Kind.SPACE,
+        (0, 1): MotionGroupKind.SCREW,
+        (1, 1): MotionGroupKind.SCREW,
+        (0, 2): MotionGroupKind.TRANSLATIONS,
+        (0, 3): MotionGroupKind.TRANSLATIONS,
+        (1, 2): MotionGroupKind.CYLINDER,
+        (1, 3): MotionGroupKind.PLANE,
+        (3, 3): MotionGroupKind.SPHERE,
+        (1, 4): MotionGroupKind.PARALLEL,
+        (3, 6): MotionGroupKind.SPACE,
     }
-    kind = kinds.get((turning, dimension), Kind.OTHER)
-    if kind is Kind.PLANE and not _plane(basis):
-        kind = Kind.SCREWS
-    return Group(kind, dimension)
+    kind = kinds.get((turning, dimension), MotionGroupKind.OTHER)
+    if kind is MotionGroupKind.PLANE and not _plane(basis):
+        kind = MotionGroupKind.SCREWS
+    return MotionGroup(kind, dimension)
 
 
 def _plane(basis: Reals) -> bool:

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.screws.instant_mobility import Instant
+from gruebler.screws.instant_mobility import InstantMobility
 
-__all__ = ["Excess", "Point"]
+__all__ = ["NearbyPose", "ObstructionMap"]
 
 Reals = NDArray[np.float64]
 
 
-class Point(NamedTuple):
+class NearbyPose(NamedTuple):
     """A motion from the pose in which all but the redundant constraints are closed."""
 
     motion: Reals
@@ -24,14 +24,14 @@ class Point(NamedTuple):
     """dF/dk, (redundancy, mobility)."""
 
 
-class Excess:
+class ObstructionMap:
     """The map F: what stays open of the redundant constraints when all others are closed and k is held."""
 
-    def __init__(self, instant: Instant) -> None:
+    def __init__(self, instant: InstantMobility) -> None:
         self.instant = instant
         self._independent = instant.left[:, : instant.rank].T
 
-    def __call__(self, k: Reals) -> Point | None:
+    def __call__(self, k: Reals) -> NearbyPose | None:
         """The point over k, or None if Newton's method does not close the other constraints so far away."""
         found = self.instant
         motion = k @ found.motions
@@ -46,7 +46,7 @@ class Excess:
                 return None
             step = solved[:, 0]
             if abs(step).max() < 1e-13 or abs(rest).max() < 1e-15:
-                return Point(motion, found.stresses @ value, found.stresses @ by_motion @ solved[:, 1:])
+                return NearbyPose(motion, found.stresses @ value, found.stresses @ by_motion @ solved[:, 1:])
             motion = motion - step
             if not abs(motion).max() < 3:
                 return None

@@ -5,19 +5,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["definite", "directions"]
+__all__ = ["directions", "is_definite"]
 
 Reals = NDArray[np.float64]
 
 _CLEAR = 1e-3  # an eigenvalue smaller than that times the largest is none
 
 
-def definite(forms: Reals) -> bool:
+def is_definite(forms: Reals) -> bool:
     """Whether some combination of the forms (s, m, m) was found that is definite.
 
     Then they have no common zero but 0. For several forms the search may miss a combination.
 
-    >>> definite(np.array([[[1.0, 0.0], [0.0, 2.0]]])), definite(np.array([[[1.0, 0.0], [0.0, -2.0]]]))
+    >>> is_definite(np.array([[[1.0, 0.0], [0.0, 2.0]]])), is_definite(np.array([[[1.0, 0.0], [0.0, -2.0]]]))
     (True, False)
     """
     random = np.random.default_rng(1)

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from gruebler.chain.pairs import Space
 from gruebler.mobility import counted
-from gruebler.screws.instant_mobility import Instant
-from gruebler.screws.joint_geometry import SAME, Reason, Sketch
+from gruebler.screws.instant_mobility import InstantMobility
+from gruebler.screws.joint_geometry import SAME, JointGeometry, Reason
 from gruebler.screws.loops import bennett, bricard, cardan, sarrus
-from gruebler.screws.motion_groups import Kind, common_group, screws_of
+from gruebler.screws.motion_groups import MotionGroupKind, common_group, screws_of
 from gruebler.screws.rigid_motions import adjoint
 
 __all__ = ["Reason", "reasons"]
@@ -27,33 +27,33 @@ _ROUNDING = 1e-14  # of a point, in sizes
 
 _ROUND = ("roll_slide", "rolling")
 
-Recogniser = Callable[[Sketch], Iterator[Reason]]
+Recogniser = Callable[[JointGeometry], Iterator[Reason]]
 
 
-def reasons(instant: Instant) -> tuple[Reason, ...]:
+def reasons(instant: InstantMobility) -> tuple[Reason, ...]:
     """What is known about the redundant constraints of a pose; empty if none is redundant or nothing was recognised."""
     if not instant.redundancy:
         return ()
-    sketch = Sketch(instant)
+    sketch = JointGeometry(instant)
     found = tuple(reason for recogniser in _RECOGNISERS for reason in recogniser(sketch))
     return found or tuple(_coaxial(sketch))
 
 
-def _group(s: Sketch) -> Iterator[Reason]:
+def _group(s: JointGeometry) -> Iterator[Reason]:
     """All pairs generate motions of a smaller group."""
     kind, dimension = common_group(s.closing, s.instant.pose)
-    if s.chain.space is not Space.SPATIAL or kind in (Kind.SPACE, Kind.OTHER):
+    if s.chain.space is not Space.SPATIAL or kind in (MotionGroupKind.SPACE, MotionGroupKind.OTHER):
         return
     if max(s.chain.joints_by_freedom) < dimension:
         yield Reason(f"group_{kind}", (), (), dimension)
 
 
-def group_count(reason: Reason, instant: Instant) -> int:
+def group_count(reason: Reason, instant: InstantMobility) -> int:
     """The count with the b of the group that a reason names."""
     return counted(instant.closing.mechanism.chain, reason.number)
 
 
-def _parts(s: Sketch, ends: tuple[str, ...]) -> list[tuple[str, ...]]:
+def _parts(s: JointGeometry, ends: tuple[str, ...]) -> list[tuple[str, ...]]:
     """What the chain falls into when these links are taken away."""
     root = {link: link for link in s.chain.links if link not in ends}
     for joint in s.chain.joints:
@@ -64,7 +64,7 @@ def _parts(s: Sketch, ends: tuple[str, ...]) -> list[tuple[str, ...]]:
     return [tuple(link for link, mine in root.items() if mine == one) for one in dict.fromkeys(root.values())]
 
 
-def _copies(s: Sketch) -> Iterator[Reason]:
+def _copies(s: JointGeometry) -> Iterator[Reason]:
     """Between two links the same parts several times: equal and parallel cranks, the same scissors twice."""
     if len(s.chain.links) > 40:
         return
@@ -79,7 +79,7 @@ def _copies(s: Sketch) -> Iterator[Reason]:
             yield Reason(kind, (*ends, *(link for part in alike for link in part)), tuple(joints), len(alike))
 
 
-def _pole(s: Sketch) -> Iterator[Reason]:
+def _pole(s: JointGeometry) -> Iterator[Reason]:
     """Three or more bars between two links whose lines pass through one point, or are parallel, in this pose."""
     if s.chain.space is not Space.PLANAR:
         return
@@ -98,14 +98,14 @@ def _pole(s: Sketch) -> Iterator[Reason]:
         yield Reason("parallel" if parallel else "concurrent", (*ends, *bars), (), len(bars))
 
 
-def _is_bar(s: Sketch, link: str, ends: tuple[str, ...]) -> bool:
+def _is_bar(s: JointGeometry, link: str, ends: tuple[str, ...]) -> bool:
     """Whether a link has two turning joints of two links, one with each of the ends."""
     mine = [s.chain.joints[k] for k in _joints(s, (link,))]
     turning = all(j.pair.name == "revolute" and len(j.links) == 2 for j in mine)
     return turning and sorted(name for j in mine for name in j.links if name != link) == sorted(ends)
 
 
-def _coaxial(s: Sketch) -> Iterator[Reason]:
+def _coaxial(s: JointGeometry) -> Iterator[Reason]:
     """Turning joints of one link, among those with redundant constraints, that lie on each other."""
     turning = [k for k in s.kinds("revolute") if k in s.instant.redundant and s.chain.space is Space.PLANAR]
     for k, j in itertools.combinations(turning, 2):
@@ -114,18 +114,18 @@ def _coaxial(s: Sketch) -> Iterator[Reason]:
             yield Reason("coaxial", (), (k, j))
 
 
-def _joints(s: Sketch, part: tuple[str, ...]) -> list[int]:
+def _joints(s: JointGeometry, part: tuple[str, ...]) -> list[int]:
     return [k for k, joint in enumerate(s.chain.joints) if set(joint.links) & set(part)]
 
 
-def _ties(s: Sketch, part: tuple[str, ...]) -> bool:
+def _ties(s: JointGeometry, part: tuple[str, ...]) -> bool:
     """Whether a part, by count, takes anything away from the links that it joins."""
     space = s.chain.space
     taken = sum(s.chain.joints[k].pair.u(space) * s.chain.joints[k].count for k in _joints(s, part))
     return taken > space.b * len(part)
 
 
-def _classes(s: Sketch, parts: list[tuple[str, ...]], ends: tuple[str, ...]) -> list[list[tuple[str, ...]]]:
+def _classes(s: JointGeometry, parts: list[tuple[str, ...]], ends: tuple[str, ...]) -> list[list[tuple[str, ...]]]:
     """The parts by congruence: shifted copies of one another."""
     out: list[list[tuple[str, ...]]] = []
     for part in parts:
@@ -138,7 +138,7 @@ def _classes(s: Sketch, parts: list[tuple[str, ...]], ends: tuple[str, ...]) -> 
     return out
 
 
-def _congruent(s: Sketch, one: tuple[str, ...], other: tuple[str, ...], ends: tuple[str, ...]) -> bool:
+def _congruent(s: JointGeometry, one: tuple[str, ...], other: tuple[str, ...], ends: tuple[str, ...]) -> bool:
     """Whether two parts are alike but for a shift, measured against the first one's own extent."""
     extent = _extent(s, one)
     mine, yours = _traits(s, one, ends, extent), _traits(s, other, ends, extent)
@@ -153,20 +153,20 @@ def _congruent(s: Sketch, one: tuple[str, ...], other: tuple[str, ...], ends: tu
     return True
 
 
-def _pins(s: Sketch, part: tuple[str, ...]) -> Reals:
+def _pins(s: JointGeometry, part: tuple[str, ...]) -> Reals:
     """The points of a part's pins and balls, else of all its joints; (points, 3)."""
     joints = _joints(s, part)
     pins = [k for k in joints if s.chain.joints[k].pair.name in ("revolute", "spherical")] or joints
     return np.array([s.at(k) for k in pins])
 
 
-def _extent(s: Sketch, part: tuple[str, ...]) -> float:
+def _extent(s: JointGeometry, part: tuple[str, ...]) -> float:
     """How far a part reaches from its middle; 1 if it has one point only."""
     pins = _pins(s, part)
     return float(np.linalg.norm(pins - pins.mean(axis=0), axis=1).max()) or 1.0
 
 
-def _traits(s: Sketch, part: tuple[str, ...], ends: tuple[str, ...], unit: float) -> list[tuple[object, Reals]]:
+def _traits(s: JointGeometry, part: tuple[str, ...], ends: tuple[str, ...], unit: float) -> list[tuple[object, Reals]]:
     """For each joint of a part what it is, whom it meets, and the space of its screws from the middle of the part."""
     shift = np.eye(4)
     shift[:3, 3] = -_pins(s, part).mean(axis=0)
@@ -180,7 +180,7 @@ def _traits(s: Sketch, part: tuple[str, ...], ends: tuple[str, ...], unit: float
     return out
 
 
-def _planets(s: Sketch) -> Iterator[Reason]:
+def _planets(s: JointGeometry) -> Iterator[Reason]:
     """Equal wheels on one carrier that mesh with the same wheels."""
     sorts: dict[object, list[str]] = {}
     for link in s.chain.links:
@@ -196,7 +196,7 @@ def _planets(s: Sketch) -> Iterator[Reason]:
             yield Reason("planets", tuple(alike), tuple(joints), len(alike))
 
 
-def _meeting(s: Sketch, joint: int, link: str) -> tuple[str, tuple[str, ...], tuple[float, ...]]:
+def _meeting(s: JointGeometry, joint: int, link: str) -> tuple[str, tuple[str, ...], tuple[float, ...]]:
     """What a link has at a joint: the pair, the other links, and the radii of a contact, its own first."""
     links, radii = s.chain.joints[joint].links, s.places[joint].radii or ()
     own_first = radii if links[0] == link else radii[::-1]
@@ -204,7 +204,7 @@ def _meeting(s: Sketch, joint: int, link: str) -> tuple[str, tuple[str, ...], tu
     return s.chain.joints[joint].pair.name, others, tuple(round(r, 7) for r in own_first)
 
 
-def _centres(s: Sketch) -> Iterator[Reason]:
+def _centres(s: JointGeometry) -> Iterator[Reason]:
     """Wheels that roll on each other and touch on the line of their bearings' centres."""
     for k in s.kinds("rolling"):
         a, b = s.chain.joints[k].links
@@ -216,7 +216,7 @@ def _centres(s: Sketch) -> Iterator[Reason]:
                 yield Reason("centres", (a, b, c), (k,))
 
 
-def _locking(s: Sketch) -> Iterator[Reason]:
+def _locking(s: JointGeometry) -> Iterator[Reason]:
     """Several contacts of a link whose normals pass through its bearing: they hold the other link and not this one."""
     for a, b in itertools.permutations(s.chain.links, 2):
         contacts = [k for k in s.between("roll_slide", a, b) if s.places[k].pressure is None]
@@ -228,7 +228,7 @@ def _locking(s: Sketch) -> Iterator[Reason]:
                 yield Reason("locking", (a, b, c), tuple(contacts), len(contacts))
 
 
-def _line(s: Sketch) -> Iterator[Reason]:
+def _line(s: JointGeometry) -> Iterator[Reason]:
     """All redundant joints on one line: a stretched or folded position."""
     joints = sorted(s.instant.redundant)
     if s.chain.space is not Space.PLANAR or any(s.chain.joints[k].pair.name != "revolute" for k in joints):

@@ -9,17 +9,17 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["adjoint", "bracket", "exponential", "exponential_rate", "hat", "inverse"]
+__all__ = ["adjoint", "exponential", "exponential_rate", "inverse_motion", "lie_bracket", "twist_matrix"]
 
 Reals = NDArray[np.float64]
 
 _TERMS = 16  # of the series of the rate of an exponential; twists below 1 leave an error below 1e-16
 
 
-def hat(twists: ArrayLike) -> Reals:
+def twist_matrix(twists: ArrayLike) -> Reals:
     """The matrices of twists: (..., 6) to (..., 4, 4).
 
-    >>> hat([0, 0, 1, 2, 0, 0])[0].tolist()
+    >>> twist_matrix([0, 0, 1, 2, 0, 0])[0].tolist()
     [0.0, -1.0, 0.0, 2.0]
     """
     t = np.asarray(twists, float)
@@ -37,7 +37,7 @@ def exponential(twists: ArrayLike) -> Reals:
     [1.0, -1.0]
     """
     t = np.asarray(twists, float)
-    x = hat(t)
+    x = twist_matrix(t)
     angle = np.linalg.norm(t[..., :3], axis=-1)[..., None, None]
     small = angle < 1e-2
     safe = np.where(small, 1.0, angle)
@@ -51,12 +51,12 @@ def exponential(twists: ArrayLike) -> Reals:
     return out
 
 
-def bracket(twists: ArrayLike) -> Reals:
+def lie_bracket(twists: ArrayLike) -> Reals:
     """The matrices (..., 6, 6) that take another twist to its Lie bracket with these."""
     t = np.asarray(twists, float)
     out = np.zeros((*t.shape[:-1], 6, 6))
-    turn = hat(t)[..., :3, :3]
-    shift = hat(np.concatenate([t[..., 3:], t[..., :3]], axis=-1))[..., :3, :3]
+    turn = twist_matrix(t)[..., :3, :3]
+    shift = twist_matrix(np.concatenate([t[..., 3:], t[..., :3]], axis=-1))[..., :3, :3]
     out[..., :3, :3] = out[..., 3:, 3:] = turn
     out[..., 3:, :3] = shift
     return out
@@ -64,7 +64,7 @@ def bracket(twists: ArrayLike) -> Reals:
 
 def exponential_rate(twists: ArrayLike) -> Reals:
     """The matrices D (..., 6, 6) with d exp(ξ) exp(ξ)⁻¹ = D dξ: the sum of bracket(ξ)^k / (k + 1)!."""
-    ad = bracket(twists)
+    ad = lie_bracket(twists)
     out = np.broadcast_to(np.eye(6), ad.shape).copy()
     power = out.copy()
     for k in range(1, _TERMS + 1):
@@ -80,11 +80,11 @@ def adjoint(motion: ArrayLike) -> Reals:
     out = np.zeros((*m.shape[:-2], 6, 6))
     out[..., :3, :3] = out[..., 3:, 3:] = turn
     shift = np.concatenate([m[..., :3, 3], np.zeros_like(m[..., :3, 3])], axis=-1)
-    out[..., 3:, :3] = hat(shift)[..., :3, :3] @ turn
+    out[..., 3:, :3] = twist_matrix(shift)[..., :3, :3] @ turn
     return out
 
 
-def inverse(motion: Reals) -> Reals:
+def inverse_motion(motion: Reals) -> Reals:
     """The inverse motions (..., 4, 4)."""
     out = np.zeros_like(motion)
     turn = np.swapaxes(motion[..., :3, :3], -1, -2)

@@ -1,12 +1,12 @@
 """Collection sheets: one mechanism on one page, with access features, exact dimensions, straight-line diagram."""
 
 from gruebler.sheets.loader import sheet, sheets
-from gruebler.sheets.model import Sheet, Sized, Told
+from gruebler.sheets.model import Sheet, SizedMechanism, StatedValue
 
 __all__ = [
     "Sheet",
-    "Sized",
-    "Told",
+    "SizedMechanism",
+    "StatedValue",
     "sheet",
     "sheets",
 ]

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from gruebler.errors import LinkageError
 from gruebler.sheets import interval_arithmetic, surds
-from gruebler.sheets.interval_arithmetic import Bracket, Unsettled
+from gruebler.sheets.interval_arithmetic import Bracket, PrecisionTooLowError
 from gruebler.sheets.surds import Surd
 
 __all__ = ["Expression"]
@@ -75,7 +75,7 @@ class Expression:
     @property
     def printed(self) -> str:
         """The value in print, as a sum of roots (``5/2·√3``) if it is known as one, else the text."""
-        return self.text if self.exact is None else surds.written(self.exact)
+        return self.text if self.exact is None else surds.surd_text(self.exact)
 
     @property
     def typeset(self) -> str:
@@ -109,7 +109,7 @@ def _nearest(text: str, steps: tuple[_Step, ...]) -> float:
     for p in _PRECISIONS:
         try:
             low, high = (Fraction(end, 1 << p) for end in _bracketed(text, steps, p))
-        except Unsettled as stop:
+        except PrecisionTooLowError as stop:
             if p == _PRECISIONS[-1]:
                 raise _wrong(text, stop.at, "a division by zero") from None
             continue
@@ -124,8 +124,8 @@ def _bracketed(text: str, steps: tuple[_Step, ...], p: int) -> Bracket:
     for step in steps:
         try:
             made = _bracket(step, stack, p)
-        except Unsettled:
-            raise Unsettled(step.at) from None
+        except PrecisionTooLowError:
+            raise PrecisionTooLowError(step.at) from None
         if made is None:
             raise _wrong(text, step.at, "the root of a negative number")
         if max(abs(made[0]), abs(made[1])) >> p + _RANGE:
@@ -138,17 +138,17 @@ def _bracket(step: _Step, stack: list[Bracket], p: int) -> Bracket | None:
     """The result of a step, its operands taken from the stack; None for the root of a negative number."""
     match step.kind:
         case "number":
-            return interval_arithmetic.of_fraction(step.number, p)
+            return interval_arithmetic.interval_of_fraction(step.number, p)
         case "pi":
-            return interval_arithmetic.pi(p)
+            return interval_arithmetic.interval_pi(p)
         case "negative":
             low, high = stack.pop()
             return -high, -low
         case "**":
-            return interval_arithmetic.power(stack.pop(), int(step.number), p)
+            return interval_arithmetic.interval_power(stack.pop(), int(step.number), p)
         case "sqrt":
             under = stack.pop()
-            return None if under[1] < 0 else interval_arithmetic.root(under, p)
+            return None if under[1] < 0 else interval_arithmetic.interval_sqrt(under, p)
     second, first = stack.pop(), stack.pop()
     return interval_arithmetic.OPERATIONS[step.kind](first, second, p)
 
@@ -167,15 +167,15 @@ def _exactly(steps: tuple[_Step, ...]) -> Surd | None:
 def _surd(step: _Step, stack: list[Surd]) -> Surd | None:
     match step.kind:
         case "number":
-            return surds.rational(step.number)
+            return surds.rational_surd(step.number)
         case "pi":
             return None
         case "negative":
             return {d: -q for d, q in stack.pop().items()}
         case "**":
-            return surds.power(stack.pop(), int(step.number))
+            return surds.surd_power(stack.pop(), int(step.number))
         case "sqrt":
-            return surds.root(stack.pop())
+            return surds.surd_sqrt(stack.pop())
     second, first = stack.pop(), stack.pop()
     return surds.OPERATIONS[step.kind](first, second)
 

@@ -9,12 +9,20 @@ from collections.abc import Callable
 from fractions import Fraction
 from math import isqrt
 
-__all__ = ["OPERATIONS", "Bracket", "Unsettled", "of_fraction", "pi", "power", "root"]
+__all__ = [
+    "OPERATIONS",
+    "Bracket",
+    "PrecisionTooLowError",
+    "interval_of_fraction",
+    "interval_pi",
+    "interval_power",
+    "interval_sqrt",
+]
 
 Bracket = tuple[int, int]
 
 
-class Unsettled(Exception):
+class PrecisionTooLowError(Exception):
     """The precision does not tell whether a divisor is zero; ``at`` is where."""
 
     def __init__(self, at: int = 0) -> None:
@@ -22,13 +30,13 @@ class Unsettled(Exception):
         self.at = at
 
 
-def of_fraction(value: Fraction, p: int) -> Bracket:
+def interval_of_fraction(value: Fraction, p: int) -> Bracket:
     """A rational number."""
     low, rest = divmod(value.numerator << p, value.denominator)
     return low, low + (rest > 0)
 
 
-def pi(p: int) -> Bracket:
+def interval_pi(p: int) -> Bracket:
     """Machin's formula, 16 arctan(1/5) - 4 arctan(1/239), with 32 bits to spare."""
     near = 16 * _arctan_of_inverse(5, p + 32) - 4 * _arctan_of_inverse(239, p + 32)
     return (near >> 32) - 1, (near >> 32) + 2
@@ -57,12 +65,12 @@ def _product(a: Bracket, b: Bracket, p: int) -> Bracket:
 
 def _quotient(a: Bracket, b: Bracket, p: int) -> Bracket:
     if b[0] <= 0 <= b[1]:
-        raise Unsettled
+        raise PrecisionTooLowError
     ends = [Fraction(x << p, y) for x in a for y in b]
     return min(ends).__floor__(), max(ends).__ceil__()
 
 
-def root(a: Bracket, p: int) -> Bracket:
+def interval_sqrt(a: Bracket, p: int) -> Bracket:
     """The square root; of what may be negative, that of the part that is not."""
     low, high = isqrt(max(a[0], 0) << p), isqrt(a[1] << p)
     return low, high + (high * high < a[1] << p)
@@ -76,7 +84,7 @@ OPERATIONS: dict[str, Callable[[Bracket, Bracket, int], Bracket]] = {
 }
 
 
-def power(a: Bracket, exponent: int, p: int) -> Bracket:
+def interval_power(a: Bracket, exponent: int, p: int) -> Bracket:
     """A whole power."""
     out: Bracket = (1 << p, 1 << p)
     for _ in range(abs(exponent)):

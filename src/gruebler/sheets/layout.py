@@ -9,9 +9,16 @@ from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.canvas.shapes import text_width
 from gruebler.drawing.structure import draw
 from gruebler.errors import CatalogError
-from gruebler.sheets.messages import Number, example_lines, explained, lowered, value_lines, words_of
-from gruebler.sheets.model import Sheet, Told
-from gruebler.sheets.page import HEIGHT, WIDTH, Page, Placed, Rule, Words
+from gruebler.sheets.messages import (
+    LocalNumber,
+    example_lines,
+    explanation_paragraphs,
+    messages,
+    value_lines,
+    with_subscripts,
+)
+from gruebler.sheets.model import Sheet, StatedValue
+from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
 from gruebler.sheets.picture import scale_picture
 
 __all__ = ["page"]
@@ -22,7 +29,7 @@ _BODY, _LEAD = 11.0, 15.0
 _SMALLEST = 1e-5  # Q_G in the diagram
 _FIELD = 250.0, 290.0  # of the diagram, pixels
 
-Item = Words | Rule | Placed
+Item = TextLine | HorizontalRule | PlacedPicture
 
 
 def page(sheet: Sheet, lang: str = "en") -> Page:
@@ -34,20 +41,20 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
     """
     for told in sheet.wrong:
         raise CatalogError(f"sheet {sheet.id}: {told.symbol} is {told.derived:.9g}, not what the record tells of it")
-    words, items = words_of(lang), list[Item]()
-    items.append(Words(_LEFT, 50, words["collection"], 10, role="faint"))
-    items.append(Words(_RIGHT, 50, words["sheet"].format(id=sheet.id), 10, role="faint", anchor="end"))
-    items.append(Rule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
+    words, items = messages(lang), list[Item]()
+    items.append(TextLine(_LEFT, 50, words["collection"], 10, role="faint"))
+    items.append(TextLine(_RIGHT, 50, words["sheet"].format(id=sheet.id), 10, role="faint", anchor="end"))
+    items.append(HorizontalRule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
     y = 82.0
     for line in _wrapped(sheet.record.title.said(lang), _RIGHT - _LEFT, 18 * 1.06):
-        items.append(Words(_LEFT, y, line, 18, bold=True))
+        items.append(TextLine(_LEFT, y, line, 18, bold=True))
         y += 23
     for task in sheet.record.tasks:
-        items.append(Words(_LEFT, y, f"–  {task.said(lang)}", _BODY))
+        items.append(TextLine(_LEFT, y, f"–  {task.said(lang)}", _BODY))
         y += _LEAD
     y = _pictures(items, sheet, y, lang) + 22
     left = _features(items, sheet, y, lang)
-    y = max(left, _paragraphs(items, words["explanation"], explained(sheet, lang), _MIDDLE, y)) + 14
+    y = max(left, _paragraphs(items, words["explanation"], explanation_paragraphs(sheet, lang), _MIDDLE, y)) + 14
     _straightness(items, sheet, y, lang)
     _footer(items, sheet, lang)
     about = " ".join(f"{label}: {value}." for label, value in sheet.features.said(lang))
@@ -59,27 +66,27 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
 
 def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """The linkage to scale and its structure, with captions; the y below them."""
-    words, high = words_of(lang), 288.0
+    words, high = messages(lang), 288.0
     links = sheet.entry.links if lang == "de" else {link: link for link in sheet.entry.links}
     names = {link: name.partition(" mit ")[0] for link, name in links.items()}
     structure = draw(sheet.linkage.mechanism, labels=True, lang=lang, names=names)
     _fitted(items, scale_picture(sheet, lang), _LEFT, y, 400, high)
     _fitted(items, structure, 480, y + 20, _RIGHT - 480, high - 60)
-    pose = f"{Number(sheet.record.picture.pose, lang):g}°"
+    pose = f"{LocalNumber(sheet.record.picture.pose, lang):g}°"
     key = "scale" if sheet.record.picture.axis_through else "scale_plain"
-    items.append(Words(_LEFT, y + high + 14, words[key].format(pose=pose), 10, role="faint"))
+    items.append(TextLine(_LEFT, y + high + 14, words[key].format(pose=pose), 10, role="faint"))
     output = ", ".join(names[link] for link in sheet.entry.outputs)
     caption = words["structure"].format(drive=words["driven"], output=output)
-    items.append(Words(_RIGHT, y + high + 14, caption, 10, role="faint", anchor="end"))
+    items.append(TextLine(_RIGHT, y + high + 14, caption, 10, role="faint", anchor="end"))
     return y + high + 14
 
 
 def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """Access features and dimensions, in the left column; the y below them."""
-    words = words_of(lang)
+    words = messages(lang)
     y = _heading(items, words["features"], _LEFT, y, _MIDDLE - _GAP)
     for label, value in sheet.features.said(lang):
-        items += [Words(_LEFT, y, label, _BODY), Words(_LEFT + 110, y, value, _BODY)]
+        items += [TextLine(_LEFT, y, label, _BODY), TextLine(_LEFT + 110, y, value, _BODY)]
         y += _LEAD
     y = _heading(items, words["dimensions"].format(unit=sheet.dimensions[0].symbol), _LEFT, y + 10, _MIDDLE - _GAP)
     for told in sheet.dimensions:
@@ -88,23 +95,27 @@ def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     return y
 
 
-def _dimension(told: Told, y: float, lang: str) -> Iterable[Item]:
-    yield Words(_LEFT, y, told.symbol, _BODY)
-    yield Words(_LEFT + 28, y, lowered("".join(told.of)), _BODY, role="faint")
+def _dimension(told: StatedValue, y: float, lang: str) -> Iterable[Item]:
+    yield TextLine(_LEFT, y, told.symbol, _BODY)
+    yield TextLine(_LEFT + 28, y, with_subscripts("".join(told.of)), _BODY, role="faint")
     if told.exact is not None:
-        yield Words(_LEFT + 110, y, told.exact.typeset, _BODY)
-    yield Words(_MIDDLE - _GAP, y, f"{Number(told.derived, lang):.6f}", _BODY, anchor="end")
+        yield TextLine(_LEFT + 110, y, told.exact.typeset, _BODY)
+    yield TextLine(_MIDDLE - _GAP, y, f"{LocalNumber(told.derived, lang):.6f}", _BODY, anchor="end")
 
 
 def _straightness(items: list[Item], sheet: Sheet, y: float, lang: str) -> None:
     """The diagram, and beside it the example and the values."""
-    words, guide, found = words_of(lang), sheet.record.guide, sheet.example
+    words, guide, found = messages(lang), sheet.record.guide, sheet.example
     left, right = _MIDDLE + 38, _MIDDLE + 38 - _GAP
     below = _heading(items, words["diagram"], _LEFT, y, right)
-    centre = f"{Number(guide.centre, lang):g}°"
-    items.append(Words(_LEFT, below, words["ratio"].format(centre=centre), 10, role="faint"))
+    centre = f"{LocalNumber(guide.centre, lang):g}°"
+    items.append(TextLine(_LEFT, below, words["ratio"].format(centre=centre), 10, role="faint"))
     _fitted(items, _diagram(sheet, lang), _LEFT, below + 6, right - _LEFT, HEIGHT - 88 - below)
-    said = {"length": Number(found.length, lang), "tolerance": Number(found.tolerance, lang), "unit": guide.unit}
+    said = {
+        "length": LocalNumber(found.length, lang),
+        "tolerance": LocalNumber(found.tolerance, lang),
+        "unit": guide.unit,
+    }
     y = _paragraphs(items, words["example"].format(**said), example_lines(sheet, lang), left, y, apart=0)
     _paragraphs(items, words["values"], value_lines(sheet, lang), left, y + 14, apart=0)
 
@@ -124,13 +135,13 @@ def _diagram(sheet: Sheet, lang: str) -> Figure:
 
 
 def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
-    words = words_of(lang)
+    words = messages(lang)
     lines = [f"[{k}] {text}" for k, text in enumerate(sheet.record.literature, 1)]
     lines.append(words["source"].format(source=sheet.record.source.said(lang)))
     y = HEIGHT - 42 - 12 * (len(lines) - 1)
-    items.append(Rule(_LEFT, y - 13, _RIGHT - _LEFT))
+    items.append(HorizontalRule(_LEFT, y - 13, _RIGHT - _LEFT))
     for line in lines:
-        items.append(Words(_LEFT, y, line, 8.5, role="faint"))
+        items.append(TextLine(_LEFT, y, line, 8.5, role="faint"))
         y += 12
 
 
@@ -139,7 +150,7 @@ def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
 
 def _heading(items: list[Item], text: str, x: float, y: float, right: float) -> float:
     """A heading with a rule below; the base line of what follows."""
-    items += [Words(x, y, text, _BODY + 0.5, bold=True), Rule(x, y + 5, right - x)]
+    items += [TextLine(x, y, text, _BODY + 0.5, bold=True), HorizontalRule(x, y + 5, right - x)]
     return y + 5 + _LEAD
 
 
@@ -148,7 +159,7 @@ def _paragraphs(items: list[Item], heading: str, texts: Iterable[str], x: float,
     y = _heading(items, heading, x, y, _RIGHT)
     for text in texts:
         for line in _wrapped(text, _RIGHT - x, _BODY):
-            items.append(Words(x, y, line, _BODY))
+            items.append(TextLine(x, y, line, _BODY))
             y += _LEAD
         y += apart
     return y
@@ -171,4 +182,4 @@ def _fitted(items: list[Item], figure: Figure, x: float, y: float, wide: float, 
     """A picture as large as its box allows, in the middle of it, and not enlarged."""
     scale = min(wide / figure.width, high / figure.height, 1.0)
     left, top = x + (wide - scale * figure.width) / 2, y + (high - scale * figure.height) / 2
-    items.append(Placed(left, top, scale, figure))
+    items.append(PlacedPicture(left, top, scale, figure))

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from gruebler.sheets.model import Sheet, Told
+from gruebler.sheets.model import Sheet, StatedValue
 
-__all__ = ["Number", "example_lines", "explained", "lowered", "value_lines", "words_of"]
+__all__ = ["LocalNumber", "example_lines", "explanation_paragraphs", "messages", "value_lines", "with_subscripts"]
 
 _WORDS: dict[str, dict[str, str]] = {
     "en": {
@@ -54,30 +54,30 @@ _INDICES = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _EQUALS = "\u00a0=\u00a0"  # without a break
 
 
-def words_of(lang: str) -> Mapping[str, str]:
-    """The words of a language; formats take `Number`."""
+def messages(lang: str) -> Mapping[str, str]:
+    """The words of a language; formats take `LocalNumber`."""
     return _WORDS[lang]
 
 
-def lowered(name: str) -> str:
+def with_subscripts(name: str) -> str:
     """A name with its digits as indices.
 
-    >>> lowered("A0B0")
+    >>> with_subscripts("A0B0")
     'A₀B₀'
     """
     return name.translate(_INDICES)
 
 
-class Number(float):
+class LocalNumber(float):
     """A number that is written with a decimal comma where the language has one.
 
-    >>> f"{Number(2.5, 'de'):.2f} {Number(2.5, 'en')}"
+    >>> f"{LocalNumber(2.5, 'de'):.2f} {LocalNumber(2.5, 'en')}"
     '2,50 2.5'
     """
 
     lang: str
 
-    def __new__(cls, value: float, lang: str) -> Number:
+    def __new__(cls, value: float, lang: str) -> LocalNumber:
         """The number in a language."""
         made = super().__new__(cls, value)
         made.lang = lang
@@ -89,19 +89,19 @@ class Number(float):
         return said.replace(".", ",") if self.lang == "de" else said
 
 
-class _Place:
+class _ValueSlot:
     """A value in a text: exact without a form, else with so many digits."""
 
-    def __init__(self, told: Told, lang: str) -> None:
-        self.exact, self.number = told.exact, Number(told.derived, lang)
+    def __init__(self, told: StatedValue, lang: str) -> None:
+        self.exact, self.number = told.exact, LocalNumber(told.derived, lang)
 
     def __format__(self, form: str) -> str:
         return self.exact.typeset if not form and self.exact is not None else format(self.number, form)
 
 
-def explained(sheet: Sheet, lang: str) -> list[str]:
+def explanation_paragraphs(sheet: Sheet, lang: str) -> list[str]:
     """The paragraphs of the explanation, with derived values in their places."""
-    values = {told.id: _Place(told, lang) for told in sheet.quantities}
+    values = {told.id: _ValueSlot(told, lang) for told in sheet.quantities}
     return [text.said(lang).format_map(values).replace(" = ", _EQUALS) for text in sheet.record.explanation]
 
 
@@ -111,13 +111,13 @@ def value_lines(sheet: Sheet, lang: str) -> list[str]:
     for told, row in zip(sheet.quantities, sheet.record.quantities, strict=True):
         if row.rocker is not None:
             continue
-        said = f"{Number(told.derived, lang):.6f}" + told.unit
+        said = f"{LocalNumber(told.derived, lang):.6f}" + told.unit
         if told.exact is not None and told.exact.text.isdigit():
             said = f"{told.exact.text}: {told.name.said(lang)}" if told.name else told.exact.text
         elif told.exact is not None:
             said = f"{told.exact.typeset} = {said}"
         if not told.is_as_printed and told.printed is not None:
-            said += f" ({words_of(lang)['printed'].format(text=told.printed.typeset)})"
+            said += f" ({messages(lang)['printed'].format(text=told.printed.typeset)})"
         out.append(f"{told.symbol} = {said}")
     return out
 
@@ -126,10 +126,10 @@ def example_lines(sheet: Sheet, lang: str) -> list[str]:
     """The sizing of the sheet's task, step by step."""
     found = sheet.example
     unit, scale = sheet.record.guide.unit, sheet.dimensions[0].symbol
-    start, end = (Number(math.degrees(angle), lang) for angle in found.sizing.piece[:2])
+    start, end = (LocalNumber(math.degrees(angle), lang) for angle in found.sizing.piece[:2])
 
-    def n(value: float) -> Number:
-        return Number(value, lang)
+    def n(value: float) -> LocalNumber:
+        return LocalNumber(value, lang)
 
     return [
         f"Q_G = {n(found.tolerance):g}/{n(found.length):g} = {n(found.tolerance / found.length):g}",

@@ -18,7 +18,7 @@ from gruebler.fourbar import FourBar
 from gruebler.geometry.lever_contact import lever_contact, lever_pose
 from gruebler.geometry.meyer_zur_capellen import symmetric_rocker
 from gruebler.geometry.roberts import cognates
-from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, sized
+from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, scale_for
 from gruebler.geometry.straight import Path, linkage_path
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
@@ -27,7 +27,7 @@ from gruebler.sheets.expressions import Expression
 from gruebler.sheets.records import CognateLength, Quantity, RockerValue, SheetRecord
 from gruebler.text import Text
 
-__all__ = ["Sheet", "Sized", "Told"]
+__all__ = ["Sheet", "SizedMechanism", "StatedValue"]
 
 _CLOSE = 1e-9  # relative: derived and exact value
 
@@ -44,7 +44,7 @@ def _expression(text: str | None) -> Expression | None:
 
 
 @dataclass(frozen=True)
-class Told:
+class StatedValue:
     """A value of the sheet: what it is, exactly, as derived from the mechanism, and as the source prints it."""
 
     id: str
@@ -83,7 +83,7 @@ class Told:
 
 
 @dataclass(frozen=True)
-class Sized:
+class SizedMechanism:
     """The mechanism for a straight line of a length within a tolerance."""
 
     length: float
@@ -154,7 +154,7 @@ class Sheet(Brief):
         return abs(first - second)
 
     @cached_property
-    def dimensions(self) -> tuple[Told, ...]:
+    def dimensions(self) -> tuple[StatedValue, ...]:
         """The lengths of the mechanism, exact and as it has them."""
         motion = self.motion(self.record.guide.centre)
         out = []
@@ -162,17 +162,17 @@ class Sheet(Brief):
             first, second = (self.place(motion, name) for name in row.of)
             exact = Expression(row.value)
             derived = abs(first - second) / self.unit_length
-            out.append(Told(row.symbol, row.symbol, derived, exact, exact, of=row.of))
+            out.append(StatedValue(row.symbol, row.symbol, derived, exact, exact, of=row.of))
         return tuple(out)
 
     @cached_property
-    def quantities(self) -> tuple[Told, ...]:
+    def quantities(self) -> tuple[StatedValue, ...]:
         """All values that the sheet tells beside."""
         return tuple(
-            Told(
+            StatedValue(
                 row.id,
                 row.symbol,
-                derive(self, row),
+                _derived_value(self, row),
                 _expression(row.value),
                 _expression(row.printed),
                 row.name,
@@ -184,7 +184,7 @@ class Sheet(Brief):
         )
 
     @property
-    def wrong(self) -> tuple[Told, ...]:
+    def wrong(self) -> tuple[StatedValue, ...]:
         """Values that do not hold: not exact, or neither printed right nor explained."""
         return tuple(told for told in (*self.dimensions, *self.quantities, *self.example_values) if not told.holds)
 
@@ -208,22 +208,22 @@ class Sheet(Brief):
         """Q_G and L over the window."""
         return ratio_curve(self.path, self.window)
 
-    def sized(self, length: float, tolerance: float) -> Sized:
+    def sized(self, length: float, tolerance: float) -> SizedMechanism:
         """The smallest mechanism whose point is straight over a length within a tolerance, both in one unit.
 
         Raises `LinkageError` if no window is so straight.
         """
-        sizing = sized(self.path, self.window, length, tolerance)
+        sizing = scale_for(self.path, self.window, length, tolerance)
         lengths = tuple((told.symbol, told.derived * sizing.factor) for told in self.dimensions)
-        return Sized(length, tolerance, sizing, lengths)
+        return SizedMechanism(length, tolerance, sizing, lengths)
 
     @cached_property
-    def example(self) -> Sized:
+    def example(self) -> SizedMechanism:
         """The task of the sheet."""
         return self.sized(self.record.guide.length, self.record.guide.tolerance)
 
     @cached_property
-    def example_values(self) -> tuple[Told, ...]:
+    def example_values(self) -> tuple[StatedValue, ...]:
         """What comes out of the task, beside what the source prints of it."""
         found, guide, scale = self.example, self.record.guide, self.record.dimensions[0].symbol
         start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
@@ -234,12 +234,12 @@ class Sheet(Brief):
             ("scale", scale, found.scale, f" {guide.unit}", _EXAMPLE["scale"]),
         )
         return tuple(
-            Told(key, symbol, value, None, _expression(guide.printed.get(key)), name=name, unit=unit)
+            StatedValue(key, symbol, value, None, _expression(guide.printed.get(key)), name=name, unit=unit)
             for key, symbol, value, unit, name in rows
         )
 
 
-def derive(sheet: Sheet, row: Quantity) -> float:
+def _derived_value(sheet: Sheet, row: Quantity) -> float:
     """The value of a quantity; lengths in the sheet's unit, angles in degrees."""
     way, at = next((make, getattr(row, key)) for key, make in _WAYS.items() if getattr(row, key) is not None)
     value = way(sheet, at, row.at)

@@ -11,9 +11,9 @@ from xml.sax.saxutils import escape
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.canvas.styles import COLOURS
-from gruebler.drawing.canvas.svg import element, number, style_sheet
+from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number
 
-__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "Page", "Placed", "Rule", "Words", "suffix_of"]
+__all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "suffix_of"]
 
 WIDTH, HEIGHT = 793.7, 1122.5
 """Of A4, in pixels of 1/96 inch."""
@@ -22,7 +22,7 @@ _POINTS = 72 / 96
 
 
 @dataclass(frozen=True, slots=True)
-class Words:
+class TextLine:
     """A line of text; ``y`` is its base line, the role one of the colours."""
 
     x: float
@@ -35,7 +35,7 @@ class Words:
 
 
 @dataclass(frozen=True, slots=True)
-class Rule:
+class HorizontalRule:
     """A level line."""
 
     x: float
@@ -45,7 +45,7 @@ class Rule:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedPicture:
     """A picture with its upper left corner there."""
 
     x: float
@@ -58,7 +58,7 @@ class Placed:
 class Page:
     """Items on a page of A4."""
 
-    items: tuple[Words | Rule | Placed, ...]
+    items: tuple[TextLine | HorizontalRule | PlacedPicture, ...]
     title: str
     description: str
     lang: str
@@ -93,9 +93,9 @@ class Page:
         """The content of a file of this kind; `GrueblerError` if matplotlib is needed and missing."""
         if suffix in ("svg", "html"):
             return (self.svg() if suffix == "svg" else self.html()).encode("utf-8")
-        from gruebler.drawing.canvas.matplotlib_files import painted
+        from gruebler.drawing.canvas.matplotlib_files import matplotlib_figure
 
-        canvas = painted(Figure((), WIDTH, HEIGHT, self.title, self.description))
+        canvas = matplotlib_figure(Figure((), WIDTH, HEIGHT, self.title, self.description))
         for item in self.items:
             _PAINT[type(item)](canvas, item)
         memory = io.BytesIO()
@@ -104,37 +104,37 @@ class Page:
         canvas.savefig(memory, format=suffix, dpi=192, metadata=metadata)
         return memory.getvalue()
 
-    def _pictures(self) -> Iterable[Placed]:
-        return (item for item in self.items if isinstance(item, Placed))
+    def _pictures(self) -> Iterable[PlacedPicture]:
+        return (item for item in self.items if isinstance(item, PlacedPicture))
 
 
 # --- SVG --------------------------------------------------------------------------------------------
 
 
-def _words_svg(item: Words) -> str:
+def _words_svg(item: TextLine) -> str:
     style = f'font-size="{item.size:g}" fill="{COLOURS[item.role][0]}"' + ' font-weight="bold"' * item.bold
     anchor = "" if item.anchor == "start" else f' text-anchor="{item.anchor}"'
-    return f'<text x="{number(item.x)}" y="{number(item.y)}" {style}{anchor}>{escape(item.text)}</text>'
+    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{escape(item.text)}</text>'
 
 
-def _rule_svg(item: Rule) -> str:
-    line = f"M{number(item.x)} {number(item.y)}h{number(item.length)}"
+def _rule_svg(item: HorizontalRule) -> str:
+    line = f"M{svg_number(item.x)} {svg_number(item.y)}h{svg_number(item.length)}"
     return f'<path d="{line}" stroke="{COLOURS["ink"][0]}" stroke-width="{item.width:g}" fill="none"/>'
 
 
-def _placed_svg(item: Placed) -> str:
-    place = f"translate({number(item.x)} {number(item.y)}) scale({item.scale:.4g})"
-    shapes = "\n".join(map(element, item.figure.shapes))
+def _placed_svg(item: PlacedPicture) -> str:
+    place = f"translate({svg_number(item.x)} {svg_number(item.y)}) scale({item.scale:.4g})"
+    shapes = "\n".join(map(svg_element, item.figure.shapes))
     return f'<g transform="{place}"><title>{escape(item.figure.title)}</title>\n{shapes}\n</g>'
 
 
-_SVG: dict[type, Any] = {Words: _words_svg, Rule: _rule_svg, Placed: _placed_svg}
+_SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, PlacedPicture: _placed_svg}
 
 
 # --- matplotlib -------------------------------------------------------------------------------------
 
 
-def _paint_words(canvas: Any, item: Words) -> None:
+def _paint_words(canvas: Any, item: TextLine) -> None:
     canvas.text(
         item.x / WIDTH,
         1 - item.y / HEIGHT,
@@ -148,19 +148,19 @@ def _paint_words(canvas: Any, item: Words) -> None:
     )
 
 
-def _paint_rule(canvas: Any, item: Rule) -> None:
+def _paint_rule(canvas: Any, item: HorizontalRule) -> None:
     from matplotlib.lines import Line2D
 
     ends, level = (item.x / WIDTH, (item.x + item.length) / WIDTH), 1 - item.y / HEIGHT
     canvas.add_artist(Line2D(ends, (level, level), linewidth=item.width * _POINTS, color=COLOURS["ink"][0]))
 
 
-def _paint_placed(canvas: Any, item: Placed) -> None:
-    from gruebler.drawing.canvas.matplotlib_files import paint_on
+def _paint_placed(canvas: Any, item: PlacedPicture) -> None:
+    from gruebler.drawing.canvas.matplotlib_files import paint_shapes
 
     wide, high = item.scale * item.figure.width, item.scale * item.figure.height
     axes = canvas.add_axes((item.x / WIDTH, 1 - (item.y + high) / HEIGHT, wide / WIDTH, high / HEIGHT))
-    paint_on(axes, item.figure, scale=item.scale)
+    paint_shapes(axes, item.figure, scale=item.scale)
 
 
-_PAINT: dict[type, Any] = {Words: _paint_words, Rule: _paint_rule, Placed: _paint_placed}
+_PAINT: dict[type, Any] = {TextLine: _paint_words, HorizontalRule: _paint_rule, PlacedPicture: _paint_placed}

@@ -6,11 +6,11 @@ import cmath
 import math
 
 from gruebler.drawing.canvas.figure import Figure, figure_of
-from gruebler.drawing.canvas.labels import noted
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.labels import note_near
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.linkage.picture import draw_linkage
-from gruebler.drawing.linkage.posed_linkage import Stage, staged
-from gruebler.sheets.messages import lowered
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
+from gruebler.sheets.messages import with_subscripts
 from gruebler.sheets.model import Sheet
 
 __all__ = ["scale_picture"]
@@ -24,33 +24,33 @@ def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
     pose = math.radians(sheet.record.picture.pose)
     point = sheet.record.names[sheet.record.point]
     plain = draw_linkage(sheet.linkage, pose, curves=[point], lang=lang, name=sheet.record.title.said(lang))
-    stage = staged(sheet.linkage, pose)
+    stage = posed_linkage(sheet.linkage, pose)
     by = _offset(plain, stage)
     shapes = [*plain.shapes, *(_moved(shape, by) for shape in _lines(sheet, stage))]
     motion = sheet.motion(sheet.record.picture.pose)
     for name in sheet.record.names:
         if name != sheet.record.point:
             at = stage.local(sheet.place(motion, name)).plus(by)
-            shapes.append(noted(at, lowered(name), "value", shapes))
+            shapes.append(note_near(at, with_subscripts(name), "value", shapes))
     for name, degrees in sheet.record.picture.marks.items():
         at = stage.local(sheet.place(sheet.motion(degrees), sheet.record.point)).plus(by)
-        shapes.append(Circle(at, 3.0, "dot"))
-        shapes.append(noted(at, name, "value", shapes))
+        shapes.append(CircleShape(at, 3.0, "dot"))
+        shapes.append(note_near(at, name, "value", shapes))
     return figure_of(shapes, plain.title, plain.description)
 
 
-def _offset(figure: Figure, stage: Stage) -> Point:
+def _offset(figure: Figure, stage: PosedLinkage) -> Point:
     """How the figure was moved against the stage: by the places of its turning joints."""
     names = stage.linkage.mechanism.chain.joint_names()
     pins = [stage.place(stage.linkage.named(name)[0]) for name in names if name.startswith("R")]
-    rings = [shape.at for shape in figure.shapes if isinstance(shape, Circle) and shape.style == "joint"]
+    rings = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
     return Point(
         min(ring.x for ring in rings) - min(pin.x for pin in pins),
         min(ring.y for ring in rings) - min(pin.y for pin in pins),
     )
 
 
-def _lines(sheet: Sheet, stage: Stage) -> list[Shape]:
+def _lines(sheet: Sheet, stage: PosedLinkage) -> list[Shape]:
     """The tangent g along the piece of the example, and the axis across it."""
     piece, window = sheet.example.sizing.piece, sheet.window
     touch = sheet.place(sheet.motion(math.degrees(window.centre)), sheet.record.point)
@@ -58,8 +58,8 @@ def _lines(sheet: Sheet, stage: Stage) -> list[Shape]:
     half = 0.75 * piece.length * sheet.unit_length
     ends = [stage.local(touch + side * half * along) for side in (-1, 1)]
     shapes: list[Shape] = [
-        Lines((tuple(ends),), "measure"),
-        Text(ends[1].plus(ends[1].minus(ends[0]).unit, 9.0), "g", "value"),
+        Polylines((tuple(ends),), "measure"),
+        TextShape(ends[1].plus(ends[1].minus(ends[0]).unit, 9.0), "g", "value"),
     ]
     name = sheet.record.picture.axis_through
     if name is not None:
@@ -71,17 +71,17 @@ def _lines(sheet: Sheet, stage: Stage) -> list[Shape]:
     return shapes
 
 
-def _dashed(a: Point, b: Point) -> Lines:
+def _dashed(a: Point, b: Point) -> Polylines:
     """A line of dashes, itself no style: as a centre line has them."""
     way, length = b.minus(a).unit, b.minus(a).length
     starts = [k * (_DASH + _GAP) for k in range(int(length / (_DASH + _GAP)) + 1)]
-    return Lines(tuple((a.plus(way, s), a.plus(way, min(s + _DASH, length))) for s in starts), "measure")
+    return Polylines(tuple((a.plus(way, s), a.plus(way, min(s + _DASH, length))) for s in starts), "measure")
 
 
 def _moved(shape: Shape, by: Point) -> Shape:
     match shape:
-        case Lines(parts, style, closed):
-            return Lines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
-        case Text(at, words, style, anchor):
-            return Text(at.plus(by), words, style, anchor)
+        case Polylines(parts, style, closed):
+            return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
+        case TextShape(at, words, style, anchor):
+            return TextShape(at.plus(by), words, style, anchor)
     return shape

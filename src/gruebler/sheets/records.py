@@ -10,7 +10,7 @@ from typing import Literal
 import msgspec
 
 from gruebler.catalog import entry
-from gruebler.documents import fitted, load
+from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError, GrueblerError
 from gruebler.sheets.expressions import Expression
 from gruebler.text import Text
@@ -132,7 +132,7 @@ def read_sheet(path: Path) -> SheetRecord:
     def fail(message: str) -> CatalogError:
         return CatalogError(f"{path}: {message}")
 
-    record = fitted(load(path, fail), SheetRecord, fail)
+    record = convert_document(load_document(path, fail), SheetRecord, fail)
     for wrong in _faults(record):
         raise fail(wrong)
     return record

@@ -11,7 +11,16 @@ from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from math import gcd, isqrt
 
-__all__ = ["OPERATIONS", "Surd", "inverse", "power", "product", "rational", "root", "written"]
+__all__ = [
+    "OPERATIONS",
+    "Surd",
+    "rational_surd",
+    "surd_inverse",
+    "surd_power",
+    "surd_product",
+    "surd_sqrt",
+    "surd_text",
+]
 
 Surd = Mapping[int, Fraction]
 
@@ -20,15 +29,15 @@ _MOST = 16  # terms
 _LONGEST = 4000  # bits of a factor
 
 
-def rational(value: Fraction) -> Surd:
+def rational_surd(value: Fraction) -> Surd:
     """A rational number."""
     return {1: value} if value else {}
 
 
-def product(a: Surd, b: Surd) -> Surd | None:
+def surd_product(a: Surd, b: Surd) -> Surd | None:
     """A times b; None if that is too large to be handled.
 
-    >>> product({2: Fraction(1)}, {6: Fraction(1), 1: Fraction(3)})
+    >>> surd_product({2: Fraction(1)}, {6: Fraction(1), 1: Fraction(3)})
     {3: Fraction(2, 1), 2: Fraction(3, 1)}
     """
     return _collected(
@@ -39,18 +48,18 @@ def product(a: Surd, b: Surd) -> Surd | None:
     )
 
 
-def power(a: Surd, exponent: int) -> Surd | None:
+def surd_power(a: Surd, exponent: int) -> Surd | None:
     """A whole power; negative ones of what is not zero."""
     made: Surd | None = {1: Fraction(1)}
     for _ in range(abs(exponent)):
-        made = None if made is None else product(made, a)
-    return made if exponent >= 0 or made is None else inverse(made)
+        made = None if made is None else surd_product(made, a)
+    return made if exponent >= 0 or made is None else surd_inverse(made)
 
 
-def inverse(a: Surd) -> Surd | None:
+def surd_inverse(a: Surd) -> Surd | None:
     """1/a for a that is not zero: multiplied with its conjugates until no root is left.
 
-    >>> inverse({1: Fraction(1), 2: Fraction(1)})
+    >>> surd_inverse({1: Fraction(1), 2: Fraction(1)})
     {1: Fraction(-1, 1), 2: Fraction(1, 1)}
     """
     roots = [d for d in a if d > 1]
@@ -58,15 +67,15 @@ def inverse(a: Surd) -> Surd | None:
         return {1: 1 / a[1]}
     prime = _least_factor(roots[0])
     conjugate = {d: -q if d % prime == 0 else q for d, q in a.items()}
-    norm = product(a, conjugate)
-    rest = None if norm is None else inverse(norm)
-    return None if rest is None else product(conjugate, rest)
+    norm = surd_product(a, conjugate)
+    rest = None if norm is None else surd_inverse(norm)
+    return None if rest is None else surd_product(conjugate, rest)
 
 
-def root(a: Surd) -> Surd | None:
+def surd_sqrt(a: Surd) -> Surd | None:
     """The square root of a rational number that is not negative; None of any other.
 
-    >>> root({1: Fraction(8, 3)})
+    >>> surd_sqrt({1: Fraction(8, 3)})
     {6: Fraction(2, 3)}
     """
     if not a:
@@ -84,23 +93,23 @@ def root(a: Surd) -> Surd | None:
 
 
 def _quotient(a: Surd, b: Surd) -> Surd | None:
-    over = inverse(b)
-    return None if over is None else product(a, over)
+    over = surd_inverse(b)
+    return None if over is None else surd_product(a, over)
 
 
 OPERATIONS: dict[str, Callable[[Surd, Surd], Surd | None]] = {
     "+": lambda a, b: _collected([*a.items(), *b.items()]),
     "-": lambda a, b: _collected([*a.items(), *((d, -q) for d, q in b.items())]),
-    "*": product,
+    "*": surd_product,
     "/": _quotient,
 }
 """None where a number would be too large to be handled."""
 
 
-def written(a: Surd) -> str:
+def surd_text(a: Surd) -> str:
     """In print, the largest root first.
 
-    >>> written({22: Fraction(5, 3), 6: Fraction(-3)})
+    >>> surd_text({22: Fraction(5, 3), 6: Fraction(-3)})
     '5/3·√22 − 3·√6'
     """
     terms = sorted(a.items(), reverse=True)

@@ -13,13 +13,13 @@ from gruebler.kinematics import Motion
 from gruebler.linkages import Line
 from gruebler.statics.loads import Complexes, Flags, Reals, Wrench
 
-__all__ = ["Contact", "Reactions", "contacts", "reactions"]
+__all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
 
 _GROWTH = 1e6  # an answer larger than this by its load (lengths in sizes): the links are not held in this pose
 _BLOCK = 2048  # rows solved at once
 
 
-class Contact(NamedTuple):
+class JointConnection(NamedTuple):
     """Two links that a joint holds together, by number: ``force`` and ``couple`` are those on the other one."""
 
     joint: int
@@ -41,7 +41,7 @@ class Reactions(NamedTuple):
     """(rows,): whether the links are not held in this pose."""
 
 
-def contacts(motion: Motion) -> tuple[Contact, ...]:
+def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     """Those of the linkage with lower pairs. `LinkageError` for other joints than turning and sliding ones."""
     chain = motion.plan.lower.mechanism.chain
     out = []
@@ -52,7 +52,7 @@ def contacts(motion: Motion) -> tuple[Contact, ...]:
             )
         for other in joint.links[1:]:
             one = chain.links.index(joint.links[0])
-            out.append(Contact(number, one, chain.links.index(other), joint.pair.name == "prismatic"))
+            out.append(JointConnection(number, one, chain.links.index(other), joint.pair.name == "prismatic"))
     return tuple(out)
 
 
@@ -67,7 +67,7 @@ def reactions(motion: Motion, wrenches: Iterable[Wrench]) -> Reactions:
 
 
 def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactions:
-    lower, held = motion.plan.lower, contacts(motion)
+    lower, held = motion.plan.lower, joint_connections(motion)
     columns, directions = _columns(motion, held, rows)
     frame = lower.mechanism.chain.links.index(lower.mechanism.frame)
     bodies = [3 * k + part for k in range(len(lower.mechanism.chain.links)) if k != frame for part in range(3)]
@@ -90,7 +90,7 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
     return Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular)
 
 
-def _columns(motion: Motion, held: tuple[Contact, ...], rows: slice) -> tuple[Reals, Complexes]:
+def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> tuple[Reals, Complexes]:
     """What each unknown does to each link (x, y, moment about its origin): (rows, 3 links, unknowns).
 
     Unknowns: x, y of a pin's force, normal force and couple of a slide, then the drives. Second come the directions of
@@ -111,7 +111,7 @@ def _columns(motion: Motion, held: tuple[Contact, ...], rows: slice) -> tuple[Re
             acts.force(contact, 2 * k + 1, 1j * np.ones_like(line), at)
     for k, drive in enumerate(lower.mechanism.drives):
         one, other = lower.reference(k)
-        pair = Contact(drive.joint, links.index(one), links.index(other), False)
+        pair = JointConnection(drive.joint, links.index(one), links.index(other), False)
         if drive.direction.startswith("R"):
             acts.couple(pair, 2 * len(held) + k)
         else:
@@ -126,14 +126,14 @@ class _Actions(NamedTuple):
     places: Complexes
     columns: Reals
 
-    def force(self, pair: Contact, column: int, direction: Complexes, at: Complexes) -> None:
+    def force(self, pair: JointConnection, column: int, direction: Complexes, at: Complexes) -> None:
         for link, sign in ((pair.other, 1), (pair.one, -1)):
             self.columns[:, 3 * link, column] += sign * direction.real
             self.columns[:, 3 * link + 1, column] += sign * direction.imag
             arm = at - self.places[:, link]
             self.columns[:, 3 * link + 2, column] += sign * (np.conj(arm) * direction).imag
 
-    def couple(self, pair: Contact, column: int) -> None:
+    def couple(self, pair: JointConnection, column: int) -> None:
         self.columns[:, 3 * pair.other + 2, column] += 1
         self.columns[:, 3 * pair.one + 2, column] -= 1
 

@@ -12,7 +12,7 @@ from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
 from gruebler.statics.loads import Reals
-from gruebler.statics.motion_rates import again
+from gruebler.statics.motion_rates import with_velocities
 from gruebler.statics.solution import Statics
 
 __all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]
@@ -86,7 +86,7 @@ def slide_friction(held: Statics, joint: str | int, coefficient: float) -> Slide
         raise LinkageError(f"friction is told for one drive; this linkage has {len(linkage.mechanism.drives)}")
     side: Reals = np.hypot(*held.force(number).T)
     rate = np.full(len(side), np.nan)
-    for rows, moved in again(held.motion, np.ones(1)):
+    for rows, moved in with_velocities(held.motion, np.ones(1)):
         rate[rows] = np.abs(moved.slide(number, 1))
     return SlideFriction(side, mu * side, mu * side * rate)
 

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
-from gruebler.linkages import Named
+from gruebler.linkages import LinkPoint
 
-__all__ = ["Loads", "Wrench", "placed"]
+__all__ = ["Loads", "Wrench", "loads_over_rows"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -26,17 +26,18 @@ _STANDARD = 9.80665
 class Loads:
     """What acts on a linkage from outside, in coordinates of the plane.
 
-    A force at a joint acts on the link of that joint that `Motion.point` looks at; to choose the link give a `Named`.
+    A force at a joint acts on the link of that joint that `Motion.point` looks at; to choose the link give a
+    `LinkPoint`.
 
     >>> Loads(forces={"K": (0, -100)}, moments={"rocker": 5}).moments
     {'rocker': 5}
     """
 
-    forces: Mapping[str | Named, ArrayLike] = field(default_factory=dict)
+    forces: Mapping[str | LinkPoint, ArrayLike] = field(default_factory=dict)
     """By point or joint: (x, y), or one for each row, (rows, 2)."""
     moments: Mapping[str, ArrayLike] = field(default_factory=dict)
     """By link, counter-clockwise, in force times the linkage's unit: a number, or (rows,)."""
-    masses: Mapping[str | Named, ArrayLike] = field(default_factory=dict)
+    masses: Mapping[str | LinkPoint, ArrayLike] = field(default_factory=dict)
     """By point or joint: each weighs its mass times ``gravity``."""
     gravity: tuple[float, float] = (0.0, -_STANDARD)
     """Force for each unit of mass: metres a second squared for kilograms and newtons."""
@@ -46,14 +47,14 @@ class Loads:
 class Wrench:
     """A force on a link at each row, and a moment beside it."""
 
-    place: Named
+    place: LinkPoint
     force: Complexes
     """(rows,)."""
     moment: Reals
     """(rows,): a free moment."""
 
 
-def placed(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
+def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
     """The loads over the rows of a motion.
 
     Raises `LinkageError` for a point or link that is not there and for numbers that are not finite.
@@ -77,19 +78,19 @@ def placed(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
                 f"the links are {', '.join(links)}"
             )
         moment = _over_rows(f"the moment on {link!r}", given, (len(motion),))
-        out.append(Wrench(Named(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
+        out.append(Wrench(LinkPoint(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
     return tuple(out)
 
 
-def _place(motion: Motion, name: str | Named) -> Named:
-    place = name if isinstance(name, Named) else motion.linkage.named(name)[-1]
+def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
+    place = name if isinstance(name, LinkPoint) else motion.linkage.named(name)[-1]
     links = motion.linkage.mechanism.chain.links
     if place.link not in links:
         raise LinkageError(f"a force acts on a link, but there is no link {place.link!r}; they are {', '.join(links)}")
     return place
 
 
-def _said(name: str | Named) -> str:
+def _said(name: str | LinkPoint) -> str:
     return repr(name) if isinstance(name, str) else f"({name.x:g}, {name.y:g}) of {name.link!r}"
 
 

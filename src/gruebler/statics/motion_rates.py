@@ -10,12 +10,12 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import branch_of
 from gruebler.statics.loads import Reals, Rows
 
-__all__ = ["again", "drive_speed"]
+__all__ = ["drive_speed", "with_velocities"]
 
 _TELLS = 1e-9  # a smaller root does not tell the assembly mode: its sign is rounding
 
 
-def again(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion]]:
+def with_velocities(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion]]:
     """The poses of a motion once more, with velocities: from the row that is best assembled to its end, and back.
 
     Yields rows and their motion. A row at a limit of the drive tells no assembly mode, so it is not begun there;

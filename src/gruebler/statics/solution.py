@@ -11,9 +11,9 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
-from gruebler.statics.equilibrium import Contact, Reactions, contacts, reactions
-from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, placed
-from gruebler.statics.motion_rates import again, drive_speed
+from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
+from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, loads_over_rows
+from gruebler.statics.motion_rates import drive_speed, with_velocities
 
 __all__ = ["Statics", "statics"]
 
@@ -145,8 +145,8 @@ class Statics(Brief):
         ]
 
     @cached_property
-    def _contacts(self) -> tuple[Contact, ...]:
-        return contacts(self.motion)
+    def _contacts(self) -> tuple[JointConnection, ...]:
+        return joint_connections(self.motion)
 
 
 def statics(motion: Motion, loads: Loads) -> Statics:
@@ -173,7 +173,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
             "das Getriebe ist übergeschlossen: Wie sich die Lasten auf die Gelenke verteilen, hängt von ihrer "
             "Nachgiebigkeit ab",
         )
-    wrenches = placed(motion, loads)
+    wrenches = loads_over_rows(motion, loads)
     if not len(motion):
         raise LinkageError(f"the motion has no rows. {motion.message()}".strip())
     return Statics(motion, wrenches, reactions(motion, wrenches), _virtual_work(motion, wrenches))
@@ -184,7 +184,7 @@ def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:
     drives = len(motion.plan.lower.mechanism.drives)
     out = np.full((len(motion), drives), np.nan)
     for k in range(drives):
-        for rows, moved in again(motion, np.eye(drives)[k]):
+        for rows, moved in with_velocities(motion, np.eye(drives)[k]):
             out[rows, k] = -sum(_power(wrench, rows, moved) for wrench in wrenches)
     if drives == 1 and motion.order and np.isnan(out).all():
         with np.errstate(divide="ignore", invalid="ignore"):

@@ -11,23 +11,23 @@ from gruebler.synthesis.functions import function_task, minimax, structural_erro
 from gruebler.synthesis.judging import Demands
 from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
-from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
+from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult
 from gruebler.synthesis.structures import pareto, synthesise_structures
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 
 __all__ = [
-    "Count",
     "DeadCentreTask",
     "Demands",
     "Design",
+    "DesignVerdict",
     "FunctionLaw",
     "FunctionTask",
     "PathTask",
     "PositionTask",
+    "SolutionCount",
     "SynthesisResult",
     "Task",
-    "Verdict",
     "function_task",
     "minimax",
     "pareto",

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.discs import certified
 
-__all__ = ["PROBLEMS", "Problem", "Solutions", "generic", "parameters", "solutions"]
+__all__ = ["PROBLEMS", "Problem", "Solutions", "load_generic_solutions", "parameters", "solutions"]
 
 Complexes = NDArray[np.complex128]
 Reals = NDArray[np.float64]
@@ -99,7 +99,7 @@ def parameters(
     return p
 
 
-class Generic(NamedTuple):
+class GenericSolutions(NamedTuple):
     """A generic task and all its solutions, one of each class."""
 
     parameters: Complexes
@@ -107,10 +107,10 @@ class Generic(NamedTuple):
 
 
 @cache
-def generic(problem: Problem) -> Generic:
+def load_generic_solutions(problem: Problem) -> GenericSolutions:
     """The stored solutions, sharpened to full precision."""
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import refine
+    from gruebler._numeric.homotopy import refine_solutions
     from gruebler._numeric.work_estimates import refining
 
     name = problem.name.replace(" ", "_")
@@ -118,10 +118,10 @@ def generic(problem: Problem) -> Generic:
     with np.load(BytesIO(raw)) as stored:
         p, z = stored["parameters"], stored["solutions"].astype(np.complex128)
     steps = np.empty(len(z))
-    for_work(refine, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+    for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
     if not (steps < 1e-10).all():
         raise SynthesisError(f"the stored solutions of {problem.name} are damaged")
-    return Generic(p, z)
+    return GenericSolutions(p, z)
 
 
 class Solutions(NamedTuple):
@@ -147,7 +147,7 @@ Progress = Callable[[int, int], None]
 """Called with how many paths are done, and of how many."""
 
 
-def follow(
+def follow_from_generic(
     problem: Problem,
     starts: Complexes,
     begin: Complexes,
@@ -190,20 +190,22 @@ def solutions(
     along other ways through the space of tasks. Cost: 1442 paths 3 s on one core.
     """
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import ARRIVED, INFINITE, refine
+    from gruebler._numeric.homotopy import ARRIVED, INFINITE, refine_solutions
     from gruebler._numeric.work_estimates import refining
 
-    base = generic(problem)
-    ends, status = follow(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
+    base = load_generic_solutions(problem)
+    ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
     again = (status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)
     if again.any():
-        ends[again], status[again] = follow(problem, base.z[again], base.parameters, p, CAREFUL, threads=threads)
+        ends[again], status[again] = follow_from_generic(
+            problem, base.z[again], base.parameters, p, CAREFUL, threads=threads
+        )
     found = _distinct(problem, ends[status == ARRIVED])
     lost = base.z[(status != ARRIVED) | _repeated(problem, ends, status == ARRIVED)]
     if len(lost):
         # Where one member of a class goes far away, a cognate may stay near.
         lost = problem.with_cognates(lost)
-        more, reached = follow(problem, lost, base.parameters, p, CAREFUL, threads=threads)
+        more, reached = follow_from_generic(problem, lost, base.parameters, p, CAREFUL, threads=threads)
         found = _distinct(problem, np.concatenate([found, more[reached == ARRIVED]]))
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
@@ -212,13 +214,15 @@ def solutions(
         # A way that is bent a little meets no singular task that the straight one passes too closely.
         middle = (base.parameters + p) / 2 + bend * _random_task(base.parameters, p, rng)
         whole = bend == _BENDS[-1]
-        first, reached = follow(problem, base.z if whole else lost, base.parameters, middle, QUICK, threads=threads)
-        more, reached = follow(problem, first[reached == ARRIVED], middle, p, QUICK, threads=threads)
+        first, reached = follow_from_generic(
+            problem, base.z if whole else lost, base.parameters, middle, QUICK, threads=threads
+        )
+        more, reached = follow_from_generic(problem, first[reached == ARRIVED], middle, p, QUICK, threads=threads)
         found = _distinct(problem, np.concatenate([found, more[reached == ARRIVED]]))
     missing = problem.classes - len(found)
     infinite = min(missing, int(np.count_nonzero(status == INFINITE)))
     steps = np.empty(len(found))
-    for_work(refine, refining(len(found)))(found, p, problem.poses, problem.points, steps)
+    for_work(refine_solutions, refining(len(found)))(found, p, problem.poses, problem.points, steps)
     good = certified(problem.poses, problem.points, found, p)
     return Solutions(found, good, infinite, missing - infinite)
 

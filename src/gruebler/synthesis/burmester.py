@@ -18,7 +18,7 @@ from gruebler.errors import SynthesisError
 from gruebler.synthesis.dyads import Displacements, GuidingDyad, circle_point_cubics, misfit, sliding_dyads
 from gruebler.synthesis.tasks import PositionTask
 
-__all__ = ["BurmesterCurves", "Piece", "burmester_curves"]
+__all__ = ["BurmesterCurves", "CurvePiece", "burmester_curves"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -26,7 +26,7 @@ Complexes = NDArray[np.complex128]
 _NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition
 
 
-class Piece(NamedTuple):
+class CurvePiece(NamedTuple):
     """A connected piece of both curves, point by point: pivots that belong together."""
 
     moving: Complexes
@@ -40,7 +40,7 @@ class BurmesterCurves:
     """The dyads of four positions: a one-parameter family of RR dyads, and single PR and RP dyads."""
 
     task: PositionTask
-    pieces: tuple[Piece, ...]
+    pieces: tuple[CurvePiece, ...]
     sliding: tuple[GuidingDyad, ...]
 
     def dyads(self, number: int) -> tuple[GuidingDyad, ...]:
@@ -88,7 +88,7 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
         for part in _runs(good):
             moving = curve[part]
             if len(moving) > 1:
-                pieces.append(Piece(moving * size + origin, fixed[part] * size + origin))
+                pieces.append(CurvePiece(moving * size + origin, fixed[part] * size + origin))
     sliding = tuple(dyad.moved(size, origin) for dyad in sliding_dyads(given))
     return BurmesterCurves(task, tuple(pieces), sliding)
 

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from gruebler.errors import SynthesisError
 from gruebler.kinematics import Poses
 from gruebler.linkages import Line, Linkage, with_lower_pairs
-from gruebler.linkages.elements import Element, Pin, Place
+from gruebler.linkages.elements import Element, Pin, Pose2D
 
-__all__ = ["Closure", "Slopes"]
+__all__ = ["ClosureSlopes", "DesignClosure"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 
-class Slopes(NamedTuple):
+class ClosureSlopes(NamedTuple):
     """A pose and how it changes."""
 
     gaps: Reals
@@ -33,11 +33,11 @@ class Slopes(NamedTuple):
     """(poses, equations, dimensions)"""
 
 
-class Closure:
+class DesignClosure:
     """The conditions of a linkage; lengths are in the units of the linkage.
 
     >>> from gruebler.fourbar import FourBar
-    >>> closure = Closure(FourBar(25, 70, 40, 70).linkage())
+    >>> closure = DesignClosure(FourBar(25, 70, 40, 70).linkage())
     >>> closure.equations, closure.unknowns, len(closure.sizes)
     (8, 9, 16)
     """
@@ -87,7 +87,7 @@ class Closure:
         turn = np.exp(1j * q[:, c + 2])
         return q[:, c] + 1j * q[:, c + 1] + turn * local, turn, np.full(len(q), local)
 
-    def slopes(self, q: Reals, p: Reals) -> Slopes:
+    def slopes(self, q: Reals, p: Reals) -> ClosureSlopes:
         """Residuals and both Jacobians at poses. Cost: about 20 us and 2 us a pose and joint."""
         count = len(q)
         gaps = np.zeros((count, self.equations))
@@ -128,7 +128,7 @@ class Closure:
                         by_pose[:, row + k, c] += sign * part(by)
                         by_pose[:, row + k, c + 1] += sign * part(by * 1j)
                         by_pose[:, row + k, c + 2] += sign * part(by * 1j * turn * local)
-        return Slopes(gaps, by_pose, by_sizes)
+        return ClosureSlopes(gaps, by_pose, by_sizes)
 
     def closed(self, q: Reals, p: Reals, *, size: float, steps: int = 12) -> tuple[Reals, NDArray[np.bool_]]:
         """The nearest closed poses, by Newton's method with least steps; and which of them were reached."""
@@ -169,8 +169,8 @@ class Closure:
             x, y = float(p[at]), float(p[at + 1])
             made: Element = Line(x, y, float(p[at + 2])) if isinstance(element, Line) else Pin(x, y)
             elements[key[1]][key[0]] = made
-        places = {link: Place(*(float(v) for v in home[c : c + 3])) for link, c in self.column.items()}
-        places[self.linkage.mechanism.frame] = Place(0.0, 0.0, 0.0)
+        places = {link: Pose2D(*(float(v) for v in home[c : c + 3])) for link, c in self.column.items()}
+        places[self.linkage.mechanism.frame] = Pose2D(0.0, 0.0, 0.0)
         return Linkage(
             self.linkage.mechanism,
             elements,

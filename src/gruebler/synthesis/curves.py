@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.dyads import GuidingDyad
-from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, Kind, curve_points
+from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
-from gruebler.synthesis.positions import four_bar_linkages, linkage_of, ranked
-from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
@@ -40,7 +40,7 @@ ACCEPTED = 0.05
 class Atlas(NamedTuple):
     """Coupler curves of linkages whose crank turns fully: crank 1, its pivot at the origin."""
 
-    kind: Kind
+    kind: FourBarKind
     rows: Reals
     """(unknowns, linkages)"""
     branch: Reals
@@ -62,7 +62,7 @@ def _halton(count: int, base: int) -> Reals:
 
 
 @cache
-def atlas(kind: Kind, count: int = 0) -> Atlas:
+def atlas(kind: FourBarKind, count: int = 0) -> Atlas:
     """The atlas, made at its first use from so many trials; of the four-bars the tenth part turns fully. Cost: 1 s."""
     count = count or (90_000 if kind is FOUR_BAR else 12_000)
     one, two, three, four, five = (_halton(count, base) for base in (2, 3, 5, 7, 11))
@@ -111,7 +111,7 @@ def _resampled(z: Complexes, closed: bool, count: int) -> tuple[Complexes, Reals
     return places, parts[: len(z)]
 
 
-def _neighbours(kind: Kind, z: Complexes, closed: bool, number: int) -> list[_Start]:
+def _neighbours(kind: FourBarKind, z: Complexes, closed: bool, number: int) -> list[_Start]:
     """The nearest curves of the atlas, or pieces of them, up to a similarity."""
     book = atlas(kind)
     spectrum = np.fft.fft(book.z, axis=1)
@@ -199,7 +199,7 @@ def _placed(
     return _Start(gap, row, branch, angle)
 
 
-def _transformed(kind: Kind, row: Reals, turn: complex, shift: complex) -> Reals:
+def _transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:
     r = dict(zip(kind.unknowns, row, strict=True))
     scale = abs(turn)
     for name in ("a", "b", "c", "u", "v"):
@@ -215,7 +215,7 @@ def _transformed(kind: Kind, row: Reals, turn: complex, shift: complex) -> Reals
     return np.array([r[name] for name in kind.unknowns])
 
 
-def _mirrored(kind: Kind, row: Reals) -> Reals:
+def _mirrored(kind: FourBarKind, row: Reals) -> Reals:
     """In the x axis; the branch of a four-bar changes, and that of a slider-crank stays but for the direction."""
     r = dict(zip(kind.unknowns, row, strict=True))
     for name in ("a0y", "b0y", "v", "h", "angle"):
@@ -227,7 +227,7 @@ def _mirrored(kind: Kind, row: Reals) -> Reals:
 class Fit(NamedTuple):
     """A linkage fitted to points."""
 
-    kind: Kind
+    kind: FourBarKind
     row: Reals
     branch: float
     phi: Reals
@@ -241,7 +241,7 @@ def fit_curve(
     *,
     closed: bool,
     timing: Reals | None = None,
-    kinds: tuple[Kind, ...] = (FOUR_BAR, SLIDER_CRANK),
+    kinds: tuple[FourBarKind, ...] = (FOUR_BAR, SLIDER_CRANK),
     starts: int = 40,
     number: int = 6,
 ) -> list[Fit]:
@@ -291,7 +291,7 @@ def _extent(z: Complexes) -> float:
     return float(max(np.ptp(z.real), np.ptp(z.imag)))
 
 
-def _timed_neighbours(kind: Kind, z: Complexes, timing: Reals, number: int) -> list[_Start]:
+def _timed_neighbours(kind: FourBarKind, z: Complexes, timing: Reals, number: int) -> list[_Start]:
     """Curves of the atlas whose points at these crank angles are similar to the target."""
     book = atlas(kind, 12000)
     out = []
@@ -318,7 +318,9 @@ def _timed_neighbours(kind: Kind, z: Complexes, timing: Reals, number: int) -> l
     return out[:number]
 
 
-def _improved(kind: Kind, z: Complexes, found: list[_Start], timing: Reals | None, *, turning: bool) -> list[Fit]:
+def _improved(
+    kind: FourBarKind, z: Complexes, found: list[_Start], timing: Reals | None, *, turning: bool
+) -> list[Fit]:
     """Levenberg and Marquardt's method for all starts at once; free crank angles are eliminated point by point.
 
     With ``turning`` the crank has to stay one that turns fully.
@@ -379,7 +381,7 @@ def _slider_branches(rows: Reals, phi: Reals, branch: Reals, z: Complexes) -> Re
     return np.where(costs[0] <= costs[1], 1.0, -1.0)
 
 
-def _cost(kind: Kind, rows: Reals, phi: Reals, branch: Reals, z: Complexes, *, turning: bool) -> Reals:
+def _cost(kind: FourBarKind, rows: Reals, phi: Reals, branch: Reals, z: Complexes, *, turning: bool) -> Reals:
     """The sum of squared distances of each start; infinite where it cannot be assembled or a length is not positive."""
     w = curve_points(kind, rows[:, :, None], phi, branch[:, None]).z
     cost = np.sum(np.abs(w - z) ** 2, axis=1)
@@ -390,7 +392,7 @@ def _cost(kind: Kind, rows: Reals, phi: Reals, branch: Reals, z: Complexes, *, t
     return np.where(bad, np.inf, cost)
 
 
-def _turns(kind: Kind, rows: Reals) -> NDArray[np.bool_]:
+def _turns(kind: FourBarKind, rows: Reals) -> NDArray[np.bool_]:
     """Whether the crank turns fully (Grashof)."""
     r = dict(zip(kind.unknowns, rows, strict=True))
     if kind is SLIDER_CRANK:
@@ -423,7 +425,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     accepted, rejected = ranked(made)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = f"So many points are met by least squares; accepted is what comes nearer than {limit:g} of the size."
-    return SynthesisResult(task, accepted, rejected, Count("linkages", 0, len(fits), len(fits)), (note,))
+    return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", 0, len(fits), len(fits)), (note,))
 
 
 def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
@@ -439,7 +441,7 @@ def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:
     if fit.kind is FOUR_BAR:
         return four_bar_linkages(own, GuidingDyad("RR", far, complex(r["b0x"], r["b0y"])), point, unit=unit)
     slide = complex(np.exp(1j * r["angle"]))
-    return [linkage_of(own, GuidingDyad("PR", far, far, slide), point, unit)]
+    return [linkage_of_dyads(own, GuidingDyad("PR", far, far, slide), point, unit)]
 
 
 def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.synthesis.judging import Demands, pivots_inside, size_ratio
-from gruebler.synthesis.results import Count, Design, SynthesisResult, Verdict
+from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import DeadCentreTask
 
-__all__ = ["DeadCentreFamily", "Member", "dead_centre_family", "synthesise_dead_centres"]
+__all__ = ["DeadCentreFamily", "FamilyMember", "dead_centre_family", "synthesise_dead_centres"]
 
 Reals = NDArray[np.float64]
 
@@ -26,7 +26,7 @@ _SAMPLES = 720
 _SAME = 1e-9  # dead centres of a member agree with the task to this
 
 
-class Member(NamedTuple):
+class FamilyMember(NamedTuple):
     """A linkage of the family."""
 
     parameter: float
@@ -41,9 +41,9 @@ class DeadCentreFamily:
     """All linkages with given dead centres: a one-parameter family."""
 
     task: DeadCentreTask
-    members: tuple[Member, ...]
+    members: tuple[FamilyMember, ...]
     """Evenly spread over the parameter, in its order."""
-    best: Member
+    best: FamilyMember
     """The one with the largest minimum transmission angle (VDI 2130)."""
 
     @property
@@ -119,7 +119,7 @@ def _lengths(task: DeadCentreTask, parameter: float) -> tuple[float, float] | No
     return (parameter, sqrt(square) / abs(sin(half))) if square > 0 else None
 
 
-def _member(task: DeadCentreTask, parameter: float) -> Member | None:
+def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
     """The linkage of a parameter, checked by its closed form; None if it has other dead centres."""
     sizes = _lengths(task, parameter)
     if sizes is None or not 0 < sizes[0] < sizes[1]:
@@ -151,7 +151,7 @@ def _member(task: DeadCentreTask, parameter: float) -> Member | None:
             return None
         if task.swing is not None and not _same_sense(centre, outer, inner):
             return None
-        return Member(parameter, linkage, float(linkage.transmission_angle.smallest))
+        return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest))
     except LinkageError:
         return None
 
@@ -189,10 +189,10 @@ def synthesise_dead_centres(
         f"{f' ({unit} 1)' if task.swing is not None else ''}; the best minimum transmission angle is "
         f"{degrees(family.best.transmission):.2f} degrees."
     )
-    return SynthesisResult(task, accepted, rejected, Count("linkages", None, len(made), len(made)), (note,))
+    return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", None, len(made), len(made)), (note,))
 
 
-def _design(task: DeadCentreTask, member: Member, demands: Demands) -> Design:
+def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Design:
     linkage = member.linkage.linkage(unit=task.unit)
     if task.stroke is not None:
         linkage = linkage.scaled(task.stroke)
@@ -207,6 +207,6 @@ def _design(task: DeadCentreTask, member: Member, demands: Demands) -> Design:
     centres = member.linkage.dead_centres
     assert centres is not None
     error = abs(centres.travel - (task.swing if task.swing is not None else 1.0))
-    verdict = Verdict(True, True, True, True, True, member.transmission, ratio, inside, error, tuple(reasons))
+    verdict = DesignVerdict(True, True, True, True, True, member.transmission, ratio, inside, error, tuple(reasons))
     kind = "four-bar" if task.swing is not None else "slider-crank"
     return Design(linkage, verdict, kind, (centres.outer.phi, centres.inner.phi))

@@ -75,7 +75,7 @@ def certified(poses: int, points: int, z: Complexes, p: Complexes) -> NDArray[np
     For each the discs about it are so large as ten last Newton steps, and Krawczyk's operator maps them into
     themselves; proved solutions whose discs overlap are not counted as different. Cost: 30 us a solution.
     """
-    from gruebler._numeric.homotopy import evaluate
+    from gruebler._numeric.homotopy import evaluate_system
 
     if not len(z):
         return np.zeros(0, bool)
@@ -87,7 +87,7 @@ def certified(poses: int, points: int, z: Complexes, p: Complexes) -> NDArray[np
         holder = np.empty(8, object)
         holder[:] = unknowns
         with np.errstate(all="ignore"):
-            evaluate(holder, p, still, poses, points, f, jac, ft)
+            evaluate_system(holder, p, still, poses, points, f, jac, ft)
         return f, jac
 
     def numbers(matrix: NDArray[Any]) -> tuple[Complexes, Reals]:

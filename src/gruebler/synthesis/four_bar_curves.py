@@ -11,22 +11,22 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["FOUR_BAR", "SLIDER_CRANK", "CurvePoints", "Kind", "curve_points"]
+__all__ = ["FOUR_BAR", "SLIDER_CRANK", "CurvePoints", "FourBarKind", "curve_points"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 
-class Kind(NamedTuple):
+class FourBarKind(NamedTuple):
     """What the numbers of a row are."""
 
     name: str
     unknowns: tuple[str, ...]
 
 
-FOUR_BAR = Kind("four-bar", ("a0x", "a0y", "b0x", "b0y", "a", "b", "c", "u", "v"))
+FOUR_BAR = FourBarKind("four-bar", ("a0x", "a0y", "b0x", "b0y", "a", "b", "c", "u", "v"))
 """The fixed pivots A0, B0, crank a, coupler b, rocker c, coupler point u along AB, v to its left."""
-SLIDER_CRANK = Kind("slider-crank", ("a0x", "a0y", "angle", "h", "a", "b", "u", "v"))
+SLIDER_CRANK = FourBarKind("slider-crank", ("a0x", "a0y", "angle", "h", "a", "b", "u", "v"))
 """A0, the direction of the slide, its distance from the origin to its left, crank, coupler, coupler point."""
 
 
@@ -41,7 +41,9 @@ class CurvePoints(NamedTuple):
     """(unknowns, ..., angles) by each number of the row; empty if not asked for."""
 
 
-def curve_points(kind: Kind, rows: Reals, phi: Reals, branch: Reals | float, *, slopes: bool = False) -> CurvePoints:
+def curve_points(
+    kind: FourBarKind, rows: Reals, phi: Reals, branch: Reals | float, *, slopes: bool = False
+) -> CurvePoints:
     """Coupler points of linkages at crank angles.
 
     Args:

@@ -20,9 +20,9 @@ from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
-from gruebler.synthesis.judging import Demands, Probe, Targets, judged
+from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design
 from gruebler.synthesis.positions import guiding_dyads, ranked
-from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
 
 __all__ = ["Coordination", "coordination_of", "function_task", "minimax", "structural_error", "synthesise_function"]
@@ -175,7 +175,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
         notes.append("There are infinitely many solutions: give more pairs.")
         theorem = None
     designs, rejected = ranked(made)
-    return SynthesisResult(task, designs, rejected, Count("linkages", theorem, found, real), tuple(notes))
+    return SynthesisResult(task, designs, rejected, SolutionCount("linkages", theorem, found, real), tuple(notes))
 
 
 class _Solutions(NamedTuple):
@@ -337,7 +337,7 @@ def _judged_function(
     joint("R" if side == "rocker" else "P", "frame", side, far)
     mechanism = Mechanism.parse(f"{' '.join(parts)}; frame=frame; drive={parts[0]}")
     linkage = Linkage.drawn(mechanism, places, unit=task.unit, outputs=[side])
-    return judged(linkage, _function_targets(task, linkage, side), demands, form)
+    return judge_design(linkage, _function_targets(task, linkage, side), demands, form)
 
 
 def _function_targets(task: FunctionTask, linkage: Linkage, side: str) -> Targets:

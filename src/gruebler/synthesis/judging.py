@@ -20,9 +20,9 @@ from gruebler.kinematics import Circuit, Poses, circuit, move
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
-from gruebler.synthesis.results import Design, Verdict
+from gruebler.synthesis.results import Design, DesignVerdict
 
-__all__ = ["Demands", "Probe", "Targets", "best_of", "judged", "point_targets", "position_targets"]
+__all__ = ["Demands", "Probe", "Targets", "best_of", "judge_design", "point_targets", "position_targets"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -118,7 +118,7 @@ def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], 
     """The first accepted one of linkages that differ in their drive, else the one with the fewest faults."""
     best: Design | None = None
     for linkage in linkages:
-        design = judged(linkage, targets(linkage), demands, form)
+        design = judge_design(linkage, targets(linkage), demands, form)
         if design.verdict.accepted:
             return design
         if best is None or len(design.verdict.reasons) < len(best.verdict.reasons):
@@ -127,14 +127,14 @@ def best_of(linkages: Iterable[Linkage], targets: Callable[[Linkage], Targets], 
     return best
 
 
-def judged(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
+def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> Design:
     """The design of a linkage with a home, and its verdict. Cost: 3 to 30 ms, most for the circuit.
 
     >>> from gruebler.fourbar import FourBar
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
     >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
     >>> bar = bar.with_home(motion.home(0))
-    >>> judged(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
+    >>> judge_design(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
     True
     """
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
@@ -148,14 +148,14 @@ def judged(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> D
         met = _met(course, targets, demands.tolerance)
     except LinkageError as error:
         reasons.append(f"it cannot be followed from its first position: {error}")
-        return Design(linkage, Verdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
+        return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
     missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
     if missed:
         named = ", ".join(map(str, missed[:9])) + (", ..." if len(missed) > 9 else "")
         what = f"target{'s' if len(missed) > 1 else ''} {named}"
         nearest = f"the circuit comes no nearer than {met.error:.3g} of the size"
         reasons.append(f"{what} cannot be reached without taking the linkage apart: {nearest}")
-        verdict = Verdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
+        verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
         return Design(linkage, verdict, form)
     path = _path(course, met.arcs)
     full = _turns_fully(course)
@@ -174,7 +174,7 @@ def judged(linkage: Linkage, targets: Targets, demands: Demands, form: str) -> D
         reasons.append("the drive does not turn fully")
     if demands.transmission > 0 and not transmission >= demands.transmission:
         reasons.append(f"the transmission angle falls to {np.degrees(transmission):.1f} degrees")
-    verdict = Verdict(
+    verdict = DesignVerdict(
         True,
         True,
         path.one_branch,
@@ -275,7 +275,7 @@ def _distinct(arcs: Reals, course: Circuit) -> Reals:
     return np.sort(np.array(out))
 
 
-class _Path(NamedTuple):
+class _TargetPath(NamedTuple):
     """A way along the circuit through all targets."""
 
     arcs: Reals
@@ -284,10 +284,10 @@ class _Path(NamedTuple):
     one_branch: bool
 
 
-def _path(course: Circuit, met: list[Reals]) -> _Path:
+def _path(course: Circuit, met: list[Reals]) -> _TargetPath:
     """The shortest way through the targets, in order and without a limit of the drive if there is one."""
     limits = np.array([extreme.arc for extreme in course.drive_limits])
-    best: tuple[tuple[bool, bool, float], _Path] | None = None
+    best: tuple[tuple[bool, bool, float], _TargetPath] | None = None
     for start in met[0]:
         for sense in (1.0, -1.0):
             arcs = _forward(course, met, float(start), sense)
@@ -301,7 +301,7 @@ def _path(course: Circuit, met: list[Reals]) -> _Path:
             )
             key = (not ordered, not free, float(high - low))
             if best is None or key < best[0]:
-                best = key, _Path(arcs, ordered, free)
+                best = key, _TargetPath(arcs, ordered, free)
     assert best is not None
     return best[1]
 
@@ -348,7 +348,7 @@ def _turns_fully(course: Circuit) -> bool:
 
 
 def _carried(
-    linkage: Linkage, course: Circuit, path: _Path, targets: Targets
+    linkage: Linkage, course: Circuit, path: _TargetPath, targets: Targets
 ) -> tuple[tuple[float, ...], float, float]:
     """`move` through the targets: drive values, the largest error, the smallest transmission angle."""
     order = np.argsort(path.arcs, kind="stable")

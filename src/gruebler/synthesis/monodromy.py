@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.synthesis.alt_burmester import QUICK, Generic, Problem, _distinct, follow
+from gruebler.synthesis.alt_burmester import QUICK, GenericSolutions, Problem, _distinct, follow_from_generic
 
 __all__ = ["find_generic", "known_solution", "write_generic"]
 
@@ -23,7 +23,7 @@ _IDLE = 4  # so many ways without anything new: enough
 _SHARP = 1e-8  # a last Newton step above it: no solution, or a nearly singular one
 
 
-def known_solution(problem: Problem, rng: np.random.Generator) -> Generic:
+def known_solution(problem: Problem, rng: np.random.Generator) -> GenericSolutions:
     """A random complex task with one solution: linkage and rotations are chosen, the displacements follow."""
 
     def random(*shape: int) -> Complexes:
@@ -46,15 +46,15 @@ def known_solution(problem: Problem, rng: np.random.Generator) -> Generic:
             p[2, j] = g
     if problem.given_pivots:
         p[3, 4:] = z[4:]
-    return Generic(p, z[None, :])
+    return GenericSolutions(p, z[None, :])
 
 
 def find_generic(
     problem: Problem, seed: int, *, report: Callable[[int, int], None] | None = None, most: int = 200
-) -> Generic:
+) -> GenericSolutions:
     """All solutions of a random task; ``report`` gets the number of the way and how many solutions there are."""
     from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import ARRIVED, refine
+    from gruebler._numeric.homotopy import ARRIVED, refine_solutions
     from gruebler._numeric.work_estimates import refining
 
     rng = np.random.default_rng(seed)
@@ -68,22 +68,22 @@ def find_generic(
             corner[2] /= size
         ends = z
         for begin, end in zip([p, *corners], [*corners, p], strict=True):
-            ends, status = follow(problem, ends, begin, end, QUICK)
+            ends, status = follow_from_generic(problem, ends, begin, end, QUICK)
             ends = ends[status == ARRIVED]
         count = len(z)
         z = _distinct(problem, np.concatenate([z, ends]))
         steps = np.empty(len(z))
-        for_work(refine, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+        for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
         z = z[steps < _SHARP]
         idle = idle + 1 if len(z) == count else 0
         if report is not None:
             report(way, len(z))
         if idle == _IDLE and len(z) > 1:
             break
-    return Generic(p, z)
+    return GenericSolutions(p, z)
 
 
-def write_generic(folder: Path, problem: Problem, found: Generic) -> Path:
+def write_generic(folder: Path, problem: Problem, found: GenericSolutions) -> Path:
     """Store generic solutions as data of the package: in single precision, since reading sharpens them."""
     path = folder / f"{problem.name.replace(' ', '_')}.npz"
     np.savez_compressed(path, parameters=found.parameters, solutions=found.z.astype(np.complex64))

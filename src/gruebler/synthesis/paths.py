@@ -16,9 +16,9 @@ from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
 from gruebler.synthesis.dyads import GuidingDyad
-from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judged, point_targets, position_targets
+from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_design, point_targets, position_targets
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
-from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PathTask, PositionTask
 
 __all__ = ["four_bars_through", "synthesise_path"]
@@ -53,7 +53,7 @@ def synthesise_path(
 
     >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
     >>> synthesise_path(task).count
-    Count(what='four-bars', theorem=36, found=36, real=14)
+    SolutionCount(what='four-bars', theorem=36, found=36, real=14)
     """
     wanted = demands or Demands()
     oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
@@ -113,7 +113,7 @@ def _exact(
     cognates = 3 if problem.poses == 0 and not problem.given_pivots else 1
     what = "cognate triples" if cognates == 3 else "four-bars"
     accepted, rejected = ranked(designs)
-    count = Count(what, problem.classes, len(found.z) + found.infinite, len(found.real))
+    count = SolutionCount(what, problem.classes, len(found.z) + found.infinite, len(found.real))
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(found, made.added)))
 
 
@@ -265,15 +265,15 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
     theorem = 12 if len(task) == 5 else None
     notes = [] if theorem else ["There are infinitely many solutions; some dyads of each family were taken."]
     return SynthesisResult(
-        task, accepted, rejected, Count("linkages", theorem, 12 if theorem else real, real), tuple(notes)
+        task, accepted, rejected, SolutionCount("linkages", theorem, 12 if theorem else real, real), tuple(notes)
     )
 
 
 def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:
-    from gruebler.synthesis.positions import linkage_of
+    from gruebler.synthesis.positions import linkage_of_dyads
 
     try:
-        linkage = linkage_of(own, other, complex(task.z[0]), task.unit)
+        linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
     except LinkageError:
         return []
     assert linkage.home is not None
@@ -281,4 +281,4 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
     crank = task.size * np.exp(1j * (linkage.home["crank"].angle + timing - timing[0]))
     probes = (Probe("P"), Probe(link="crank", length=task.size))
     targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
-    return [judged(linkage, targets, demands, f"RR-{other.form}")]
+    return [judge_design(linkage, targets, demands, f"RR-{other.form}")]

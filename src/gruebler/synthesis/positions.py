@@ -30,10 +30,10 @@ from gruebler.synthesis.dyads import (
     sliding_dyads,
 )
 from gruebler.synthesis.judging import Demands, Targets, best_of, position_targets
-from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PositionTask
 
-__all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of", "ranked", "synthesise_positions"]
+__all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "synthesise_positions"]
 
 Complexes = NDArray[np.complex128]
 
@@ -129,7 +129,9 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
     if len(dyads) < 2:
         notes.append("A linkage needs two dyads.")
     designs, rejected = ranked(made)
-    return SynthesisResult(task, designs, rejected, Count("dyads", THEOREM[len(task)], found, len(dyads)), tuple(notes))
+    return SynthesisResult(
+        task, designs, rejected, SolutionCount("dyads", THEOREM[len(task)], found, len(dyads)), tuple(notes)
+    )
 
 
 def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
@@ -178,10 +180,10 @@ def four_bar_linkages(one: GuidingDyad, two: GuidingDyad, point: complex, *, uni
             orders = orders[:1]
     elif one.form == "PR" and two.form != "PR":
         orders.reverse()
-    return [linkage_of(first, second, point, unit) for first, second in orders]
+    return [linkage_of_dyads(first, second, point, unit) for first, second in orders]
 
 
-def linkage_of(one: GuidingDyad, two: GuidingDyad, point: complex, unit: str) -> Linkage:
+def linkage_of_dyads(one: GuidingDyad, two: GuidingDyad, point: complex, unit: str) -> Linkage:
     """The linkage of two dyads in its first position, driven at the first; P lies on the coupler.
 
     Raises `LinkageError` if pivots of a link coincide.
@@ -278,4 +280,4 @@ def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDy
     note = (
         f"More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted."
     )
-    return SynthesisResult(task, accepted, rejected, Count("dyads", 0, len(dyads), len(dyads)), (note,))
+    return SynthesisResult(task, accepted, rejected, SolutionCount("dyads", 0, len(dyads), len(dyads)), (note,))

@@ -9,11 +9,11 @@ from typing import Any
 from gruebler.linkages import Linkage
 from gruebler.synthesis.tasks import Task
 
-__all__ = ["Count", "Design", "SynthesisResult", "Verdict"]
+__all__ = ["Design", "DesignVerdict", "SolutionCount", "SynthesisResult"]
 
 
 @dataclass(frozen=True)
-class Verdict:
+class DesignVerdict:
     """What a design does when it moves. ``reasons`` is empty for an accepted design."""
 
     assembles: bool = False
@@ -47,7 +47,7 @@ class Design:
     """A linkage made for a task, with what it really does."""
 
     linkage: Linkage
-    verdict: Verdict
+    verdict: DesignVerdict
     form: str
     """The two connections of coupler and frame, such as ``RR-RR``, or the name of the linkage."""
     drives: tuple[float, ...] = ()
@@ -55,7 +55,7 @@ class Design:
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage."""
-        from gruebler.formats import to_json
+        from gruebler.formats import linkage_to_json
 
         turning = bool(self.linkage.mechanism.drives) and self.linkage.mechanism.drives[0].direction.startswith("R")
         verdict = self.verdict
@@ -73,7 +73,7 @@ class Design:
             "inside": verdict.inside,
             "error": _or_none(verdict.error),
             "drives": [degrees(value) if turning else value for value in self.drives],
-            "linkage": to_json(self.linkage),
+            "linkage": linkage_to_json(self.linkage),
         }
 
 
@@ -82,7 +82,7 @@ def _or_none(value: float) -> float | None:
 
 
 @dataclass(frozen=True)
-class Count:
+class SolutionCount:
     """How many solutions there are."""
 
     what: str
@@ -107,7 +107,7 @@ class SynthesisResult:
     task: Task
     designs: tuple[Design, ...]
     rejected: tuple[Design, ...]
-    count: Count
+    count: SolutionCount
     notes: tuple[str, ...] = field(default=())
     """What else has to be known: solutions at infinity, missing ones, families of infinitely many."""
 

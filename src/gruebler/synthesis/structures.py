@@ -19,10 +19,10 @@ from gruebler.errors import LinkageError, SynthesisError
 from gruebler.kinematics import circuit
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
-from gruebler.synthesis.closure import Closure
-from gruebler.synthesis.judging import Demands, judged, point_targets
+from gruebler.synthesis.closure import DesignClosure
+from gruebler.synthesis.judging import Demands, judge_design, point_targets
 from gruebler.synthesis.positions import ranked
-from gruebler.synthesis.results import Count, Design, SynthesisResult
+from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
@@ -94,7 +94,7 @@ def synthesise_structures(
     accepted, rejected = ranked(made)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = f"{len(jobs)} starts were improved by least squares; accepted is what comes nearer than the tolerance."
-    return SynthesisResult(task, accepted, rejected, Count("linkages", 0, len(made), len(made)), (note,))
+    return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", 0, len(made), len(made)), (note,))
 
 
 def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
@@ -141,7 +141,7 @@ def fit_structure(
         course = circuit(first.linkage)
     except LinkageError:
         return None
-    closure = Closure(first.linkage)
+    closure = DesignClosure(first.linkage)
     if link and link not in closure.column:
         raise SynthesisError(f"the link that carries the point is one of {', '.join(closure.links)}, not {link!r}")
     z = task.z
@@ -159,7 +159,7 @@ def fit_structure(
     linkage = linkage.with_outputs(first.linkage.outputs)
     extent = float(max(np.ptp(z.real), np.ptp(z.imag)))
     targets = point_targets("P", z, extent)
-    return judged(linkage, targets, replace(wanted, tolerance=limit), f"{len(closure.links) + 1} links")
+    return judge_design(linkage, targets, replace(wanted, tolerance=limit), f"{len(closure.links) + 1} links")
 
 
 @dataclass
@@ -174,7 +174,7 @@ class _State:
 
 
 def _start(
-    closure: Closure, q: Reals, z: Complexes, closed: bool, rng: np.random.Generator, links: Sequence[str]
+    closure: DesignClosure, q: Reals, z: Complexes, closed: bool, rng: np.random.Generator, links: Sequence[str]
 ) -> _State | None:
     """The point whose path is most like the target, everything turned, scaled and shifted onto it."""
     from gruebler.synthesis.curves import _resampled
@@ -226,7 +226,7 @@ def _start(
     return _State(p, chosen, link, (scale * w).real, (scale * w).imag)
 
 
-def _improved(closure: Closure, state: _State, z: Complexes, size: float) -> _State:
+def _improved(closure: DesignClosure, state: _State, z: Complexes, size: float) -> _State:
     """Levenberg and Marquardt's method over all dimensions; the drive value of each target is eliminated."""
     q, good = closure.closed(state.q, state.p, size=size)
     state.q = q
@@ -273,7 +273,7 @@ def _improved(closure: Closure, state: _State, z: Complexes, size: float) -> _St
     return state
 
 
-def _cost(closure: Closure, state: _State, z: Complexes) -> float:
+def _cost(closure: DesignClosure, state: _State, z: Complexes) -> float:
     c = closure.column[state.link]
     point = state.q[:, c] + 1j * state.q[:, c + 1] + np.exp(1j * state.q[:, c + 2]) * complex(state.u, state.v)
     return float(np.sum(np.abs(point - z) ** 2))

@@ -15,7 +15,7 @@ from typing import Any
 import msgspec
 
 from gruebler.atomic_files import atomic_file
-from gruebler.documents import fitted, load
+from gruebler.documents import convert_document, load_document
 from gruebler.errors import SynthesisError
 from gruebler.formats.angles import in_degrees, in_radians
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
@@ -92,7 +92,7 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
     for key, short in (("angles", None), ("crank_angles", None)):  # null stands for a free angle in JSON, "" in TOML
         if isinstance(given.get(key), list):
             given[key] = [short if value == "" else value for value in given[key]]
-    record = fitted(given, kind, SynthesisError)
+    record = convert_document(given, kind, SynthesisError)
     data: dict[str, Any] = msgspec.structs.asdict(record)
     match record:
         case _Positions():
@@ -165,7 +165,7 @@ def read_task(path: Path | str) -> Task:
     try:
         if path.suffix.lower() == ".csv":
             return _from_csv(_text(path))
-        data = load(path, SynthesisError)
+        data = load_document(path, SynthesisError)
         return task_from_json(data)
     except SynthesisError as error:
         raise SynthesisError(f"{path}: {error}") from None

@@ -7,24 +7,24 @@ from gruebler.transformations.contacts import replace_roll_slide, restore_roll_s
 from gruebler.transformations.contraction import contract, expand
 from gruebler.transformations.derivations import OPERATIONS, Derivation, replay
 from gruebler.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
-from gruebler.transformations.extension import Extension, extend, grown
+from gruebler.transformations.extension import Extension, extend, grow_family
 from gruebler.transformations.groups import insert_group, remove_group
 from gruebler.transformations.growth import Growth, derive
-from gruebler.transformations.places import Place
+from gruebler.transformations.places import Attachment
 from gruebler.transformations.steps import Step
 
 __all__ = [
     "OPERATIONS",
+    "Attachment",
     "Derivation",
     "Extension",
     "Growth",
-    "Place",
     "Step",
     "contract",
     "derive",
     "expand",
     "extend",
-    "grown",
+    "grow_family",
     "insert_coupler",
     "insert_dyad",
     "insert_group",

@@ -9,7 +9,14 @@ from __future__ import annotations
 from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
 from gruebler.errors import ChainError, TransformationError
-from gruebler.transformations.places import Sketch, check_counting, fresh_names, letters_of, links_at, pairs_of
+from gruebler.transformations.places import (
+    ChainBuilder,
+    check_counting,
+    letters_of_pairs,
+    links_at,
+    new_link_names,
+    pairs_from_letters,
+)
 from gruebler.transformations.steps import Step
 
 __all__ = ["replace_roll_slide", "restore_roll_slide"]
@@ -30,15 +37,15 @@ def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | 
     R(frame-cam) R(cam-contact) P(contact-valve) P(valve-frame)
     """
     check_counting(chain)
-    one, other = pairs_of(pairs, 2, "contact")
-    word = letters_of((one, other))
+    one, other = pairs_from_letters(pairs, 2, "contact")
+    word = letters_of_pairs((one, other))
     if word not in _EQUIVALENTS:
         raise TransformationError(f"a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}")
     a, *rest = links_at(chain, joint)
     if chain.joints[joint].pair.name != "roll_slide":
         raise TransformationError(f"{chain.joints[joint]} is not a roll-slide joint")
-    (name,) = fresh_names(chain, 1, None if link is None else [link])
-    sketch = Sketch(chain)
+    (name,) = new_link_names(chain, 1, None if link is None else [link])
+    sketch = ChainBuilder(chain)
     sketch.joints[joint : joint + 1] = [(one, [a, name]), (other, [name, *rest])]
     return Step("replace_roll_slide", {"joint": joint, "pairs": word, "link": name}, chain, sketch.done([name]))
 
@@ -54,7 +61,11 @@ def restore_roll_slide(chain: Chain, link: str) -> Step:
     mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
     joints = [chain.joints[k] for k in mine]
     others = [a for joint in joints for a in joint.links if a != link]
-    if len(mine) != 2 or any(j.count > 1 for j in joints) or letters_of(j.pair for j in joints) not in _EQUIVALENTS:
+    if (
+        len(mine) != 2
+        or any(j.count > 1 for j in joints)
+        or letters_of_pairs(j.pair for j in joints) not in _EQUIVALENTS
+    ):
         raise TransformationError(
             f"{link} does not stand for a roll-slide joint: it must be a binary link with two simple revolutes, or one "
             "revolute and one prismatic joint"

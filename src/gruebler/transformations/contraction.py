@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from gruebler.chain import Chain, pairs
 from gruebler.chain.pairs import Pair
 from gruebler.errors import ChainError, TransformationError
-from gruebler.transformations.places import Sketch, fresh_names, links_at
+from gruebler.transformations.places import ChainBuilder, links_at, new_link_names
 from gruebler.transformations.steps import Step
 
 __all__ = ["contract", "expand"]
@@ -78,8 +78,8 @@ def expand(
         raise TransformationError(
             "the two parts are joined by a new joint of a given pair, or at a joint of the link that does not move"
         )
-    (name,) = fresh_names(chain, 1, None if new is None else [new])
-    sketch = Sketch(chain)
+    (name,) = new_link_names(chain, 1, None if new is None else [new])
+    sketch = ChainBuilder(chain)
     for number in joints:
         carriers = sketch.joints[number][1]
         carriers[carriers.index(link)] = name

@@ -13,14 +13,14 @@ from gruebler.assur import DYADS
 from gruebler.chain import Chain
 from gruebler.errors import TransformationError
 from gruebler.transformations.places import (
-    Place,
-    Sketch,
+    Attachment,
+    ChainBuilder,
     check_counting,
-    fresh_names,
-    letters_of,
-    pairs_of,
-    spread,
-    without,
+    check_not_on_one_link,
+    letters_of_pairs,
+    new_link_names,
+    pairs_from_letters,
+    without_links,
 )
 from gruebler.transformations.steps import Step
 
@@ -31,13 +31,13 @@ class Insertion(NamedTuple):
     """What an insertion needs to make again what is there: pairs as letters, places in the rest, names of the links."""
 
     letters: str
-    between: tuple[Place, Place]
+    between: tuple[Attachment, Attachment]
     links: tuple[str, ...]
     rest: Chain
     """The chain without it."""
 
 
-def insert_dyad(chain: Chain, form: str, between: Sequence[Place], links: Sequence[str] | None = None) -> Step:
+def insert_dyad(chain: Chain, form: str, between: Sequence[Attachment], links: Sequence[str] | None = None) -> Step:
     """Put a dyad between two places; F stays.
 
     Args:
@@ -53,14 +53,14 @@ def insert_dyad(chain: Chain, form: str, between: Sequence[Place], links: Sequen
     R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)
     """
     check_counting(chain)
-    first, middle, last = pairs_of(form, 3, "dyad")
-    word = letters_of((first, middle, last))
+    first, middle, last = pairs_from_letters(form, 3, "dyad")
+    word = letters_of_pairs((first, middle, last))
     if word not in DYADS and word not in {dyad[::-1] for dyad in DYADS}:
         raise TransformationError(f"{form!r} is no dyad; the forms are {', '.join(DYADS)}")
     one, other = _two(between)
-    spread(chain, [one, other], "dyad")
-    x, y = fresh_names(chain, 2, links)
-    sketch = Sketch(chain)
+    check_not_on_one_link(chain, [one, other], "dyad")
+    x, y = new_link_names(chain, 2, links)
+    sketch = ChainBuilder(chain)
     sketch.attach(one, first, [x])
     sketch.add(middle, [x, y])
     sketch.attach(other, last, [y], last=True)
@@ -80,7 +80,7 @@ def remove_dyad(chain: Chain, links: Sequence[str]) -> Step:
     return Step("remove_dyad", {"links": list(links)}, chain, found.rest)
 
 
-def insert_coupler(chain: Chain, between: Sequence[Place], pairs: str = "RR", link: str | None = None) -> Step:
+def insert_coupler(chain: Chain, between: Sequence[Attachment], pairs: str = "RR", link: str | None = None) -> Step:
     """Put a binary link between two places; F falls by one.
 
     Args:
@@ -93,14 +93,14 @@ def insert_coupler(chain: Chain, between: Sequence[Place], pairs: str = "RR", li
     R(0-1) R(1-2) R(2-3) R(3-4) R(4-0) R(1-5) R(5-4)
     """
     check_counting(chain)
-    first, last = pairs_of(pairs, 2, "coupler")
+    first, last = pairs_from_letters(pairs, 2, "coupler")
     one, other = _two(between)
-    spread(chain, [one, other], "coupler")
-    (x,) = fresh_names(chain, 1, None if link is None else [link])
-    sketch = Sketch(chain)
+    check_not_on_one_link(chain, [one, other], "coupler")
+    (x,) = new_link_names(chain, 1, None if link is None else [link])
+    sketch = ChainBuilder(chain)
     sketch.attach(one, first, [x])
     sketch.attach(other, last, [x], last=True)
-    where = {"between": [one, other], "pairs": letters_of((first, last)), "link": x}
+    where = {"between": [one, other], "pairs": letters_of_pairs((first, last)), "link": x}
     return Step("insert_coupler", where, chain, sketch.done([x]))
 
 
@@ -127,7 +127,7 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
         )
     (first,) = (k for k in joints[x] if k not in middle)
     (last,) = (k for k in joints[y] if k not in middle)
-    letters = letters_of(chain.joints[k].pair for k in (first, middle[0], last))
+    letters = letters_of_pairs(chain.joints[k].pair for k in (first, middle[0], last))
     if letters not in DYADS and (letters or "")[::-1] not in DYADS:
         kinds = ", ".join(chain.joints[k].pair.name for k in (first, middle[0], last))
         raise TransformationError(
@@ -140,7 +140,7 @@ def coupler_at(chain: Chain, link: str) -> Insertion:
     """How this coupler can be inserted again; `TransformationError` if it is none."""
     check_counting(chain)
     first, last = _two_joints(chain, link, "coupler")
-    letters = letters_of(chain.joints[k].pair for k in (first, last))
+    letters = letters_of_pairs(chain.joints[k].pair for k in (first, last))
     if letters is None:
         kinds = " and ".join(chain.joints[k].pair.name for k in (first, last))
         raise TransformationError(f"{link} is no coupler: its joints must have one freedom each, and they are {kinds}")
@@ -155,8 +155,8 @@ def _insertion(chain: Chain, letters: str, links: tuple[str, ...], ends: tuple[i
             f"{' and '.join(links)} {'is' if len(links) == 1 else 'are'} no {thing} between different links: both ends "
             f"are on {both!r}"
         )
-    rest, number = without(chain, links)
-    places: list[Place] = [
+    rest, number = without_links(chain, links)
+    places: list[Attachment] = [
         outside[0] if len(outside) == 1 else number[k] for k, outside in zip(ends, spread_links, strict=True)
     ]
     return Insertion(letters, (places[0], places[1]), links, rest)
@@ -174,7 +174,7 @@ def _joints(number: int) -> str:
     return "one joint" if number == 1 else f"{number} joints"
 
 
-def _two(between: Sequence[Place]) -> tuple[Place, Place]:
+def _two(between: Sequence[Attachment]) -> tuple[Attachment, Attachment]:
     if isinstance(between, str) or len(between) != 2:
         raise TransformationError("expected two places: names of links or numbers of joints")
     return between[0], between[1]

@@ -10,10 +10,10 @@ from gruebler.chain import Chain
 from gruebler.errors import TransformationError
 from gruebler.isomorphism import code
 from gruebler.transformations.dyads import insert_coupler, insert_dyad
-from gruebler.transformations.places import Place, links_at
+from gruebler.transformations.places import Attachment, links_at
 from gruebler.transformations.steps import Step
 
-__all__ = ["Extension", "extend", "grown"]
+__all__ = ["Extension", "extend", "grow_family"]
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class Extension:
     code: str
     step: Step
     """The first of the ways to it."""
-    places: tuple[tuple[Place, Place], ...]
+    places: tuple[tuple[Attachment, Attachment], ...]
 
     @property
     def chain(self) -> Chain:
@@ -52,10 +52,10 @@ def extend(
     if (dyad is None) == (coupler is None):
         raise TransformationError("say what extends the chain: a dyad of some form, or a coupler")
     word = (dyad or coupler or "").upper()
-    places: list[Place] = [*chain.links]
+    places: list[Attachment] = [*chain.links]
     if at_joints:
         places += [k for k, joint in enumerate(chain.joints) if joint.pair.is_group]
-    found: dict[str, tuple[Step, list[tuple[Place, Place]]]] = {}
+    found: dict[str, tuple[Step, list[tuple[Attachment, Attachment]]]] = {}
     number = {place: k for k, place in enumerate(places)}
     for one, other in permutations(places, 2):
         if (word == word[::-1] and number[one] > number[other]) or _share_a_link(chain, one, other):
@@ -70,15 +70,15 @@ def extend(
     return [Extension(key, step, tuple(where)) for key, (step, where) in found.items()]
 
 
-def _share_a_link(chain: Chain, one: Place, other: Place) -> bool:
+def _share_a_link(chain: Chain, one: Attachment, other: Attachment) -> bool:
     return not set(links_at(chain, one)).isdisjoint(links_at(chain, other))
 
 
-def grown(start: Chain, links: int, forms: Iterable[str] = ("RRR",)) -> Iterator[Chain]:
+def grow_family(start: Chain, links: int, forms: Iterable[str] = ("RRR",)) -> Iterator[Chain]:
     """All chains with so many links that grow from a chain by dyads of these forms, each structure once.
 
     >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
-    >>> [len(list(grown(four_bar, n))) for n in (4, 6, 7, 8)]
+    >>> [len(list(grow_family(four_bar, n))) for n in (4, 6, 7, 8)]
     [1, 2, 0, 12]
     """
     wanted = list(forms)

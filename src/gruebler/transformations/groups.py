@@ -7,14 +7,21 @@ from collections.abc import Sequence
 from gruebler.assur import AssurGroup
 from gruebler.chain import Chain
 from gruebler.errors import ChainError, TransformationError
-from gruebler.transformations.places import Place, Sketch, check_counting, fresh_names, spread, without
+from gruebler.transformations.places import (
+    Attachment,
+    ChainBuilder,
+    check_counting,
+    check_not_on_one_link,
+    new_link_names,
+    without_links,
+)
 from gruebler.transformations.steps import Step
 
 __all__ = ["insert_group", "remove_group"]
 
 
 def insert_group(
-    chain: Chain, group: AssurGroup | str, at: Sequence[Place], links: Sequence[str] | None = None
+    chain: Chain, group: AssurGroup | str, at: Sequence[Attachment], links: Sequence[str] | None = None
 ) -> Step:
     """Attach an Assur group; F stays.
 
@@ -34,11 +41,11 @@ def insert_group(
         group = AssurGroup.parse(group)
     if len(at) != len(group.places):
         raise TransformationError(f"the group has {len(group.places)} places outside; {len(at)} were given")
-    spread(chain, at, "group")
-    names = fresh_names(chain, len(group.links), links)
+    check_not_on_one_link(chain, at, "group")
+    names = new_link_names(chain, len(group.links), links)
     new = dict(zip(group.links, names, strict=True))
     outside = dict(zip(group.places, at, strict=True))
-    sketch = Sketch(chain)
+    sketch = ChainBuilder(chain)
     for joint in group.chain.joints:
         mine = [new[link] for link in joint.links if link in new]
         place = next((outside[link] for link in joint.links if link in outside), None)
@@ -84,4 +91,4 @@ def remove_group(chain: Chain, links: Sequence[str]) -> Step:
     shared = set.intersection(*outside)
     if shared:
         raise TransformationError(f"the group is attached to the link {min(shared)!r} alone: it is rigid against it")
-    return Step("remove_group", {"links": list(links)}, chain, without(chain, links)[0])
+    return Step("remove_group", {"links": list(links)}, chain, without_links(chain, links)[0])

@@ -15,7 +15,7 @@ from gruebler.errors import TransformationError
 from gruebler.mobility import counted, generic
 from gruebler.transformations.derivations import Derivation
 from gruebler.transformations.dyads import Insertion, dyad_at
-from gruebler.transformations.places import Place
+from gruebler.transformations.places import Attachment
 
 __all__ = ["Growth", "derive", "is_loop", "removable_dyads"]
 
@@ -123,7 +123,7 @@ def derive(chain: Chain) -> Growth:
     return Growth(chain, way, complete or is_loop(way.start))
 
 
-def _same_place(chain: Chain, place: Place, other: Chain) -> Place:
+def _same_place(chain: Chain, place: Attachment, other: Chain) -> Attachment:
     """The place in an equal chain with its joints in another order."""
     if isinstance(place, str):
         return place

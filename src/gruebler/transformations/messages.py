@@ -11,7 +11,7 @@ from gruebler.mobility import counted
 if TYPE_CHECKING:
     from gruebler.transformations.derivations import Derivation
     from gruebler.transformations.growth import Growth
-    from gruebler.transformations.places import Place
+    from gruebler.transformations.places import Attachment
     from gruebler.transformations.steps import Step
 
 __all__ = ["explain_derivation", "explain_growth", "explain_step"]
@@ -93,7 +93,7 @@ def explain_step(step: Step, lang: str) -> str:
     words, where = _STEPS[lang], dict(step.where)
     names = step.before.joint_names(_alphabet(lang))
 
-    def said(place: Place) -> str:
+    def said(place: Attachment) -> str:
         return place if isinstance(place, str) else words["place"].format(joint=names[place])
 
     values = {key: str(value) for key, value in where.items()}

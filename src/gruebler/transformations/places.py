@@ -14,18 +14,18 @@ from gruebler.chain.pairs import Pair, pair
 from gruebler.errors import ChainError, TransformationError
 
 __all__ = [
-    "Place",
-    "Sketch",
+    "Attachment",
+    "ChainBuilder",
     "check_counting",
-    "fresh_names",
-    "letters_of",
+    "check_not_on_one_link",
+    "letters_of_pairs",
     "links_at",
-    "pairs_of",
-    "spread",
-    "without",
+    "new_link_names",
+    "pairs_from_letters",
+    "without_links",
 ]
 
-Place = str | int
+Attachment = str | int
 
 _PAIRS = {"R": "revolute", "P": "prismatic", "W": "rolling"}
 _GERMAN = {"D": "R", "S": "P"}
@@ -39,7 +39,7 @@ def check_counting(chain: Chain) -> None:
         )
 
 
-def pairs_of(letters: str, number: int, thing: str) -> tuple[Pair, ...]:
+def pairs_from_letters(letters: str, number: int, thing: str) -> tuple[Pair, ...]:
     """The pairs of a word such as RRP (German DDS), all with one freedom."""
     word = "".join(_GERMAN.get(letter, letter) for letter in letters.strip().upper())
     if len(word) != number or not set(word) <= set(_PAIRS):
@@ -49,14 +49,14 @@ def pairs_of(letters: str, number: int, thing: str) -> tuple[Pair, ...]:
     return tuple(pair(_PAIRS[letter]) for letter in word)
 
 
-def letters_of(pairs: Iterable[Pair]) -> str | None:
+def letters_of_pairs(pairs: Iterable[Pair]) -> str | None:
     """The word of these pairs, or None if one of them has no letter here."""
     known = {name: letter for letter, name in _PAIRS.items()}
     letters = [known.get(p.name) for p in pairs]
     return "".join(letter for letter in letters if letter) if all(letters) else None
 
 
-def links_at(chain: Chain, place: Place) -> tuple[str, ...]:
+def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:
     """The links to which a place belongs; `TransformationError` for a joint that the chain does not have."""
     if isinstance(place, str):
         chain.index(place)
@@ -68,7 +68,7 @@ def links_at(chain: Chain, place: Place) -> tuple[str, ...]:
     return chain.joints[place].links
 
 
-def spread(chain: Chain, places: Sequence[Place], thing: str) -> None:
+def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], thing: str) -> None:
     """Refuse places that all lie on one link: what is attached there cannot move against it."""
     joints = [place for place in places if not isinstance(place, str)]
     if len(set(joints)) < len(joints):
@@ -81,7 +81,7 @@ def spread(chain: Chain, places: Sequence[Place], thing: str) -> None:
         )
 
 
-def fresh_names(chain: Chain, number: int, wished: Sequence[str] | None) -> list[str]:
+def new_link_names(chain: Chain, number: int, wished: Sequence[str] | None) -> list[str]:
     """Names for new links: those wished for if they are new, else the lowest whole numbers that no link has."""
     if wished is None:
         free = (str(k) for k in count() if str(k) not in chain.links)
@@ -97,7 +97,7 @@ def fresh_names(chain: Chain, number: int, wished: Sequence[str] | None) -> list
     return names
 
 
-class Sketch:
+class ChainBuilder:
     """A chain on its way to the next one: joints that can still change."""
 
     def __init__(self, chain: Chain) -> None:
@@ -109,7 +109,7 @@ class Sketch:
         """A new joint."""
         self.joints.append((kind, list(links)))
 
-    def attach(self, place: Place, kind: Pair, links: Sequence[str], *, last: bool = False) -> None:
+    def attach(self, place: Attachment, kind: Pair, links: Sequence[str], *, last: bool = False) -> None:
         """Join new links to a place: by a new joint with a link, written first or last, or as more links of a joint."""
         if isinstance(place, str):
             self.add(kind, [*links, place] if last else [place, *links])
@@ -126,7 +126,7 @@ class Sketch:
         return Chain(self.joints, links=[*self.chain.links, *new], space=self.chain.space)
 
 
-def without(chain: Chain, links: Sequence[str]) -> tuple[Chain, dict[int, int]]:
+def without_links(chain: Chain, links: Sequence[str]) -> tuple[Chain, dict[int, int]]:
     """The chain without these links, and the new number of each joint that is left.
 
     Raises `TransformationError` if what is left is not a chain.

@@ -2,17 +2,17 @@
 
 from gruebler.type_synthesis.assignment import assignments, every_joint_moves, joint_types
 from gruebler.type_synthesis.contacts import with_contacts
-from gruebler.type_synthesis.estimates import expected_seconds
-from gruebler.type_synthesis.requirements import Place, Requirements, Wanted
+from gruebler.type_synthesis.estimates import expected_seconds_of_variants
+from gruebler.type_synthesis.requirements import JointLocation, JointRequirement, Requirements
 from gruebler.type_synthesis.selection import typed_chains, variants
 
 __all__ = [
-    "Place",
+    "JointLocation",
+    "JointRequirement",
     "Requirements",
-    "Wanted",
     "assignments",
     "every_joint_moves",
-    "expected_seconds",
+    "expected_seconds_of_variants",
     "joint_types",
     "typed_chains",
     "variants",

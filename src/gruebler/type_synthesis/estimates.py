@@ -6,7 +6,7 @@ from math import comb
 
 from gruebler.type_synthesis.requirements import Requirements
 
-__all__ = ["expected_seconds"]
+__all__ = ["expected_seconds_of_variants"]
 
 # Seconds on one core, measured on chains of eight and ten links.
 _CHAIN = 1e-3
@@ -16,7 +16,7 @@ _FRAME = 3e-4
 _DRIVEN = 1e-3  # a frame with its drives, whether they fix the motion
 
 
-def expected_seconds(wanted: Requirements, *, mechanisms: bool, drives: bool) -> float:
+def expected_seconds_of_variants(wanted: Requirements, *, mechanisms: bool, drives: bool) -> float:
     """About how long `variants` takes, to a factor of three or so; symmetry makes it shorter.
 
     Args:
@@ -26,18 +26,18 @@ def expected_seconds(wanted: Requirements, *, mechanisms: bool, drives: bool) ->
 
     Every way to put the pairs on the joints of every chain is tried.
 
-    >>> few = expected_seconds(Requirements(6, prismatic=2), mechanisms=False, drives=False)
-    >>> many = expected_seconds(Requirements(10, prismatic=5), mechanisms=False, drives=False)
+    >>> few = expected_seconds_of_variants(Requirements(6, prismatic=2), mechanisms=False, drives=False)
+    >>> many = expected_seconds_of_variants(Requirements(10, prismatic=5), mechanisms=False, drives=False)
     >>> few < 1, many > 100
     (True, True)
     """
-    from gruebler.enumeration.assortment import joint_number
+    from gruebler.enumeration.assortment import joint_count
     from gruebler.enumeration.estimates import expected_chains
     from gruebler.enumeration.request import Request
 
     links = wanted.links + wanted.roll_slide
     chains, _ = expected_chains(Request(links, wanted.mobility, "all", None, wanted.multiple_joints))
-    simple = (joint_number(links, wanted.mobility) or 0) - 2 * (wanted.multiple_joints + wanted.roll_slide)
+    simple = (joint_count(links, wanted.mobility) or 0) - 2 * (wanted.multiple_joints + wanted.roll_slide)
     left = max(0, simple - wanted.prismatic)
     typed = (
         chains * comb(links, wanted.roll_slide) * comb(max(0, simple), wanted.prismatic) * comb(left, wanted.rolling)

@@ -9,12 +9,12 @@ from enum import StrEnum
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import PAIRS, Pair, pair
 from gruebler.errors import GrueblerError
-from gruebler.mechanism.inversion import Driven
+from gruebler.mechanism.inversion import DrivenMechanism
 
-__all__ = ["Place", "Requirements", "Wanted"]
+__all__ = ["JointLocation", "JointRequirement", "Requirements"]
 
 
-class Place(StrEnum):
+class JointLocation(StrEnum):
     """Where a joint is: at the frame, between moving links, or anywhere."""
 
     FRAME = "frame"
@@ -23,36 +23,36 @@ class Place(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class JointRequirement:
     """A kind of joint at a place: ``R@frame``, ``P@moving``, ``P``, ``@frame``."""
 
     pairs: frozenset[Pair] | None
     """Any of these pairs; None: whatever pair."""
-    place: Place
+    place: JointLocation
 
     @classmethod
-    def parse(cls, text: str) -> Wanted:
+    def parse(cls, text: str) -> JointRequirement:
         """Read ``PAIR@PLACE``; either part may be missing.
 
-        >>> Wanted.parse("P@moving").place
-        <Place.MOVING: 'moving'>
+        >>> JointRequirement.parse("P@moving").place
+        <JointLocation.MOVING: 'moving'>
         """
         match = re.fullmatch(r"(\w*)(?:@(\w+))?", text.strip())
         if match is None or not text.strip():
             raise GrueblerError(f"{text!r} is not PAIR@PLACE such as R@frame, P@moving or P")
         symbol, place = match[1], match[2] or "any"
-        if place not in set(Place):
+        if place not in set(JointLocation):
             raise GrueblerError(f"{text!r}: the place is frame, moving or any, not {place!r}")
         meant = None
         if symbol and symbol != "any":
             meant = frozenset(p for p in PAIRS if symbol in p.symbols.values()) or frozenset({pair(symbol)})
-        return cls(meant, Place(place))
+        return cls(meant, JointLocation(place))
 
     def fits(self, joint: Joint, frame: str) -> bool:
         """Whether the joint is of the kind and at the place, given the frame."""
         at_frame = frame in joint.links
         return (self.pairs is None or joint.pair in self.pairs) and (
-            self.place is Place.ANY or at_frame == (self.place is Place.FRAME)
+            self.place is JointLocation.ANY or at_frame == (self.place is JointLocation.FRAME)
         )
 
 
@@ -70,12 +70,12 @@ class Requirements:
     """The numbers of binary, ternary, ... links of the typed chain."""
     multiple_joints: int = 0
     """Exactly so many joints of more than two links."""
-    drives: tuple[Wanted, ...] = ()
-    at_frame: tuple[tuple[Wanted, int], ...] = ()
+    drives: tuple[JointRequirement, ...] = ()
+    at_frame: tuple[tuple[JointRequirement, int], ...] = ()
     """At least so many joints of the kind at the frame."""
     frame_joints: int | None = None
     """The number of joints on the frame: 3 for a ternary frame."""
-    output: Wanted | None = None
+    output: JointRequirement | None = None
     """The joint that joins the output link to the frame (place frame), or to none of the frame (place moving)."""
     output_at_drive: bool | None = None
     """Whether the output link may or must not (False) be a neighbour of a driven link."""
@@ -97,7 +97,7 @@ class Requirements:
             sum(wanted.fits(joint, frame) for joint in mine) >= number for wanted, number in self.at_frame
         )
 
-    def fits_driven(self, driven: Driven) -> bool:
+    def fits_driven(self, driven: DrivenMechanism) -> bool:
         """Whether drives and output are as wanted."""
         chain, frame = driven.mechanism.chain, driven.mechanism.frame
         joints = [chain.joints[d.joint] for d in driven.mechanism.drives]
@@ -114,12 +114,12 @@ class Requirements:
 
     def _output_fits(self, out: tuple[Joint, ...], frame: str) -> bool:
         assert self.output is not None  # asked only then
-        if self.output.place is Place.MOVING and any(frame in joint.links for joint in out):
+        if self.output.place is JointLocation.MOVING and any(frame in joint.links for joint in out):
             return False
         return any(self.output.fits(joint, frame) for joint in out)
 
 
-def _matched(wanted: list[Wanted], joints: list[Joint], frame: str) -> bool:
+def _matched(wanted: list[JointRequirement], joints: list[Joint], frame: str) -> bool:
     """Whether the drives can be told off to the wanted kinds one by one."""
     if not wanted:
         return True

@@ -8,10 +8,10 @@ from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Mechanism, check_drives
-from gruebler.mechanism.inversion import Driven, driven_mechanisms, inversions
+from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.type_synthesis.assignment import assignments, every_joint_moves
 from gruebler.type_synthesis.contacts import with_contacts
-from gruebler.type_synthesis.requirements import Place, Requirements
+from gruebler.type_synthesis.requirements import JointLocation, Requirements
 
 __all__ = ["typed_chains", "variants"]
 
@@ -42,7 +42,7 @@ def typed_chains(wanted: Requirements) -> Iterator[Chain]:
                     yield typed
 
 
-def variants(wanted: Requirements) -> Iterator[Chain | Driven]:
+def variants(wanted: Requirements) -> Iterator[Chain | DrivenMechanism]:
     """Everything that answers the requirements: typed chains, or mechanisms where frame, drive or output matter.
 
     Drives fix the motion: as many as the mobility, none against another.
@@ -51,15 +51,15 @@ def variants(wanted: Requirements) -> Iterator[Chain | Driven]:
         if not wanted.about_mechanisms:
             yield chain
         elif not wanted.about_drives:
-            yield from (Driven(m) for m in inversions(chain) if wanted.fits_frame(chain, m.frame))
+            yield from (DrivenMechanism(m) for m in inversions(chain) if wanted.fits_frame(chain, m.frame))
         else:
             yield from _driven(chain, wanted)
 
 
-def _driven(chain: Chain, wanted: Requirements) -> Iterator[Driven]:
+def _driven(chain: Chain, wanted: Requirements) -> Iterator[DrivenMechanism]:
     if wanted.drives and len(wanted.drives) != wanted.mobility:
         raise GrueblerError(f"mobility {wanted.mobility} takes as many drives, not {len(wanted.drives)}")
-    at_frame = all(d.place is Place.FRAME for d in wanted.drives)
+    at_frame = all(d.place is JointLocation.FRAME for d in wanted.drives)
     with_output = wanted.output is not None or wanted.output_at_drive is not None
     fixed: dict[Mechanism, bool] = {}
     for driven in driven_mechanisms(chain, drives=wanted.mobility, at_frame=at_frame, output=with_output):

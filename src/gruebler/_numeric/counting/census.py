@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.counting.packed_graph import NODES, Labels, label, make_labels
-from gruebler._numeric.counting.string_blocks import BlockTables, Counter, block_tables, make_counter
+from gruebler._numeric.counting.packed_graph import NODES, LabelMemory, label_packed, make_label_memory
+from gruebler._numeric.counting.string_blocks import BlockTables, CounterMemory, block_tables, make_counter_memory
 from gruebler._numeric.counting.string_count import FOUND, LINK_CLASSES, count_strings
-from gruebler._numeric.counting.strings import Frame, Values, make_frame, make_values, survey_strings
+from gruebler._numeric.counting.strings import PreparedGraph, Values, make_prepared_graph, make_values, survey_strings
 
 Int64 = NDArray[np.int64]
 
@@ -30,35 +30,35 @@ DIGITS: Final = 5  # bits of each number in DEGREES
 LARGEST: Final = 9.2e18
 
 
-class Bench(NamedTuple):
+class CensusMemory(NamedTuple):
     """Everything `take_census` needs besides the graphs."""
 
-    frame: Frame
+    frame: PreparedGraph
     values: Values
     pair_values: Values  # for two nodes alone, where F = 0 allows c = 3
-    counter: Counter
+    counter: CounterMemory
     tables: BlockTables
-    labels: Labels
+    labels: LabelMemory
     image: Int64
     totals: Int64
 
 
-def make_bench(loops: int, mobility: int) -> Bench:
+def make_census_memory(loops: int, mobility: int) -> CensusMemory:
     """Memory and tables for contracted graphs of so many loops and chains of this mobility."""
-    return Bench(
-        frame=make_frame(),
+    return CensusMemory(
+        frame=make_prepared_graph(),
         values=make_values(loops + 1, mobility),
         pair_values=make_values(loops + 1, mobility, 3 if mobility == 0 else 2),
-        counter=make_counter(),
+        counter=make_counter_memory(),
         tables=block_tables(),
-        labels=make_labels(),
+        labels=make_label_memory(),
         image=np.zeros(NODES, np.int64),
         totals=np.zeros(4, np.int64),
     )
 
 
 @njit(cache=True)
-def _automorphism(n: int, g: int, labels: Labels, image: Int64) -> int:
+def _automorphism(n: int, g: int, labels: LabelMemory, image: Int64) -> int:
     """Write out one automorphism; returns the number of nodes it leaves in place."""
     fixed = 0
     for i in range(n):
@@ -69,14 +69,14 @@ def _automorphism(n: int, g: int, labels: Labels, image: Int64) -> int:
 
 
 @njit(cache=True, nogil=True)
-def take_census(graphs: Int64, mobility: int, orbits: bool, bench: Bench, out: Int64) -> None:
+def take_census(graphs: Int64, mobility: int, orbits: bool, bench: CensusMemory, out: Int64) -> None:
     """Count the chains of each contracted graph.
 
     Args:
         graphs: int64[k, nodes], packed graphs.
         mobility: F of the chains; the number of their links is 2 * loops + 1 + F.
         orbits: whether to fill the last three columns.
-        bench: from `make_bench`, for the number of loops and the mobility.
+        bench: from `make_census_memory`, for the number of loops and the mobility.
         out: int64[k, COLUMNS].
 
     Raises:
@@ -87,7 +87,7 @@ def take_census(graphs: Int64, mobility: int, orbits: bool, bench: Bench, out: I
     for k in range(graphs.shape[0]):
         rows = graphs[k]
         n, bundles, sets = survey_strings(rows, frame)
-        group = label(n, frame.near, rows, labels)
+        group = label_packed(n, frame.near, rows, labels)
         degrees = 0
         for v in range(n):
             degrees += 1 << (DIGITS * (frame.degree[v] - 3))

@@ -11,15 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.counting.packed_graph import GROUP, NODES, Labels, label, make_labels
+from gruebler._numeric.counting.packed_graph import GROUP, NODES, LabelMemory, label_packed, make_label_memory
 from gruebler._numeric.counting.strings import (
     LANES,
-    Frame,
+    PreparedGraph,
     Values,
-    Walk,
-    make_frame,
+    WalkMemory,
+    make_prepared_graph,
     make_values,
-    make_walk,
+    make_walk_memory,
     next_strings,
     set_budgets,
     survey_strings,
@@ -28,7 +28,7 @@ from gruebler._numeric.counting.strings import (
 Int64 = NDArray[np.int64]
 UInt8 = NDArray[np.uint8]
 
-# Entries of `Desk.state`, which lets a listing go on where the last block was full.
+# Entries of `ListMemory.state`, which lets a listing go on where the last block was full.
 GRAPH: Final = 0  # the graph to go on with
 OPENED: Final = 1  # 1 if it is already in the frame
 ORDER: Final = 2  # its nodes, bundles, words of budgets, automorphisms
@@ -37,27 +37,27 @@ WORDS: Final = 4
 SYMMETRIES: Final = 5
 
 
-class Desk(NamedTuple):
+class ListMemory(NamedTuple):
     """Everything `list_chains` needs besides the graphs."""
 
-    frame: Frame
+    frame: PreparedGraph
     values: Values
     pair_values: Values  # for two nodes alone, where F = 0 allows c = 3
-    walk: Walk
-    labels: Labels
+    walk: WalkMemory
+    labels: LabelMemory
     image: Int64  # node -> its image
     images: Int64  # (automorphism, bundle): its image
     state: Int64
 
 
-def make_desk(loops: int, mobility: int) -> Desk:
+def make_list_memory(loops: int, mobility: int) -> ListMemory:
     """Memory and tables for contracted graphs of so many loops and chains of this mobility."""
-    return Desk(
-        frame=make_frame(),
+    return ListMemory(
+        frame=make_prepared_graph(),
         values=make_values(loops + 1, mobility),
         pair_values=make_values(loops + 1, mobility, 3 if mobility == 0 else 2),
-        walk=make_walk(),
-        labels=make_labels(),
+        walk=make_walk_memory(),
+        labels=make_label_memory(),
         image=np.zeros(NODES, np.int64),
         images=np.zeros((GROUP, LANES), np.int64),
         state=np.zeros(6, np.int64),
@@ -65,11 +65,11 @@ def make_desk(loops: int, mobility: int) -> Desk:
 
 
 @njit(cache=True)
-def _open(rows: Int64, mobility: int, desk: Desk) -> None:
+def _open(rows: Int64, mobility: int, desk: ListMemory) -> None:
     """Lay a contracted graph on the desk, before its first assignment."""
     frame, labels, image, state = desk.frame, desk.labels, desk.image, desk.state
     n, bundles, sets = survey_strings(rows, frame)
-    group = label(n, frame.near, rows, labels)
+    group = label_packed(n, frame.near, rows, labels)
     for g in range(group):
         for i in range(n):
             image[labels.leaves[0, i]] = labels.leaves[g, i]
@@ -99,7 +99,7 @@ def _is_first(bundles: int, group: int, images: Int64, value: Int64) -> bool:
 
 
 @njit(cache=True)
-def _write(n: int, bundles: int, frame: Frame, weights: Int64, value: Int64, out: UInt8) -> None:
+def _write(n: int, bundles: int, frame: PreparedGraph, weights: Int64, value: Int64, out: UInt8) -> None:
     """The edges of one chain: string by string, binary links numbered from n on as they come."""
     fresh = n
     joint = 0
@@ -119,13 +119,13 @@ def _write(n: int, bundles: int, frame: Frame, weights: Int64, value: Int64, out
 
 
 @njit(cache=True, nogil=True)
-def list_chains(graphs: Int64, mobility: int, desk: Desk, out: UInt8) -> int:
+def list_chains(graphs: Int64, mobility: int, desk: ListMemory, out: UInt8) -> int:
     """Write out the chains of contracted graphs until they are done or the room is full.
 
     Args:
         graphs: int64[k, nodes], packed canonical graphs of one number of loops.
         mobility: F.
-        desk: from `make_desk`; its state, 0 at the beginning, says where to go on.
+        desk: from `make_list_memory`; its state, 0 at the beginning, says where to go on.
         out: uint8[m, joints, 2], filled with edges; the links of a chain are the nodes of its contracted graph
             and then the binary links, string by string in the order of bundles.
 

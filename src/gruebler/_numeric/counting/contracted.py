@@ -20,14 +20,14 @@ from gruebler._numeric.counting.packed_graph import (
     GROUP,
     MIX,
     NODES,
-    Labels,
-    label,
-    make_labels,
+    LabelMemory,
+    bundle_strings,
+    is_removable,
+    label_packed,
+    make_label_memory,
     order_of,
-    removable,
-    set_strings,
-    strings,
-    survey,
+    set_bundle_strings,
+    survey_graph,
 )
 
 Int64 = NDArray[np.int64]
@@ -36,8 +36,8 @@ BUNDLES: Final = 40  # pairs of adjacent vertices there is room for; nine loops 
 CHILDREN: Final = 1024  # graphs that one graph can grow into; 21 bundles and 14 vertices give at most 651
 
 
-class Nursery(NamedTuple):
-    """Memory of `grow`: the parent, its bundles and their symmetry, and the child under trial."""
+class GrowthMemory(NamedTuple):
+    """Memory of `add_loop`: the parent, its bundles and their symmetry, and the child under trial."""
 
     rows: Int64
     near: Int64
@@ -52,12 +52,12 @@ class Nursery(NamedTuple):
     child_degree: Int64
     hash: Int64  # (2, vertex)
     rivals: Int64  # (2, rival): other edges that the rule likes as well as the new one
-    labels: Labels
+    labels: LabelMemory
 
 
-def make_nursery() -> Nursery:
-    """Memory for `grow`."""
-    return Nursery(
+def make_growth_memory() -> GrowthMemory:
+    """Memory for `add_loop`."""
+    return GrowthMemory(
         rows=np.zeros(NODES, np.int64),
         near=np.zeros(NODES, np.int64),
         degree=np.zeros(NODES, np.int64),
@@ -71,27 +71,27 @@ def make_nursery() -> Nursery:
         child_degree=np.zeros(NODES, np.int64),
         hash=np.zeros((2, NODES), np.int64),
         rivals=np.zeros((2, BUNDLES), np.int64),
-        labels=make_labels(),
+        labels=make_label_memory(),
     )
 
 
 @njit(cache=True)
-def _prepare(n: int, memory: Nursery) -> tuple[int, int]:
+def _prepare(n: int, memory: GrowthMemory) -> tuple[int, int]:
     """Bundles and automorphisms of the parent; returns the numbers of both."""
     rows, ends, at, images, leaves = memory.rows, memory.ends, memory.at, memory.images, memory.labels.leaves
-    survey(n, rows, memory.near, memory.degree)
+    survey_graph(n, rows, memory.near, memory.degree)
     bundles = 0
     for v in range(n):
         for u in range(v):
-            if strings(rows, u, v):
+            if bundle_strings(rows, u, v):
                 ends[0, bundles] = u
                 ends[1, bundles] = v
-                memory.number[bundles] = strings(rows, u, v)
-                memory.kept[bundles] = 1 if removable(n, memory.near, rows, u, v) else 0
+                memory.number[bundles] = bundle_strings(rows, u, v)
+                memory.kept[bundles] = 1 if is_removable(n, memory.near, rows, u, v) else 0
                 at[u, v] = bundles
                 at[v, u] = bundles
                 bundles += 1
-    group = label(n, memory.near, rows, memory.labels)
+    group = label_packed(n, memory.near, rows, memory.labels)
     for g in range(group):
         for i in range(n):
             images[g, leaves[0, i]] = leaves[g, i]
@@ -107,7 +107,7 @@ def _rank(number: int, degrees: int) -> int:
 
 
 @njit(cache=True)
-def _outranked(n: int, bundles: int, p: int, q: int, rank: int, memory: Nursery) -> bool:
+def _outranked(n: int, bundles: int, p: int, q: int, rank: int, memory: GrowthMemory) -> bool:
     """Whether an old edge that the new one leaves alone is removable and preferred, seen without building.
 
     An edge removable before stays removable after an edge is added.
@@ -129,13 +129,13 @@ def _outranked(n: int, bundles: int, p: int, q: int, rank: int, memory: Nursery)
 def _halve(h: int, u: int, v: int, rows: Int64) -> None:
     """Put the new vertex h on one edge between u and v."""
     rows[h] = 0
-    set_strings(rows, u, v, strings(rows, u, v) - 1)
-    set_strings(rows, u, h, 1)
-    set_strings(rows, h, v, 1)
+    set_bundle_strings(rows, u, v, bundle_strings(rows, u, v) - 1)
+    set_bundle_strings(rows, u, h, 1)
+    set_bundle_strings(rows, h, v, 1)
 
 
 @njit(cache=True)
-def _build(n: int, p: int, q: int, same_string: bool, memory: Nursery) -> tuple[int, int, int]:
+def _build(n: int, p: int, q: int, same_string: bool, memory: GrowthMemory) -> tuple[int, int, int]:
     """Join two places by an edge; returns the order of the child and the ends of the new edge.
 
     A place is a vertex or a bundle, on which a vertex is put first. With p = q a bundle, the two new vertices
@@ -153,13 +153,13 @@ def _build(n: int, p: int, q: int, same_string: bool, memory: Nursery) -> tuple[
         y = h
         h += 1
         _halve(y, x if p == q and same_string else ends[0, q - n], ends[1, q - n], child)
-    set_strings(child, x, y, strings(child, x, y) + 1)
-    survey(h, child, memory.child_near, memory.child_degree)
+    set_bundle_strings(child, x, y, bundle_strings(child, x, y) + 1)
+    survey_graph(h, child, memory.child_near, memory.child_degree)
     return h, x, y
 
 
 @njit(cache=True)
-def _hash_vertices(n: int, memory: Nursery) -> None:
+def _hash_vertices(n: int, memory: GrowthMemory) -> None:
     """A word for every vertex of the child that sees two steps far; isomorphic places get equal words."""
     child, near, words, spare = memory.child, memory.child_near, memory.hash[0], memory.hash[1]
     for v in range(n):
@@ -171,7 +171,7 @@ def _hash_vertices(n: int, memory: Nursery) -> None:
             while bits:
                 u = lowest(bits)
                 bits &= bits - 1
-                mixed = (words[u] ^ MIX[strings(child, u, v)]) * 0x1F58476D1CE4E5B9
+                mixed = (words[u] ^ MIX[bundle_strings(child, u, v)]) * 0x1F58476D1CE4E5B9
                 total += mixed ^ ((mixed >> 29) & 0x7FFFFFFFF)
             spare[v] = words[v] * 31 + total
         for v in range(n):
@@ -179,17 +179,17 @@ def _hash_vertices(n: int, memory: Nursery) -> None:
 
 
 @njit(cache=True)
-def _rivals(h: int, x: int, y: int, rank: int, memory: Nursery) -> int:
+def _rivals(h: int, x: int, y: int, rank: int, memory: GrowthMemory) -> int:
     """The number of other edges as good as the new one by rank and hash; -1 if one of them is better."""
     child, near, degree, rivals = memory.child, memory.child_near, memory.child_degree, memory.rivals
     found = 0
     for v in range(h):
         for u in range(v):
-            number = strings(child, u, v)
+            number = bundle_strings(child, u, v)
             if number == 0 or (u == x and v == y) or (u == y and v == x):
                 continue
             other = _rank(number, degree[u] + degree[v])
-            if other > rank and removable(h, near, child, u, v):
+            if other > rank and is_removable(h, near, child, u, v):
                 return -1
             if other == rank:
                 rivals[0, found] = u
@@ -203,7 +203,7 @@ def _rivals(h: int, x: int, y: int, rank: int, memory: Nursery) -> int:
     kept = 0
     for i in range(found):
         u, v = rivals[0, i], rivals[1, i]
-        if words[u] + words[v] >= mine and removable(h, near, child, u, v):
+        if words[u] + words[v] >= mine and is_removable(h, near, child, u, v):
             if words[u] + words[v] > mine:
                 return -1
             rivals[0, kept] = u
@@ -213,7 +213,7 @@ def _rivals(h: int, x: int, y: int, rank: int, memory: Nursery) -> int:
 
 
 @njit(cache=True)
-def _preferred(h: int, x: int, y: int, rivals: int, group: int, memory: Nursery) -> bool:
+def _preferred(h: int, x: int, y: int, rivals: int, group: int, memory: GrowthMemory) -> bool:
     """Whether the new edge can be carried by an automorphism to the canonically first of its rivals."""
     leaves, place = memory.labels.leaves, memory.hash[1]
     for i in range(h):
@@ -246,14 +246,14 @@ def _least(p: int, q: int, group: int, images: Int64) -> bool:
 
 
 @njit(cache=True, nogil=True)
-def grow(parents: Int64, first: int, out: Int64, memory: Nursery) -> tuple[int, int]:
+def add_loop(parents: Int64, first: int, out: Int64, memory: GrowthMemory) -> tuple[int, int]:
     """The contracted graphs with one loop more that have their canonical parent in a list.
 
     Args:
         parents: int64[k, nodes], packed graphs of L loops, each isomorphism class once.
         first: the parent to begin with.
         out: int64[m, 16], filled with canonical rows; room for CHILDREN graphs at least.
-        memory: from `make_nursery`.
+        memory: from `make_growth_memory`.
 
     Returns:
         The number of graphs written, and the parent to go on with when `out` became too full for another one.
@@ -278,7 +278,7 @@ def grow(parents: Int64, first: int, out: Int64, memory: Nursery) -> tuple[int, 
                     continue
                 for kind in range(2 if p == q and number[q - n] > 1 else 1):
                     if q < n:
-                        rank = _rank(strings(memory.rows, p, q) + 1, degree[p] + degree[q] + 2)
+                        rank = _rank(bundle_strings(memory.rows, p, q) + 1, degree[p] + degree[q] + 2)
                     elif p < n:
                         touches = ends[0, q - n] == p or ends[1, q - n] == p
                         rank = _rank(2 if touches else 1, degree[p] + 4)
@@ -290,7 +290,7 @@ def grow(parents: Int64, first: int, out: Int64, memory: Nursery) -> tuple[int, 
                     rivals = _rivals(h, x, y, rank, memory)
                     if rivals < 0:
                         continue
-                    symmetries = label(h, memory.child_near, memory.child, memory.labels)
+                    symmetries = label_packed(h, memory.child_near, memory.child, memory.labels)
                     if rivals and not _preferred(h, x, y, rivals, symmetries, memory):
                         continue
                     for i in range(NODES):

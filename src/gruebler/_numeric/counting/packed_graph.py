@@ -42,7 +42,7 @@ def _mixers() -> Int64:
 MIX: Final = _mixers()
 
 
-class Labels(NamedTuple):
+class LabelMemory(NamedTuple):
     """Memory of one labelling; `best` and `leaves` hold its answer."""
 
     colours: Int64  # (level, vertex): first place of the cell of the vertex
@@ -53,9 +53,9 @@ class Labels(NamedTuple):
     leaves: Int64  # (automorphism, place): the vertex that a best leaf puts there
 
 
-def make_labels() -> Labels:
-    """Memory for `label`."""
-    return Labels(
+def make_label_memory() -> LabelMemory:
+    """Memory for `label_packed`."""
+    return LabelMemory(
         colours=np.zeros((NODES + 1, NODES), np.int64),
         orders=np.zeros((NODES + 1, NODES), np.int64),
         key=np.zeros(NODES, np.int64),
@@ -66,20 +66,20 @@ def make_labels() -> Labels:
 
 
 @njit(cache=True)
-def strings(rows: Int64, u: int, v: int) -> int:
+def bundle_strings(rows: Int64, u: int, v: int) -> int:
     """The number of edges between u and v."""
     return int((rows[u] >> (v << 2)) & 15)
 
 
 @njit(cache=True)
-def set_strings(rows: Int64, u: int, v: int, number: int) -> None:
+def set_bundle_strings(rows: Int64, u: int, v: int, number: int) -> None:
     """Let there be this number of edges between u and v."""
     rows[u] = (rows[u] & ~(15 << (v << 2))) | (number << (v << 2))
     rows[v] = (rows[v] & ~(15 << (u << 2))) | (number << (u << 2))
 
 
 @njit(cache=True)
-def survey(n: int, rows: Int64, near: Int64, degree: Int64) -> None:
+def survey_graph(n: int, rows: Int64, near: Int64, degree: Int64) -> None:
     """For every vertex the set of its neighbours, as bits, and its degree."""
     for v in range(n):
         row = rows[v]
@@ -144,7 +144,7 @@ def _refine(n: int, near: Int64, rows: Int64, colour: Int64, order: Int64, key: 
 
 
 @njit(cache=True)
-def _first_cells(n: int, rows: Int64, labels: Labels) -> int:
+def _first_cells(n: int, rows: Int64, labels: LabelMemory) -> int:
     """Cells of equal degree, the largest degree first; returns their number."""
     key, order, colour = labels.key, labels.orders[0], labels.colours[0]
     for v in range(n):
@@ -168,7 +168,9 @@ def _first_cells(n: int, rows: Int64, labels: Labels) -> int:
 
 
 @njit(cache=True)
-def _compare_leaf(n: int, near: Int64, rows: Int64, order: Int64, colour: Int64, labels: Labels, first: bool) -> int:
+def _compare_leaf(
+    n: int, near: Int64, rows: Int64, order: Int64, colour: Int64, labels: LabelMemory, first: bool
+) -> int:
     """1, 0, -1 if this leaf writes the graph with greater, the same, smaller rows than the best so far.
 
     The rows are compared as unsigned words; those of a greater leaf replace the best ones.
@@ -195,14 +197,14 @@ def _compare_leaf(n: int, near: Int64, rows: Int64, order: Int64, colour: Int64,
 
 
 @njit(cache=True)
-def label(n: int, near: Int64, rows: Int64, labels: Labels) -> int:
+def label_packed(n: int, near: Int64, rows: Int64, labels: LabelMemory) -> int:
     """Find the canonical rows and all automorphisms of a graph; returns the number of automorphisms.
 
     Args:
         n: number of vertices, 2 to 16.
-        near: int64[n], neighbours as bits, as `survey` gives them.
+        near: int64[n], neighbours as bits, as `survey_graph` gives them.
         rows: int64[n], the packed graph.
-        labels: from `make_labels`. Afterwards `labels.best` holds the canonical rows, degrees falling, and the
+        labels: from `make_label_memory`. Afterwards `labels.best` holds the canonical rows, degrees falling, and the
             automorphisms send `labels.leaves[0, i]` to `labels.leaves[k, i]`, the identity being k = 0.
 
     Raises:
@@ -264,7 +266,7 @@ def label(n: int, near: Int64, rows: Int64, labels: Labels) -> int:
 
 
 @njit(cache=True)
-def removable(n: int, near: Int64, rows: Int64, x: int, y: int) -> bool:
+def is_removable(n: int, near: Int64, rows: Int64, x: int, y: int) -> bool:
     """Whether a two-connected graph stays so without one of its edges between x and y.
 
     A vertex that then separates the graph lies on every path from x to y: only the vertices of one such path
@@ -298,20 +300,20 @@ def removable(n: int, near: Int64, rows: Int64, x: int, y: int) -> bool:
 
 def canonical_rows(rows: Int64) -> Int64:
     """int64[16]: the canonical rows of one packed graph."""
-    labels, near, degree = make_labels(), np.zeros(NODES, np.int64), np.zeros(NODES, np.int64)
+    labels, near, degree = make_label_memory(), np.zeros(NODES, np.int64), np.zeros(NODES, np.int64)
     n = order_of(rows)
-    for_work(survey, packed_labelling() / 10)(n, rows, near, degree)
-    for_work(label, packed_labelling())(n, near, rows, labels)
+    for_work(survey_graph, packed_labelling() / 10)(n, rows, near, degree)
+    for_work(label_packed, packed_labelling())(n, near, rows, labels)
     labels.best[n:] = 0
     return labels.best
 
 
 def find_automorphisms(rows: Int64) -> Int64:
     """int64[k, n]: the automorphisms of one packed graph, as images of its vertices."""
-    labels, near, degree = make_labels(), np.zeros(NODES, np.int64), np.zeros(NODES, np.int64)
+    labels, near, degree = make_label_memory(), np.zeros(NODES, np.int64), np.zeros(NODES, np.int64)
     n = order_of(rows)
-    for_work(survey, packed_labelling() / 10)(n, rows, near, degree)
-    found = for_work(label, packed_labelling())(n, near, rows, labels)
+    for_work(survey_graph, packed_labelling() / 10)(n, rows, near, degree)
+    found = for_work(label_packed, packed_labelling())(n, near, rows, labels)
     images = np.zeros((found, n), np.int64)
     images[:, labels.leaves[0, :n]] = labels.leaves[:found, :n]
     return images

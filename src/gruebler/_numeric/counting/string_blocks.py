@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.counting.bits import popcount
 from gruebler._numeric.counting.packed_graph import NODES
-from gruebler._numeric.counting.strings import LANES, MOST_SETS, Frame
+from gruebler._numeric.counting.strings import LANES, MOST_SETS, PreparedGraph
 
 Int64 = NDArray[np.int64]
 Float64 = NDArray[np.float64]
@@ -52,7 +52,7 @@ class BlockTables(NamedTuple):
     pattern: Int64  # (sum, assignment): c in unary, two bits a bundle
 
 
-class Counter(NamedTuple):
+class CounterMemory(NamedTuple):
     """Memory of `count_strings`. A lane is a place for a bundle: searched ones first, then those in blocks."""
 
     order: Int64  # lane -> bundle
@@ -93,9 +93,9 @@ def block_tables() -> BlockTables:
     return BlockTables(allowed.reshape(-1, STRIDE), zeros, pattern)
 
 
-def make_counter() -> Counter:
+def make_counter_memory() -> CounterMemory:
     """Memory for `count_strings`."""
-    return Counter(
+    return CounterMemory(
         order=np.zeros(LANES, np.int64),
         key=np.zeros(LANES, np.int64),
         place=np.zeros(NODES, np.int64),
@@ -136,7 +136,9 @@ def order_nodes(n: int, near: Int64, place: Int64) -> None:
 
 
 @njit(cache=True)
-def arrange(bundles: int, mobility: int, image: Int64, frame: Frame, memory: Counter) -> tuple[int, int, int]:
+def arrange_blocks(
+    bundles: int, mobility: int, image: Int64, frame: PreparedGraph, memory: CounterMemory
+) -> tuple[int, int, int]:
     """Give lanes to the bundles; returns the numbers of variables, searched lanes and levels.
 
     Searched: orbits of two and more bundles, bundles turned around, and bundles of several strings unless
@@ -245,7 +247,7 @@ def _demand_of_search(
 
 
 @njit(cache=True)
-def _clear_tests(mobility: int, variables: int, levels: int, tables: BlockTables, memory: Counter) -> None:
+def _clear_tests(mobility: int, variables: int, levels: int, tables: BlockTables, memory: CounterMemory) -> None:
     """No tests yet; only the lanes that a block lacks are 0, and with F = 0 no other ones."""
     for v in range(variables):
         memory.search_due[0, v] = 0
@@ -271,9 +273,9 @@ def place_tests(
     levels: int,
     target: int,
     mobility: int,
-    frame: Frame,
+    frame: PreparedGraph,
     tables: BlockTables,
-    memory: Counter,
+    memory: CounterMemory,
 ) -> None:
     """Turn every critical set into tests of the search and of blocks.
 

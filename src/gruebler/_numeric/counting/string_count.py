@@ -25,8 +25,8 @@ from gruebler._numeric.counting.string_blocks import (
     TURNED,
     WORDS,
     BlockTables,
-    Counter,
-    arrange,
+    CounterMemory,
+    arrange_blocks,
     order_nodes,
     place_tests,
 )
@@ -39,7 +39,7 @@ from gruebler._numeric.counting.strings import (
     MOST_SETS,
     TURNED_JOINTS,
     TURNED_LINKS,
-    Frame,
+    PreparedGraph,
     Values,
 )
 
@@ -63,9 +63,9 @@ def _add_orbits(
     searched: int,
     last: int,
     word: int,
-    frame: Frame,
+    frame: PreparedGraph,
     values: Values,
-    memory: Counter,
+    memory: CounterMemory,
     totals: Int64,
 ) -> None:
     """Add the classes of links, joints and flags of `many` assignments of the last block.
@@ -106,10 +106,10 @@ def _count_blocks(
     target: int,
     spare: int,
     orbits: bool,
-    frame: Frame,
+    frame: PreparedGraph,
     values: Values,
     tables: BlockTables,
-    memory: Counter,
+    memory: CounterMemory,
     totals: Int64,
 ) -> None:
     """Go through the blocks for one result of the search.
@@ -232,10 +232,10 @@ def count_strings(
     image: Int64,
     mobility: int,
     orbits: bool,
-    frame: Frame,
+    frame: PreparedGraph,
     values: Values,
     tables: BlockTables,
-    memory: Counter,
+    memory: CounterMemory,
     totals: Int64,
 ) -> None:
     """Count the assignments that an automorphism of the contracted graph leaves as they are.
@@ -260,7 +260,7 @@ def count_strings(
     target = 3 * n - 3 - mobility
     spare = max(mobility - 1, 0)
     order_nodes(n, frame.near, memory.place)
-    variables, searched, levels = arrange(bundles, mobility, image, frame, memory)
+    variables, searched, levels = arrange_blocks(bundles, mobility, image, frame, memory)
     place_tests(bundles, sets, variables, searched, levels, target, mobility, frame, tables, memory)
     variable, search, due, tests = memory.variable, memory.search, memory.search_due, memory.search_tests
     classes, size = values.classes, values.class_size

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.counting.bits import lowest, popcount
-from gruebler._numeric.counting.packed_graph import NODES, order_of, strings, survey
+from gruebler._numeric.counting.packed_graph import NODES, bundle_strings, order_of, survey_graph
 
 Int64 = NDArray[np.int64]
 
@@ -46,7 +46,7 @@ class Values(NamedTuple):
     ways: Int64  # (z, x): how an excess of x falls on z single strings
 
 
-class Frame(NamedTuple):
+class PreparedGraph(NamedTuple):
     """One contracted graph made ready: bundles in the order of graph6 columns, critical node sets."""
 
     near: Int64
@@ -58,7 +58,7 @@ class Frame(NamedTuple):
     sets: Int64  # (2, set): the node set, and 3|S| - 4
 
 
-class Walk(NamedTuple):
+class WalkMemory(NamedTuple):
     """Memory of `next_strings`.
 
     Every critical set has two budgets, of c within it and of 2 - c outside it; a budget is one byte of a
@@ -78,9 +78,9 @@ BUDGETS: Final = 2 * MOST_SETS // 8  # words that hold two bytes for every criti
 OVERDRAWN: Final = -0x7F7F7F7F7F7F7F80  # the sign bits of the eight bytes of a word
 
 
-def make_frame() -> Frame:
+def make_prepared_graph() -> PreparedGraph:
     """Memory for one contracted graph."""
-    return Frame(
+    return PreparedGraph(
         near=np.zeros(NODES, np.int64),
         degree=np.zeros(NODES, np.int64),
         ends=np.zeros((2, LANES), np.int64),
@@ -91,9 +91,9 @@ def make_frame() -> Frame:
     )
 
 
-def make_walk() -> Walk:
+def make_walk_memory() -> WalkMemory:
     """Memory for `next_strings`."""
-    return Walk(
+    return WalkMemory(
         inner=np.zeros((LANES, BUDGETS), np.int64),
         outer=np.zeros((LANES, BUDGETS), np.int64),
         budget=np.zeros((LANES + 1, BUDGETS), np.int64),
@@ -164,22 +164,22 @@ def make_values(most: int, mobility: int, highest: int = 2) -> Values:
 
 
 @njit(cache=True)
-def survey_strings(rows: Int64, frame: Frame) -> tuple[int, int, int]:
+def survey_strings(rows: Int64, frame: PreparedGraph) -> tuple[int, int, int]:
     """Read a packed graph into the frame; returns the numbers of nodes, bundles and critical sets.
 
     A set S of nodes, |S| >= 3, is critical if its bundles, c = 2 each, could break c(S) <= 3|S| - 4, and every
     node of S has at least two neighbours in S; the other sets follow from these. Cost O(2^nodes).
     """
     n = order_of(rows)
-    survey(n, rows, frame.near, frame.degree)
+    survey_graph(n, rows, frame.near, frame.degree)
     near, inside, sets = frame.near, frame.inside, frame.sets
     bundles = 0
     for v in range(n):
         for u in range(v):
-            if strings(rows, u, v):
+            if bundle_strings(rows, u, v):
                 frame.ends[0, bundles] = u
                 frame.ends[1, bundles] = v
-                frame.number[bundles] = strings(rows, u, v)
+                frame.number[bundles] = bundle_strings(rows, u, v)
                 frame.at[u, v] = bundles
                 frame.at[v, u] = bundles
                 bundles += 1
@@ -206,7 +206,7 @@ def survey_strings(rows: Int64, frame: Frame) -> tuple[int, int, int]:
 
 
 @njit(cache=True)
-def set_budgets(bundles: int, sets: int, target: int, frame: Frame, memory: Walk) -> int:
+def set_budgets(bundles: int, sets: int, target: int, frame: PreparedGraph, memory: WalkMemory) -> int:
     """Write down the budgets of the critical sets; returns the number of words they fill, -1 if none can hold.
 
     Since all c add up to the target at least, c(S) <= b leaves 2 - c outside S a budget of its own. It says
@@ -268,10 +268,10 @@ def next_strings(
         number: strings of the bundles.
         table: `Values.table`.
         size: `Values.size`.
-        inner: `Walk.inner`.
-        outer: `Walk.outer`.
-        budget: `Walk.budget`.
-        state: `Walk.state`; row 2 holds the numbers of the values.
+        inner: `WalkMemory.inner`.
+        outer: `WalkMemory.outer`.
+        budget: `WalkMemory.budget`.
+        state: `WalkMemory.state`; row 2 holds the numbers of the values.
 
     Returns:
         Whether there is one. Cost: about 100 ns.

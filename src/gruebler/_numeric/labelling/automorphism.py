@@ -48,7 +48,7 @@ from gruebler._numeric.labelling.partition import sort_words
 
 
 @njit(signature(COUNT, TABLE, COUNT, COUNT), cache=True)
-def root(rows: Int32, row: int, v: int) -> int:
+def orbit_root(rows: Int32, row: int, v: int) -> int:
     """Return the least vertex of the orbit of v in a forest kept in one row, and shorten the way to it."""
     while rows[row, v] != v:
         rows[row, v] = rows[row, rows[row, v]]
@@ -57,10 +57,10 @@ def root(rows: Int32, row: int, v: int) -> int:
 
 
 @njit(signature(FLAG, TABLE, COUNT, COUNT, COUNT), cache=True)
-def join(rows: Int32, row: int, v: int, w: int) -> bool:
+def join_orbits(rows: Int32, row: int, v: int, w: int) -> bool:
     """Unite the orbits of v and w under the smaller root; return whether they were two."""
-    v = root(rows, row, v)
-    w = root(rows, row, w)
+    v = orbit_root(rows, row, v)
+    w = orbit_root(rows, row, w)
     if v < w:
         rows[row, w] = v
     else:
@@ -119,7 +119,7 @@ def _keep(moved: int, ws: Workspace) -> None:
     useful = False
     for i in range(moved):
         v = rows[SUPPORT, i]
-        if join(rows, ORBIT, v, rows[IMAGE, v]):
+        if join_orbits(rows, ORBIT, v, rows[IMAGE, v]):
             useful = True
     if not useful:
         return

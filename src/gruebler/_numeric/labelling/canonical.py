@@ -45,7 +45,7 @@ from gruebler._numeric.labelling.label_workspace import (
     signature,
 )
 from gruebler._numeric.labelling.partition import first_partition, refine, undo
-from gruebler._numeric.labelling.search_tree import search
+from gruebler._numeric.labelling.search_tree import search_leaves
 from gruebler._numeric.work_estimates import labelling
 
 
@@ -102,7 +102,7 @@ def label_graph(
             rows[ORBIT, v] = v
         return True
     mark = state[TRAIL]
-    while not search(n, vertex_colour, indptr, neighbour, edge_colour, ws):
+    while not search_leaves(n, vertex_colour, indptr, neighbour, edge_colour, ws):
         undo(mark, ws)
         state[THOROUGH] = 1
     for i in range(n):

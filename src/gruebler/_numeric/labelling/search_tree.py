@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.labelling.automorphism import find_automorphism, join, leaf_is_better, root
+from gruebler._numeric.labelling.automorphism import find_automorphism, join_orbits, leaf_is_better, orbit_root
 from gruebler._numeric.labelling.label_workspace import (
     BEST_EARLY,
     BEST_IS_FIRST,
@@ -153,7 +153,7 @@ def _next_root(level: int, last: int, eldest: int, forest: int, ws: Workspace) -
     The orbit of `eldest`, the child that was searched first, counts as done; it is -1 if there is none.
     """
     rows = ws.rows
-    done = root(rows, forest, eldest) if eldest >= 0 else -1
+    done = orbit_root(rows, forest, eldest) if eldest >= 0 else -1
     target = rows[TARGET, level]
     best = -1
     for i in range(target, target + rows[SIZE, target]):
@@ -187,7 +187,7 @@ def _next_child(level: int, last: int, eldest: int, ws: Workspace) -> int:
             for i in range(rows[START, g], rows[START, g + 1]):
                 v = pool[MOVED, i]
                 if rows[CELL, v] == target:
-                    join(rows, LOCAL, v, pool[IMAGE_OF, i])
+                    join_orbits(rows, LOCAL, v, pool[IMAGE_OF, i])
     return _next_root(level, last, eldest, LOCAL, ws)
 
 
@@ -273,7 +273,9 @@ def _explore(
                 ):
                     found = True
                     start = rows[PATH, base]
-                    known = root(rows, ORBIT, start) != start or root(rows, ORBIT, rows[ELDEST, base]) == start
+                    known = (
+                        orbit_root(rows, ORBIT, start) != start or orbit_root(rows, ORBIT, rows[ELDEST, base]) == start
+                    )
                     back = base if known else common
                     break
             if not found and state[CELLS] < n:
@@ -311,7 +313,9 @@ def _explore(
 
 
 @njit(cache=True)
-def search(n: int, vertex_colour: Int64, indptr: Int32, neighbour: Int32, edge_colour: Int32, ws: Workspace) -> bool:
+def search_leaves(
+    n: int, vertex_colour: Int64, indptr: Int32, neighbour: Int32, edge_colour: Int32, ws: Workspace
+) -> bool:
     """Search the whole tree below a refined root; return False if it proves too long for a plain search.
 
     Every automorphism found while a node of the first path is at work fixes the vertices singled out above it;
@@ -355,11 +359,11 @@ def search(n: int, vertex_colour: Int64, indptr: Int32, neighbour: Int32, edge_c
             if not _explore(n, level, child, vertex_colour, indptr, neighbour, edge_colour, ws):
                 return False
             child = _next_root(level, child, v, ORBIT, ws)
-        least = root(rows, ORBIT, v)
+        least = orbit_root(rows, ORBIT, v)
         target = rows[TARGET, level]
         length = 0
         for i in range(target, target + rows[SIZE, target]):
-            if root(rows, ORBIT, rows[LAB, i]) == least:
+            if orbit_root(rows, ORBIT, rows[LAB, i]) == least:
                 length += 1
         rows[FACTOR, state[FACTORS]] = length
         state[FACTORS] += 1

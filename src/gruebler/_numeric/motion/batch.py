@@ -6,8 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import for_work, njit
-from gruebler._numeric.motion.path import walk
-from gruebler._numeric.motion.program import Memory, Poses, Program, Scratch, new_memory, new_scratch
+from gruebler._numeric.motion.path import walk_path
+from gruebler._numeric.motion.program import (
+    MotionScratch,
+    PoseBuffer,
+    PoseMemory,
+    Program,
+    new_motion_scratch,
+    new_pose_memory,
+)
 from gruebler._numeric.motion.registers import REGISTERS
 from gruebler._numeric.work_estimates import walking
 
@@ -45,7 +52,7 @@ def run_designs(
     """
     order, rows = len(speeds), len(path)
     links = 1 + max(int(program.links.max()), int(program.roots.max(initial=0)))
-    poses = Poses(
+    poses = PoseBuffer(
         np.empty((order + 1, links, rows), np.complex128),
         np.empty((links, rows), np.complex128),
         np.empty((order, links, rows)),
@@ -53,8 +60,8 @@ def run_designs(
         np.empty((signs.shape[1], rows)),
         np.empty((starts.shape[1], rows)),
     )
-    memory = new_memory(signs.shape[1], starts.shape[1], len(program.conditions) - 1)
-    scratch = new_scratch(links, len(program.kinds), len(program.roots), path.shape[1])
+    memory = new_pose_memory(signs.shape[1], starts.shape[1], len(program.conditions) - 1)
+    scratch = new_motion_scratch(links, len(program.kinds), len(program.roots), path.shape[1])
     move = for_work(_designs, (part[1] - part[0]) * walking(program, rows, order))
     move(program, sizes, path, speeds, signs, starts, kept, out, part, poses, memory, scratch, np.zeros(REGISTERS))
 
@@ -70,9 +77,9 @@ def _designs(
     kept: Ints,
     out: tuple[Complexes, Complexes, Reals, Ints],
     part: tuple[int, int],
-    poses: Poses,
-    memory: Memory,
-    scratch: Scratch,
+    poses: PoseBuffer,
+    memory: PoseMemory,
+    scratch: MotionScratch,
     registers: Reals,
 ) -> None:
     points, lines, longest, lengths = sizes
@@ -86,7 +93,7 @@ def _designs(
         end = 0
         if not np.isnan(signs[n].sum()):
             poses.whole[:] = 0
-            end = walk(mine, path, speeds, signs[n], starts[n], poses, memory, scratch, registers)[1]
+            end = walk_path(mine, path, speeds, signs[n], starts[n], poses, memory, scratch, registers)[1]
         reached[n] = end
         for m in range(len(kept)):
             link = kept[m]

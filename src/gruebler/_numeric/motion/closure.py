@@ -8,17 +8,18 @@ scratch arrays; ``owners`` names the body of each slot, -1 for what is known; ``
 - RIDE: the second point lies value 2 to the left of the first line.
 - REACH: the points lie value 2 apart.
 - MESH: value 0 times the first direction plus value 1 times the second, both against the line from point to point, is
-  value 2. Values 3 and 4 are these angles near by: they say how often directions have gone round. With a `law` the
-  first angle is replaced by its function.
+  value 2. Values 3 and 4 are these angles near by: they say how often directions have gone round. With a
+  `evaluate_law` the first angle is replaced by its function.
 - RACK: value 0 times the second direction against the first line, plus value 1 times the way of the second point along
   that line, is value 2. Value 3 is the angle near by.
 - POLAR: the second point lies on a curve about the first: seen from the first direction, the logarithm of its distance
-  is the `law` of its angle. Value 0 is a length.
-- FACE: the first line touches a curve about the second point: its distance from the point is the `law` of the angle of
-  the outward normal against the second direction; value 1 is 1 if the point lies to the left of the line, else -1.
+  is the `evaluate_law` of its angle. Value 0 is a length.
+- FACE: the first line touches a curve about the second point: its distance from the point is the `evaluate_law` of the
+  angle of the outward normal against the second direction; value 1 is 1 if the point lies to the left of the line,
+  else -1.
 - TRAIN: value 0 times the angle of the first body plus value 1 times that of the second, both against the angle of body
-  number value 3, is value 2; all angles as they stand in the unknowns, 0 for what is known. With a `law` the first
-  angle plus value 4 is replaced by its function.
+  number value 3, is value 2; all angles as they stand in the unknowns, 0 for what is known. With a `evaluate_law` the
+  first angle plus value 4 is replaced by its function.
 - TRAVEL: RACK with the angles as they stand in the unknowns.
 
 Lengths of the equations are in the unit of the points, angles of a SLIDE are multiplied by `size`.
@@ -47,8 +48,8 @@ __all__ = [
     "TRAIN",
     "TRAVEL",
     "closing",
-    "law",
-    "wound",
+    "evaluate_law",
+    "unwound_angle",
 ]
 
 Reals = NDArray[np.float64]
@@ -60,14 +61,14 @@ EQUATIONS = (2, 2, 1, 1, 1, 1, 1, 1, 1, 1)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def wound(direction: complex, near: float) -> float:
+def unwound_angle(direction: complex, near: float) -> float:
     """The angle of a direction, with as many whole turns as bring it next to one near by."""
     angle = atan2(direction.imag, direction.real)
     return float(angle + 2 * pi * floor((near - angle) / (2 * pi) + 0.5))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def law(pieces: Reals, values: Reals, angle: float) -> tuple[float, float, float, float]:
+def evaluate_law(pieces: Reals, values: Reals, angle: float) -> tuple[float, float, float, float]:
     """A function of an angle and its three derivatives; without pieces the angle itself.
 
     ``values`` of the condition: 5 the first of its pieces, 6 how many, 7 what it grows by in a turn. A piece has its
@@ -158,20 +159,23 @@ def closing(
             measure = gap / value
             residual[row] = ((gap * gap.conjugate()).real / value - value) / 2
         elif kind == MESH:
-            first, second = wound(line * gap.conjugate(), values[c, 3]), wound(other * gap.conjugate(), values[c, 4])
-            first, slope, _, _ = law(pieces, values[c], first)
+            first, second = (
+                unwound_angle(line * gap.conjugate(), values[c, 3]),
+                unwound_angle(other * gap.conjugate(), values[c, 4]),
+            )
+            first, slope, _, _ = evaluate_law(pieces, values[c], first)
             residual[row] = one * first + two * second - value
             turn_a, turn_b = one * slope, two
             measure = -(turn_a + two) * 1j * gap / (gap * gap.conjugate()).real
         elif kind == POLAR:
             seen = line.conjugate() * gap
-            radius, slope, _, _ = law(pieces, values[c], wound(seen, 0.0))
+            radius, slope, _, _ = evaluate_law(pieces, values[c], unwound_angle(seen, 0.0))
             residual[row] = one * (logarithm(abs(seen)) - radius)
             measure = one * (1 - 1j * slope) * gap / (gap * gap.conjugate()).real
             turn_a = one * slope
         elif kind == FACE:
             measure = two * 1j * line
-            height, slope, _, _ = law(pieces, values[c], wound(-measure * other.conjugate(), 0.0))
+            height, slope, _, _ = evaluate_law(pieces, values[c], unwound_angle(-measure * other.conjugate(), 0.0))
             residual[row] = (measure.conjugate() * gap).real - height
             turn_a, turn_b = (measure.conjugate() * gap).imag - slope, slope
         elif kind == TRAIN:
@@ -179,7 +183,7 @@ def closing(
             line_of_centres = unknowns[3 * arm + 2] if arm >= 0 else 0.0
             first = (unknowns[3 * a + 2] if a >= 0 else 0.0) - line_of_centres
             second = (unknowns[3 * b + 2] if b >= 0 else 0.0) - line_of_centres
-            first, slope, _, _ = law(pieces, values[c], first + values[c, 4])
+            first, slope, _, _ = evaluate_law(pieces, values[c], first + values[c, 4])
             residual[row] = one * first + two * second - value
             turn_a, turn_b = one * slope, two
             if arm >= 0:
@@ -187,7 +191,7 @@ def closing(
         else:
             measure = two * line
             if kind == RACK:
-                angle = wound(line.conjugate() * other, values[c, 3])
+                angle = unwound_angle(line.conjugate() * other, values[c, 3])
             else:
                 angle = (unknowns[3 * b + 2] if b >= 0 else 0.0) - (unknowns[3 * a + 2] if a >= 0 else 0.0)
             residual[row] = one * angle + (measure.conjugate() * gap).real - value

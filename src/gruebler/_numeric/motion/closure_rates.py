@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.motion.closure import FACE, MESH, PIN, POLAR, RACK, REACH, SLIDE, law, wound
-from gruebler._numeric.motion.planar_jets import turned
+from gruebler._numeric.motion.closure import FACE, MESH, PIN, POLAR, RACK, REACH, SLIDE, evaluate_law, unwound_angle
+from gruebler._numeric.motion.planar_jets import rotated_derivative
 
 __all__ = ["closing_rates"]
 
@@ -55,7 +55,7 @@ def closing_rates(
                 continue
             for k in range(order + 1):
                 gap[k] += sign * places[body, k]
-                gap[k] += sign * turned(
+                gap[k] += sign * rotated_derivative(
                     k,
                     turns[body],
                     rates[body, 0],
@@ -97,12 +97,12 @@ def closing_rates(
         if values[c, 6] > 0 or kind == MESH:
             angle = 0.0
             if kind == MESH:
-                angle, first, second = wound(line * gap[0].conjugate(), values[c, 3]), -first, -second
+                angle, first, second = unwound_angle(line * gap[0].conjugate(), values[c, 3]), -first, -second
             elif kind == POLAR:
-                angle = wound(line.conjugate() * gap[0], 0.0)
+                angle = unwound_angle(line.conjugate() * gap[0], 0.0)
             else:
-                angle = wound(-values[c, 1] * 1j * line * other.conjugate(), 0.0)
-            _, slope, curve, third = law(pieces, values[c], angle)
+                angle = unwound_angle(-values[c, 1] * 1j * line * other.conjugate(), 0.0)
+            _, slope, curve, third = evaluate_law(pieces, values[c], angle)
             if order == 2:
                 bent = curve * first * first
             elif order == 3:
@@ -114,7 +114,7 @@ def closing_rates(
             found = _log_rate(order, gap)
             target[row] = one * (slope * (found.imag - spun[0, order - 1]) + bent - found.real)
         else:
-            seen = turned(order, line.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
+            seen = rotated_derivative(order, line.conjugate(), -w, -a, -j, gap[0], gap[1], gap[2], gap[3])
             if kind == RACK:
                 target[row] = -(one * difference + two * seen.real)
             elif kind == FACE:

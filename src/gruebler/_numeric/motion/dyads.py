@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import square_root
-from gruebler._numeric.motion.planar_jets import turned
+from gruebler._numeric.motion.planar_jets import rotated_derivative
 from gruebler._numeric.motion.program import PRP, RPP, RPR, RRP, RRR
 
 __all__ = ["dyad_place", "dyad_rates", "dyad_square", "meeting"]
@@ -162,7 +162,7 @@ def _solved(left: complex, right: complex, target: complex) -> tuple[float, floa
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _arm(k: int, body: int, one: int, two: int, points: Complexes, turns: Complexes, rates: Reals) -> complex:
     """The k-th derivative of the vector from slot `one` to slot `two` of a body whose rates up to k are written."""
-    return turned(
+    return rotated_derivative(
         k,
         turns[body],
         rates[body, 0],
@@ -178,7 +178,7 @@ def _arm(k: int, body: int, one: int, two: int, points: Complexes, turns: Comple
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _reference(k: int, body: int, slot: int, points: Complexes, turns: Complexes, rates: Reals) -> complex:
     """The k-th derivative of a slot's point of a body, without the body's origin."""
-    return turned(
+    return rotated_derivative(
         k,
         turns[body],
         rates[body, 0],
@@ -194,7 +194,9 @@ def _reference(k: int, body: int, slot: int, points: Complexes, turns: Complexes
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
 def _along(k: int, line: complex, spins: Reals, slot: int, w0: float, w1: float, w2: float, w3: float) -> complex:
     """The k-th derivative of a way w(t) along the line of a slot."""
-    return turned(k, line, spins[slot, 0], spins[slot, 1], spins[slot, 2], w0 + 0j, w1 + 0j, w2 + 0j, w3 + 0j)
+    return rotated_derivative(
+        k, line, spins[slot, 0], spins[slot, 1], spins[slot, 2], w0 + 0j, w1 + 0j, w2 + 0j, w3 + 0j
+    )
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
@@ -251,7 +253,7 @@ def dyad_rates(
             target -= points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
             w = rates[one, 0] + spins[2, 0] if k > 1 else 0.0
             a = rates[one, 1] + spins[2, 1] if k > 2 else 0.0
-            target -= turned(k, slide, w, a, 0.0, way0 + 0j, way1 + 0j, way2 + 0j, 0j)
+            target -= rotated_derivative(k, slide, w, a, 0.0, way0 + 0j, way1 + 0j, way2 + 0j, 0j)
             turn, way = _solved(1j * (first - second + way0 * slide), slide, target)
             rates[one, k - 1] += turn
             rates[two, k - 1] += turn
@@ -270,7 +272,7 @@ def dyad_rates(
             a = rates[one, 1] + spins[2, 1] if k > 1 else 0.0
             j = rates[one, 2] + spins[2, 2] if k > 2 else 0.0
             target = points[0, k] + _arm(k, one, 1, 2, points, turns, rates)
-            target += turned(k, slide, w, a, j, other0 + 0j, other1 + 0j, other2 + 0j, 0j)
+            target += rotated_derivative(k, slide, w, a, j, other0 + 0j, other1 + 0j, other2 + 0j, 0j)
             target -= points[5, k] + _arm(k, two, 4, 3, points, turns, rates)
             target -= _along(k, lines[5], spins, 5, way0, way1, way2, 0.0)
             way, other = _solved(lines[5], -slide, target)

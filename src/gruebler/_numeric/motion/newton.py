@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.motion.closure import closing
 
-__all__ = ["factor", "newton", "settle", "solve_factored"]
+__all__ = ["close_near_singular", "factor", "newton", "solve_factored"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -102,7 +102,7 @@ def newton(
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def settle(
+def close_near_singular(
     kinds: Ints,
     values: Reals,
     pieces: Reals,

@@ -1,9 +1,9 @@
 """A linkage moved along a path of its drives: every group after the other, every step checked for continuity.
 
-`run` takes a `Program` (what to place in which order) and rows of drive values, and walks from row to row. Between rows
-the drives move on straight lines; a step is halved until what is found is near what was foretold, so that nothing
-jumps. Where rows are close and nothing special happens, `sweep` takes many of them at once. The theorems behind the
-checks are in docs/theory/kinematics.md.
+`run_path` takes a `Program` (what to place in which order) and rows of drive values, and walks from row to row.
+Between rows the drives move on straight lines; a step is halved until what is found is near what was foretold, so that
+nothing jumps. Where rows are close and nothing special happens, `sweep` takes many of them at once. The theorems
+behind the checks are in docs/theory/kinematics.md.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import for_work, njit
 from gruebler._numeric.motion.dyads import dyad_square
-from gruebler._numeric.motion.placing import attempt, commit, forget, set_drives, zero_ahead
+from gruebler._numeric.motion.placing import accept_pose, forget_poses, set_drives, try_pose, zero_ahead
 from gruebler._numeric.motion.program import (
     APART,
     APPROACH,
@@ -33,18 +33,18 @@ from gruebler._numeric.motion.program import (
     SINGULAR,
     START,
     TURN,
-    Memory,
-    Poses,
+    MotionScratch,
+    PoseBuffer,
+    PoseMemory,
     Program,
-    Scratch,
-    new_memory,
-    new_scratch,
+    new_motion_scratch,
+    new_pose_memory,
 )
 from gruebler._numeric.motion.registers import REGISTERS
 from gruebler._numeric.motion.sweep import steady, sweep, swept_links
 from gruebler._numeric.work_estimates import walking
 
-__all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "Poses", "Program", "run"]
+__all__ = ["CARRY", "DONE", "GROUP", "LIMIT", "PUSH", "SINGULAR", "START", "TURN", "PoseBuffer", "Program", "run_path"]
 
 Reals = NDArray[np.float64]
 _NOISE = 1e-14  # of squared roots: a hundred roundings
@@ -53,11 +53,11 @@ _PAUSE = 16  # rows to walk after a sweep was stopped
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _square_at(
-    program: Program, path: Reals, speeds: Reals, at: float, wanted: int, memory: Memory, s: Scratch
+    program: Program, path: Reals, speeds: Reals, at: float, wanted: int, memory: PoseMemory, s: MotionScratch
 ) -> float:
     """The squared root of one dyad somewhere near the last pose; NaN where something before it cannot be placed."""
     set_drives(path, speeds, at, s)
-    verdict = attempt(program, 0, at, memory, s)
+    verdict = try_pose(program, 0, at, memory, s)
     if verdict in (APPROACH, APART) and memory.which[0] == wanted:
         for operation in program.operations:
             if 2 <= operation[0] < GROUP and operation[9] == wanted:
@@ -69,7 +69,14 @@ def _square_at(
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _look_for_change(
-    program: Program, path: Reals, speeds: Reals, reach: float, turn: float, number: int, memory: Memory, s: Scratch
+    program: Program,
+    path: Reals,
+    speeds: Reals,
+    reach: float,
+    turn: float,
+    number: int,
+    memory: PoseMemory,
+    s: MotionScratch,
 ) -> tuple[float, bool]:
     """Where the square of a small root is least ahead of the last pose, and the sign behind that place.
 
@@ -110,7 +117,7 @@ def _look_for_change(
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _record(row: int, poses: Poses, memory: Memory, s: Scratch) -> None:
+def _record(row: int, poses: PoseBuffer, memory: PoseMemory, s: MotionScratch) -> None:
     """Count whole turns, and write a row if it is one."""
     order = len(poses.rates)
     for link in range(len(s.turns)):
@@ -134,7 +141,7 @@ def _record(row: int, poses: Poses, memory: Memory, s: Scratch) -> None:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _recall(row: int, poses: Poses, memory: Memory, s: Scratch) -> None:
+def _recall(row: int, poses: PoseBuffer, memory: PoseMemory, s: MotionScratch) -> None:
     """Remember the rows up to this one as if they had been walked."""
     memory.filled[0] = min(row + 1, 3)
     for k in range(memory.filled[0]):
@@ -147,7 +154,7 @@ def _recall(row: int, poses: Poses, memory: Memory, s: Scratch) -> None:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _least_root(memory: Memory) -> float:
+def _least_root(memory: PoseMemory) -> float:
     """The least of the roots, at most 1; 1 too if it is zero, since then nothing is lost."""
     least = 1.0
     for m in range(memory.roots.shape[1]):
@@ -158,7 +165,7 @@ def _least_root(memory: Memory) -> float:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _expecting(memory: Memory) -> bool:
+def _expecting(memory: PoseMemory) -> bool:
     """Whether a root is going to be zero, or least, at a place that is known."""
     for change in memory.change:
         if change < np.inf:
@@ -167,7 +174,7 @@ def _expecting(memory: Memory) -> bool:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _fill_fixed(placed: int, poses: Poses) -> None:
+def _fill_fixed(placed: int, poses: PoseBuffer) -> None:
     """The links that nothing places rest, for a sweep."""
     for link in range(len(poses.turns)):
         if placed >> link & 1:
@@ -179,8 +186,8 @@ def _fill_fixed(placed: int, poses: Poses) -> None:
             poses.rates[k, link] = 0
 
 
-def run(
-    program: Program, path: Reals, speeds: Reals, signs: Reals, start: Reals, poses: Poses
+def run_path(
+    program: Program, path: Reals, speeds: Reals, signs: Reals, start: Reals, poses: PoseBuffer
 ) -> tuple[int, int, float, int]:
     """Move along the path.
 
@@ -195,25 +202,25 @@ def run(
     Returns how it ended, how many rows are written, where on the path it stopped (in rows), and what is at fault: the
     number of the dyad, or -1 minus the number of the larger group.
     """
-    memory = new_memory(len(signs), len(start), len(program.conditions) - 1)
-    s = new_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
-    move = for_work(walk, walking(program, len(path), len(poses.rates)))
+    memory = new_pose_memory(len(signs), len(start), len(program.conditions) - 1)
+    s = new_motion_scratch(len(poses.turns), len(program.kinds), len(program.roots), path.shape[1])
+    move = for_work(walk_path, walking(program, len(path), len(poses.rates)))
     return move(program, path, speeds, signs, start, poses, memory, s, np.zeros(REGISTERS))
 
 
 @njit(cache=True, error_model="numpy", _nrt=False, nogil=True)
-def walk(
+def walk_path(
     program: Program,
     path: Reals,
     speeds: Reals,
     signs: Reals,
     start: Reals,
-    poses: Poses,
-    memory: Memory,
-    s: Scratch,
+    poses: PoseBuffer,
+    memory: PoseMemory,
+    s: MotionScratch,
     registers: Reals,
 ) -> tuple[int, int, float, int]:
-    """`run` with arrays to work in."""
+    """`run_path` with arrays to work in."""
     memory.filled[0] = 0
     for k in range(len(signs)):
         memory.signs[k] = signs[k]
@@ -223,17 +230,17 @@ def walk(
         memory.unknowns[0, k] = start[k]
     order = len(poses.rates)
     set_drives(path, speeds, 0.0, s)
-    verdict = attempt(program, order, 0.0, memory, s)
+    verdict = try_pose(program, order, 0.0, memory, s)
     while verdict == MEET:
         _meet(program, path, speeds, 0.0, memory, s)
         set_drives(path, speeds, 0.0, s)
-        verdict = attempt(program, order, 0.0, memory, s)
+        verdict = try_pose(program, order, 0.0, memory, s)
     if verdict != GOOD:
         return START, 0, 0.0, memory.which[0] if verdict == APART else -1 - memory.which[0]
     for link in range(len(s.turns)):
         s.before[link] = s.turns[link]
         s.turned[link] = 0
-    commit(0.0, memory)
+    accept_pose(0.0, memory)
     _record(0, poses, memory, s)
     placed = swept_links(program) if len(path) > 8 else 0
     if placed:
@@ -263,9 +270,9 @@ def _walk_to(
     row: int,
     step: float,
     fault: float,
-    poses: Poses,
-    memory: Memory,
-    s: Scratch,
+    poses: PoseBuffer,
+    memory: PoseMemory,
+    s: MotionScratch,
 ) -> tuple[int, float, float, float, int]:
     """From the last pose to a row, in as many steps as are needed.
 
@@ -281,15 +288,15 @@ def _walk_to(
         full = step >= left * (1 - 1e-9)
         trial = float(row) if full else at + step
         set_drives(path, speeds, trial, s)
-        verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
+        verdict = try_pose(program, len(poses.rates) if full else 0, trial, memory, s)
         if verdict == GOOD:
             number = _reversed(program, memory, s)
             if number >= 0:
                 memory.change[number], memory.after[number] = at, -1.0 if memory.roots[3, number] > 0 else 1.0
-                verdict = attempt(program, len(poses.rates) if full else 0, trial, memory, s)
+                verdict = try_pose(program, len(poses.rates) if full else 0, trial, memory, s)
                 if verdict != GOOD or _reversed(program, memory, s) >= 0:
                     return SINGULAR, at, step, fault, number
-            commit(trial, memory)
+            accept_pose(trial, memory)
             _record(row if full else -1, poses, memory, s)
             at = trial
             if at >= fault:
@@ -320,7 +327,7 @@ def _walk_to(
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
+def _reversed(program: Program, memory: PoseMemory, s: MotionScratch) -> int:
     """The number of an RPR dyad near a change point that a step has turned by more than a right angle, or -1.
 
     Where its outer joints meet, their line reverses; the slide goes straight on, and it is the assembly mode that
@@ -338,7 +345,7 @@ def _reversed(program: Program, memory: Memory, s: Scratch) -> int:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _remembered(path: Reals, row: int, memory: Memory) -> bool:
+def _remembered(path: Reals, row: int, memory: PoseMemory) -> bool:
     """Measure the past in the way to this row, on one straight line with it or back; false if it foretells nothing."""
     if row < 2:
         return False
@@ -355,7 +362,7 @@ def _remembered(path: Reals, row: int, memory: Memory) -> bool:
     for k in range(memory.filled[0]):
         memory.at[k] = row - 1 + (memory.at[k] - (row - 1)) / ratio
     if memory.filled[0] > 1 and (memory.at[0] > row or (memory.at[0] < row - 1 and ratio < 0)):
-        forget(memory)  # a pose behind a change point, where this way does not come from or lead to
+        forget_poses(memory)  # a pose behind a change point, where this way does not come from or lead to
     return True
 
 
@@ -371,7 +378,7 @@ def _unit(program: Program, path: Reals, row: int) -> float:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: Memory, s: Scratch) -> None:
+def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: PoseMemory, s: MotionScratch) -> None:
     """Find the direction of a dyad whose outer joints meet, from poses shortly before (at the start: after) it."""
     number, body = memory.which[0], 0
     for operation in program.operations:
@@ -384,7 +391,7 @@ def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: Memor
             step = min(0.3, 1e-3 * _unit(program, path, row)) * (k + 1)
             place = at + step if at < 1 and at - step < 0 else at - step
             set_drives(path, speeds, place, s)
-            if attempt(program, 0, place, memory, s) == GOOD:
+            if try_pose(program, 0, place, memory, s) == GOOD:
                 turn += weights[k] * s.turns[body]
                 continue
         turn = s.before[body] if at > 0 else 1 + 0j
@@ -394,7 +401,7 @@ def _meet(program: Program, path: Reals, speeds: Reals, at: float, memory: Memor
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _straight(number: int, program: Program, memory: Memory) -> bool:
+def _straight(number: int, program: Program, memory: PoseMemory) -> bool:
     """Whether a larger group comes straight to a singular position: then it is a change point, else a limit.
 
     At a limit the rates of the unknowns grow as the determinant falls, one over the other; at a change point they stay.
@@ -414,7 +421,14 @@ def _straight(number: int, program: Program, memory: Memory) -> bool:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _cross(
-    program: Program, path: Reals, speeds: Reals, row: int, number: int, poses: Poses, memory: Memory, s: Scratch
+    program: Program,
+    path: Reals,
+    speeds: Reals,
+    row: int,
+    number: int,
+    poses: PoseBuffer,
+    memory: PoseMemory,
+    s: MotionScratch,
 ) -> bool:
     """Go straight through a change point of a larger group; a row that lies in it is placed between both sides."""
     at, unit, order = memory.at[0], memory.unit[0], len(poses.rates)
@@ -432,10 +446,10 @@ def _cross(
             s.drives[0, d] = path[row, d] + (beyond - row) * (path[row, d] - path[row - 1, d])
     else:
         set_drives(path, speeds, beyond, s)
-    verdict = attempt(program, order if full else 0, beyond, memory, s)
+    verdict = try_pose(program, order if full else 0, beyond, memory, s)
     memory.singular[0] = 0
     if verdict == GOOD:
-        commit(beyond, memory)
+        accept_pose(beyond, memory)
         if not inside:
             _record(row if full else -1, poses, memory, s)
             return True
@@ -443,12 +457,12 @@ def _cross(
         return False
     memory.singular[0] = -1 - number
     set_drives(path, speeds, float(row), s)
-    verdict = attempt(program, order, float(row), memory, s)
+    verdict = try_pose(program, order, float(row), memory, s)
     memory.singular[0] = 0
     if verdict != GOOD:
         return False
     if memory.at[0] < row:
-        commit(float(row), memory)
+        accept_pose(float(row), memory)
     _record(row, poses, memory, s)
     return True
 
@@ -472,7 +486,7 @@ def _turn_ahead(path: Reals, at: float, reach: float) -> float:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _approach(
-    program: Program, path: Reals, speeds: Reals, step: float, number: int, memory: Memory, s: Scratch
+    program: Program, path: Reals, speeds: Reals, step: float, number: int, memory: PoseMemory, s: MotionScratch
 ) -> tuple[float, float]:
     """A small root that falls: look ahead for the place where it is least. Returns the next step and fault."""
     at, now, past = memory.at[0], memory.roots[0, number], memory.roots[1, number]

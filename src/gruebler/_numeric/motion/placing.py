@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.motion.closure import MESH, closing, wound
+from gruebler._numeric.motion.closure import MESH, closing, unwound_angle
 from gruebler._numeric.motion.closure_rates import closing_rates
 from gruebler._numeric.motion.dyads import dyad_place, dyad_rates, dyad_square, meeting
-from gruebler._numeric.motion.newton import factor, newton, settle, solve_factored
-from gruebler._numeric.motion.planar_jets import carry, element, turned
+from gruebler._numeric.motion.newton import close_near_singular, factor, newton, solve_factored
+from gruebler._numeric.motion.planar_jets import carry, rotated_derivative, set_element_jet
 from gruebler._numeric.motion.program import (
     APART,
     APPROACH,
@@ -27,12 +27,12 @@ from gruebler._numeric.motion.program import (
     RPR,
     RRR,
     TURN,
-    Memory,
+    MotionScratch,
+    PoseMemory,
     Program,
-    Scratch,
 )
 
-__all__ = ["attempt", "commit", "forget", "set_drives", "zero_ahead"]
+__all__ = ["accept_pose", "forget_poses", "set_drives", "try_pose", "zero_ahead"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -40,12 +40,12 @@ Ints = NDArray[np.int64]
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _drive(kind: int, operation: Ints, program: Program, order: int, s: Scratch) -> None:
+def _drive(kind: int, operation: Ints, program: Program, order: int, s: MotionScratch) -> None:
     """Place a driven link against the link that its drive holds on to."""
     near, far = program.links[operation[2]], program.links[operation[3]]
     one, other = operation[2], operation[3]
     sign, d = operation[4], operation[1]
-    element(
+    set_element_jet(
         order, near, program.points[one], program.lines[one], s.places, s.turns, s.rates, 0, s.points, s.lines, s.spins
     )
     point = program.points[other]
@@ -60,7 +60,7 @@ def _drive(kind: int, operation: Ints, program: Program, order: int, s: Scratch)
             s.rates[far, k] = s.rates[near, k] + sign * s.drives[k + 1, d]
         w, a, j = s.rates[far, 0], s.rates[far, 1], s.rates[far, 2]
         for k in range(1, order + 1):
-            s.places[far, k] = s.points[0, k] - turned(k, turn, w, a, j, point, 0j, 0j, 0j)
+            s.places[far, k] = s.points[0, k] - rotated_derivative(k, turn, w, a, j, point, 0j, 0j, 0j)
         return
     line = s.lines[0]
     turn = line * program.lines[other].conjugate()
@@ -74,13 +74,13 @@ def _drive(kind: int, operation: Ints, program: Program, order: int, s: Scratch)
     for k in range(order + 1):
         s.places[far, k] = (
             s.points[0, k]
-            + turned(k, line, w, a, j, way0, way1, way2, way3)
-            - turned(k, turn, w, a, j, point, 0j, 0j, 0j)
+            + rotated_derivative(k, line, w, a, j, way0, way1, way2, way3)
+            - rotated_derivative(k, turn, w, a, j, point, 0j, 0j, 0j)
         )
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _root(square: float, number: int, at: float, memory: Memory) -> tuple[int, float]:
+def _root(square: float, number: int, at: float, memory: PoseMemory) -> tuple[int, float]:
     """The signed root of a dyad at a place on the path, and whether it may be trusted."""
     if not square >= -1e-13:
         return APART, 0.0
@@ -105,7 +105,7 @@ def _root(square: float, number: int, at: float, memory: Memory) -> tuple[int, f
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _sine(sine: float, number: int, memory: Memory) -> tuple[int, float]:
+def _sine(sine: float, number: int, memory: PoseMemory) -> tuple[int, float]:
     """The same for a dyad of one mode: its lines may not become parallel."""
     if not abs(sine) > 1e-12 or (memory.filled[0] > 0 and sine * memory.roots[0, number] < 0):
         return APART, sine
@@ -113,7 +113,7 @@ def _sine(sine: float, number: int, memory: Memory) -> tuple[int, float]:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
+def _foretell(at: float, first: int, last: int, memory: PoseMemory) -> None:
     """Extrapolate the unknowns of a larger group from the last poses into the trial."""
     t = memory.at
     count = memory.filled[0]
@@ -133,7 +133,7 @@ def _foretell(at: float, first: int, last: int, memory: Memory) -> None:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def zero_ahead(number: int, memory: Memory) -> float:
+def zero_ahead(number: int, memory: PoseMemory) -> float:
     """How far ahead of the last pose the determinant of a larger group is zero if it falls on so, or infinity."""
     now, past = memory.determinants[0, number], memory.determinants[1, number]
     if now * past <= 0 or abs(now) >= abs(past) or memory.at[0] <= memory.at[1]:
@@ -142,7 +142,7 @@ def zero_ahead(number: int, memory: Memory) -> float:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _expected(number: int, first: int, last: int, size: float, at: float, memory: Memory, s: Scratch) -> bool:
+def _expected(number: int, first: int, last: int, size: float, at: float, memory: PoseMemory, s: MotionScratch) -> bool:
     """Whether the trial of a larger group is near what was foretold, and on the same side of singular positions."""
     missed = moved = 0.0
     for k in range(first, last):
@@ -161,7 +161,7 @@ def _expected(number: int, first: int, last: int, size: float, at: float, memory
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _values(start: int, end: int, program: Program, memory: Memory, s: Scratch) -> None:
+def _values(start: int, end: int, program: Program, memory: PoseMemory, s: MotionScratch) -> None:
     """The numbers of the closing conditions; angles that count whole turns as they were in the last pose."""
     for c in range(start, end):
         for k in range(3):
@@ -172,7 +172,7 @@ def _values(start: int, end: int, program: Program, memory: Memory, s: Scratch) 
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _wind(start: int, end: int, root: int, program: Program, memory: Memory, s: Scratch) -> bool:
+def _wind(start: int, end: int, root: int, program: Program, memory: PoseMemory, s: MotionScratch) -> bool:
     """Write the angles that count whole turns into the trial; false if one has turned too far to be sure of them."""
     for c in range(start, end):
         first = program.windings[c]
@@ -191,10 +191,10 @@ def _wind(start: int, end: int, root: int, program: Program, memory: Memory, s: 
         near = memory.unknowns[0, first], memory.unknowns[0, first + 1]
         if program.kinds[c] == MESH:
             along = (points[1] - points[0]).conjugate()
-            memory.unknowns[3, first] = wound(lines[0] * along, near[0])
-            memory.unknowns[3, first + 1] = wound(lines[1] * along, near[1])
+            memory.unknowns[3, first] = unwound_angle(lines[0] * along, near[0])
+            memory.unknowns[3, first + 1] = unwound_angle(lines[1] * along, near[1])
         else:
-            memory.unknowns[3, first] = wound(lines[0].conjugate() * lines[1], near[0])
+            memory.unknowns[3, first] = unwound_angle(lines[0].conjugate() * lines[1], near[0])
             memory.unknowns[3, first + 1] = 0
         for k in range(2):
             if memory.filled[0] > 0 and abs(memory.unknowns[3, first + k] - near[k]) > FARTHEST:
@@ -203,7 +203,7 @@ def _wind(start: int, end: int, root: int, program: Program, memory: Memory, s: 
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def _group(number: int, program: Program, order: int, at: float, memory: Memory, s: Scratch) -> bool:
+def _group(number: int, program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> bool:
     """Place the bodies of a larger group by Newton's method from what is foretold."""
     start, end = program.conditions[number], program.conditions[number + 1]
     first, last = program.bodies[number], program.bodies[number + 1]
@@ -212,7 +212,7 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
     for slot in range(2 * (end - start)):
         e = program.sides[2 * start + slot]
         link = program.links[e]
-        element(
+        set_element_jet(
             order, link, program.points[e], program.lines[e], s.places, s.turns, s.rates, slot, points, lines, spins
         )
     _foretell(at, 3 * first, 3 * last, memory)
@@ -224,7 +224,7 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
     _values(start, end, program, memory, s)
     values, at_it = s.values, memory.singular[0] == -1 - number
     if at_it:
-        settle(
+        close_near_singular(
             kinds,
             values,
             program.pieces,
@@ -292,7 +292,7 @@ def _group(number: int, program: Program, order: int, at: float, memory: Memory,
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def attempt(program: Program, order: int, at: float, memory: Memory, s: Scratch) -> int:
+def try_pose(program: Program, order: int, at: float, memory: PoseMemory, s: MotionScratch) -> int:
     """Place everything at a place on the path; the drives stand in the scratch. Returns whether to trust it."""
     for link in range(len(s.turns)):
         s.turns[link] = 1
@@ -309,7 +309,7 @@ def attempt(program: Program, order: int, at: float, memory: Memory, s: Scratch)
             for slot in range(6):
                 e = operation[1 + slot]
                 link = program.links[e]
-                element(
+                set_element_jet(
                     order,
                     link,
                     program.points[e],
@@ -351,7 +351,7 @@ def attempt(program: Program, order: int, at: float, memory: Memory, s: Scratch)
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def set_drives(path: Reals, speeds: Reals, at: float, s: Scratch) -> None:
+def set_drives(path: Reals, speeds: Reals, at: float, s: MotionScratch) -> None:
     row = min(int(at), len(path) - 1)
     part = at - row
     for d in range(path.shape[1]):
@@ -365,7 +365,7 @@ def set_drives(path: Reals, speeds: Reals, at: float, s: Scratch) -> None:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def _copy(memory: Memory, source: int, target: int) -> None:
+def _copy(memory: PoseMemory, source: int, target: int) -> None:
     memory.at[target] = memory.at[source]
     for m in range(memory.roots.shape[1]):
         memory.roots[target, m] = memory.roots[source, m]
@@ -376,7 +376,7 @@ def _copy(memory: Memory, source: int, target: int) -> None:
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def forget(memory: Memory) -> None:
+def forget_poses(memory: PoseMemory) -> None:
     """Take the last pose back."""
     _copy(memory, 1, 0)
     _copy(memory, 2, 1)
@@ -384,7 +384,7 @@ def forget(memory: Memory) -> None:
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def commit(at: float, memory: Memory) -> None:
+def accept_pose(at: float, memory: PoseMemory) -> None:
     memory.at[3] = at
     _copy(memory, 1, 2)
     _copy(memory, 0, 1)

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = ["carry", "element", "turned"]
+__all__ = ["carry", "rotated_derivative", "set_element_jet"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def turned(
+def rotated_derivative(
     order: int, turn: complex, w: float, a: float, j: float, b0: complex, b1: complex, b2: complex, b3: complex
 ) -> complex:
     """The derivative of that order of ``turn(t) * b(t)``; ``w``, ``a``, ``j`` are the rates of the angle."""
@@ -32,7 +32,7 @@ def turned(
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def element(
+def set_element_jet(
     order: int,
     link: int,
     point: complex,
@@ -76,7 +76,7 @@ def carry(order: int, link: int, body: int, places: Complexes, turns: Complexes,
     if order >= 3:
         j, b3 = rates[body, 2], places[link, 3]
     for k in range(order + 1):
-        places[link, k] = places[body, k] + turned(k, turns[body], w, a, j, b0, b1, b2, b3)
+        places[link, k] = places[body, k] + rotated_derivative(k, turns[body], w, a, j, b0, b1, b2, b3)
     for k in range(order):
         rates[link, k] += rates[body, k]
     turns[link] *= turns[body]

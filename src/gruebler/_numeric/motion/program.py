@@ -31,12 +31,12 @@ __all__ = [
     "SINGULAR",
     "START",
     "TURN",
-    "Memory",
-    "Poses",
+    "MotionScratch",
+    "PoseBuffer",
+    "PoseMemory",
     "Program",
-    "Scratch",
-    "new_memory",
-    "new_scratch",
+    "new_motion_scratch",
+    "new_pose_memory",
 ]
 
 Reals = NDArray[np.float64]
@@ -97,7 +97,7 @@ class Program(NamedTuple):
     """(pieces, 2 + coefficients) of the laws, see `closure.law`."""
 
 
-class Poses(NamedTuple):
+class PoseBuffer(NamedTuple):
     """What is written, a column for each row of the path."""
 
     places: Complexes
@@ -114,7 +114,7 @@ class Poses(NamedTuple):
     """(3 bodies of larger groups, then two angles of each condition that counts whole turns; rows)"""
 
 
-class Memory(NamedTuple):
+class PoseMemory(NamedTuple):
     """What the last poses were, newest first; index 3 is the trial."""
 
     at: Reals  # (4,) their places on the path
@@ -132,7 +132,7 @@ class Memory(NamedTuple):
     which: Ints  # (1,) the dyad or group that spoils the trial
 
 
-class Scratch(NamedTuple):
+class MotionScratch(NamedTuple):
     places: Complexes
     turns: Complexes
     rates: Reals
@@ -160,8 +160,8 @@ class Scratch(NamedTuple):
     spun: Reals
 
 
-def new_memory(dyads: int, unknowns: int, groups: int) -> Memory:
-    return Memory(
+def new_pose_memory(dyads: int, unknowns: int, groups: int) -> PoseMemory:
+    return PoseMemory(
         np.zeros(4),
         np.zeros(1, np.int64),
         np.zeros((4, dyads)),
@@ -178,9 +178,9 @@ def new_memory(dyads: int, unknowns: int, groups: int) -> Memory:
     )
 
 
-def new_scratch(links: int, conditions: int, bodies: int, drives: int) -> Scratch:
+def new_motion_scratch(links: int, conditions: int, bodies: int, drives: int) -> MotionScratch:
     c, b = max(conditions, 1), max(bodies, 1)
-    return Scratch(
+    return MotionScratch(
         np.zeros((links, 4), np.complex128),
         np.ones(links, np.complex128),
         np.zeros((links, 3)),

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
-from gruebler._numeric.lanes import choose, lanes, number, tally
-from gruebler._numeric.motion.program import Poses
+from gruebler._numeric.lanes import choose, complex_number, lanes, tally
+from gruebler._numeric.motion.program import PoseBuffer
 
 __all__ = [
     "LANES",
@@ -33,7 +33,7 @@ __all__ = [
     "W",
     "circle",
     "copy",
-    "load",
+    "load_register",
     "point",
     "put",
     "rotate",
@@ -52,17 +52,17 @@ REGISTERS = 37 * LANES
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def load(source: Complexes, x: Reals, to: int) -> None:
+def load_register(source: Complexes, x: Reals, to: int) -> None:
     real, imag = x[to : to + LANES], x[to + LANES : to + PAIR]
     for i in lanes(len(source)):
         real[i], imag[i] = source[i].real, source[i].imag
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
-def store(x: Reals, at: int, target: Complexes) -> None:
+def store_register(x: Reals, at: int, target: Complexes) -> None:
     real, imag = x[at : at + LANES], x[at + LANES : at + PAIR]
     for i in lanes(len(target)):
-        target[i] = number(real[i], imag[i])
+        target[i] = complex_number(real[i], imag[i])
 
 
 @njit(cache=True, error_model="numpy", forceinline=True, _nrt=False)
@@ -106,7 +106,7 @@ def add_arm(order: int, sign: float, arm: int, rates: int, x: Reals, to: int) ->
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def point(
-    order: int, link: int, point: complex, fixed: bool, poses: Poses, row: int, end: int, x: Reals, to: int
+    order: int, link: int, point: complex, fixed: bool, poses: PoseBuffer, row: int, end: int, x: Reals, to: int
 ) -> None:
     """The jet of a link's point in some rows; of a fixed link, the point."""
     if fixed:
@@ -115,10 +115,10 @@ def point(
         x[to + PAIR : to + (order + 1) * PAIR] = 0
         return
     for k in range(order + 1):
-        load(poses.places[k, link, row:end], x, to + k * PAIR)
+        load_register(poses.places[k, link, row:end], x, to + k * PAIR)
     if point == 0:
         return
-    load(poses.turns[link, row:end], x, E)
+    load_register(poses.turns[link, row:end], x, E)
     rotate(x, E, point, E)
     for k in range(order):
         copy(poses.rates[k, link, row:end], x[F + k * LANES : F + (k + 1) * LANES])
@@ -129,10 +129,10 @@ def point(
 
 
 @njit(cache=True, error_model="numpy", _nrt=False)
-def put(order: int, link: int, point: complex, first: bool, poses: Poses, row: int, end: int, x: Reals) -> None:
+def put(order: int, link: int, point: complex, first: bool, poses: PoseBuffer, row: int, end: int, x: Reals) -> None:
     """Write some rows of a link whose point lies where jet P (of the first body) or Q (of the second) says."""
     turn, spin, at = (T, V, P) if first else (U, W, Q)
-    store(x, turn, poses.turns[link, row:end])
+    store_register(x, turn, poses.turns[link, row:end])
     for k in range(order):
         copy(x[spin + k * LANES : spin + (k + 1) * LANES], poses.rates[k, link, row:end])
     if point != 0:
@@ -143,7 +143,7 @@ def put(order: int, link: int, point: complex, first: bool, poses: Poses, row: i
             rotate(x, U, point, E)
             add_arm(order, -1.0, E, W, x, Q)
     for k in range(order + 1):
-        store(x, at + k * PAIR, poses.places[k, link, row:end])
+        store_register(x, at + k * PAIR, poses.places[k, link, row:end])
 
 
 _HALF_PI = (1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 from gruebler._numeric.lanes import lanes, square_root, tally
-from gruebler._numeric.motion.program import NEAR, RPR, RRP, RRR, TURN, Poses, Program
+from gruebler._numeric.motion.program import NEAR, RPR, RRP, RRR, TURN, PoseBuffer, Program
 from gruebler._numeric.motion.registers import (
     LANES,
     PAIR,
@@ -31,7 +31,7 @@ from gruebler._numeric.motion.registers import (
     W,
     circle,
     copy,
-    load,
+    load_register,
     point,
     put,
     rotate,
@@ -75,14 +75,23 @@ def swept_links(program: Program) -> int:
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def _drive(
-    order: int, link: int, d: int, sign: float, path: Reals, speeds: Reals, poses: Poses, row: int, end: int, x: Reals
+    order: int,
+    link: int,
+    d: int,
+    sign: float,
+    path: Reals,
+    speeds: Reals,
+    poses: PoseBuffer,
+    row: int,
+    end: int,
+    x: Reals,
 ) -> None:
     """The turn and the rates of a link driven against another."""
     drives = path[row:end]
     for i in lanes(len(drives)):
         x[E + i] = sign * drives[i, d]
     circle(x)
-    load(poses.turns[link, row:end], x, E)
+    load_register(poses.turns[link, row:end], x, E)
     for i in lanes(LANES):
         c, s = x[A + i], x[A + LANES + i]
         a, b = x[E + i], x[E + LANES + i]
@@ -311,7 +320,7 @@ def _count_turns(turns: Complexes, whole: NDArray[np.int32], row: int, end: int)
 
 @njit(cache=True, error_model="numpy", _nrt=False)
 def sweep(
-    program: Program, path: Reals, speeds: Reals, signs: Reals, row: int, placed: int, poses: Poses, x: Reals
+    program: Program, path: Reals, speeds: Reals, signs: Reals, row: int, placed: int, poses: PoseBuffer, x: Reals
 ) -> int:
     """Place everything at up to `LANES` rows from `row` on; returns the first row that is not to be trusted.
 

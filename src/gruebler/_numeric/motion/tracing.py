@@ -27,13 +27,13 @@ __all__ = [
     "LONG",
     "LOST",
     "SHORTEST",
-    "Conditions",
-    "Curve",
-    "evaluate",
+    "LoopConditions",
+    "SampleBuffer",
+    "evaluate_pose",
     "jacobian",
-    "scratch",
-    "settle",
-    "trace",
+    "new_trace_scratch",
+    "settle_on_curve",
+    "trace_curve",
 ]
 
 Reals = NDArray[np.float64]
@@ -41,8 +41,8 @@ Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 
 CLOSED, FULL, LONG, LOST, FLIP = range(5)
-"""How `trace` ended: back at the start; no room for more samples; at the longest length; no step succeeds; the bordered
-determinant has changed its sign from the last sample to the one behind it, which is not counted yet."""
+"""How `trace_curve` ended: back at the start; no room for more samples; at the longest length; no step succeeds; the
+bordered determinant has changed its sign from the last sample to the one behind it, which is not counted yet."""
 
 DEPENDENT = 1e-7  # a row shorter than this, after what it shares with others is taken away, depends on them
 SHORTEST = 1e-10  # the shortest step
@@ -53,7 +53,7 @@ _SKEW = 0.02  # chord and mean tangent of a step differ by less
 _SAME = 1e-8  # the curve is closed when it comes back as near as that
 
 
-class Conditions(NamedTuple):
+class LoopConditions(NamedTuple):
     """The closing conditions of all joints, as `closing` takes them, lengths in units of the linkage's size."""
 
     kinds: Ints
@@ -66,7 +66,7 @@ class Conditions(NamedTuple):
     pieces: Reals
 
 
-class Curve(NamedTuple):
+class SampleBuffer(NamedTuple):
     """Samples, as many as there is room for."""
 
     arcs: Reals
@@ -79,7 +79,7 @@ class Curve(NamedTuple):
     """(samples,) the shortest independent row, with the sign of the bordered determinant if no row is redundant."""
 
 
-class Scratch(NamedTuple):
+class TraceScratch(NamedTuple):
     """Room to work in."""
 
     residual: Reals
@@ -94,11 +94,11 @@ class Scratch(NamedTuple):
     lengths: Reals
 
 
-def scratch(c: Conditions) -> Scratch:
+def new_trace_scratch(c: LoopConditions) -> TraceScratch:
     """Room for m equations (and one more) and n unknowns."""
     m, n = sum(EQUATIONS[kind] for kind in c.kinds), 3 * (int(c.owners.max()) + 1)
     rows = max(m + 1, n)
-    return Scratch(
+    return TraceScratch(
         np.zeros(rows),
         np.zeros((rows, n)),
         np.zeros((rows, n)),
@@ -121,7 +121,7 @@ def _equations(kinds: Ints) -> int:
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _reduce(count: int, n: int, first: int, s: Scratch) -> int:
+def _reduce(count: int, n: int, first: int, s: TraceScratch) -> int:
     """Orthonormalise the rows, the longest remaining one first, after ``first`` if that is not -1; returns the rank.
 
     row order[j] = sum of shares[order[j], i] basis[i] over i <= j.
@@ -165,7 +165,7 @@ def _reduce(count: int, n: int, first: int, s: Scratch) -> int:
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _correct(c: Conditions, x: Reals, normal: Reals, level: float, in_plane: bool, s: Scratch) -> bool:
+def _correct(c: LoopConditions, x: Reals, normal: Reals, level: float, in_plane: bool, s: TraceScratch) -> bool:
     """Newton's method in place: onto the curve by shortest steps, or in the plane ``normal @ x = level``."""
     m, n = _equations(c.kinds), len(x)
     for _ in range(12):
@@ -199,10 +199,10 @@ def _correct(c: Conditions, x: Reals, normal: Reals, level: float, in_plane: boo
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _lean(c: Conditions, x: Reals, tangent: Reals, s: Scratch) -> tuple[float, float, int]:
+def _lean(c: LoopConditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple[float, float, int]:
     """Turn a direction into the tangent: its part in the null space of the Jacobian, of length 1.
 
-    Returns how far the joints are open, the gauge (`Curve`) and the rank.
+    Returns how far the joints are open, the gauge (`SampleBuffer`) and the rank.
     """
     m, n = _equations(c.kinds), len(x)
     miss = closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
@@ -232,7 +232,7 @@ def _lean(c: Conditions, x: Reals, tangent: Reals, s: Scratch) -> tuple[float, f
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def settle(c: Conditions, x: Reals, tangent: Reals, s: Scratch) -> tuple[bool, float, float, int]:
+def settle_on_curve(c: LoopConditions, x: Reals, tangent: Reals, s: TraceScratch) -> tuple[bool, float, float, int]:
     """Put a pose on the curve, by the nearest way, and a direction along it; both are changed in place.
 
     Returns whether it arrived, how far the joints are open, the gauge and the rank of the Jacobian there.
@@ -243,14 +243,14 @@ def settle(c: Conditions, x: Reals, tangent: Reals, s: Scratch) -> tuple[bool, f
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def jacobian(c: Conditions, x: Reals, s: Scratch) -> int:
+def jacobian(c: LoopConditions, x: Reals, s: TraceScratch) -> int:
     """Write residual and Jacobian into the scratch; returns how many equations there are."""
     closing(c.kinds, c.values, c.pieces, c.owners, c.points, c.lines, x, 1.0, s.residual, s.rows)
     return _equations(c.kinds)
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _homecoming(curve: Curve, k: int, step: float, s: Scratch) -> bool:
+def _homecoming(curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> bool:
     """Whether the start lies one step ahead of sample k; writes it, turned on by whole turns, into ``s.normal``."""
     here, tangent, n = curve.poses[k], curve.tangents[k], len(s.trial)
     along = same = 0.0
@@ -272,7 +272,7 @@ def _homecoming(curve: Curve, k: int, step: float, s: Scratch) -> bool:
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def _attempt(c: Conditions, curve: Curve, k: int, step: float, s: Scratch) -> tuple[bool, bool]:
+def _attempt(c: LoopConditions, curve: SampleBuffer, k: int, step: float, s: TraceScratch) -> tuple[bool, bool]:
     """Write sample k + 1, one step on or at the start; returns whether it is good, and whether it is the start."""
     n = len(s.trial)
     before, here, after = curve.poses[max(k - 1, 0)], curve.poses[k], curve.poses[k + 1]
@@ -321,8 +321,8 @@ def _attempt(c: Conditions, curve: Curve, k: int, step: float, s: Scratch) -> tu
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def trace(
-    c: Conditions, curve: Curve, count: int, step: float, longest: float, most: float, s: Scratch
+def trace_curve(
+    c: LoopConditions, curve: SampleBuffer, count: int, step: float, longest: float, most: float, s: TraceScratch
 ) -> tuple[int, int, float]:
     """Follow the curve from the last of ``count`` samples until something happens.
 
@@ -358,7 +358,9 @@ def trace(
 
 
 @njit(error_model="numpy", cache=True, _nrt=False)
-def evaluate(c: Conditions, curve: Curve, at: Reals, segments: Ints, poses: Reals, tangents: Reals, s: Scratch) -> int:
+def evaluate_pose(
+    c: LoopConditions, curve: SampleBuffer, at: Reals, segments: Ints, poses: Reals, tangents: Reals, s: TraceScratch
+) -> int:
     """Poses and tangents at given lengths, each between samples k and k + 1; returns how many were found.
 
     A cubic through both samples foretells the pose; Newton's method puts it on the curve in the plane across the chord.

@@ -6,9 +6,9 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from gruebler.text import in_language
+from gruebler.text import decimal_sign_in
 
-__all__ = ["Axis", "Scale", "angles", "decades", "decimals", "figures", "said"]
+__all__ = ["Axis", "Scale", "angles", "as_text", "decades", "decimals", "tick_labels"]
 
 _FEW = 7  # ticks of an axis, about
 _ANGLES = (1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720)  # degrees
@@ -84,10 +84,10 @@ def decades(low: float, high: float) -> Scale:
     )
 
 
-def said(values: Sequence[float], step: float) -> tuple[str, ...]:
+def tick_labels(values: Sequence[float], step: float) -> tuple[str, ...]:
     """Numbers with as many places as the step between them has; with a power of ten if they are huge or tiny.
 
-    >>> said((-0.5, 0.0, 0.5), 0.5), said((0.0, 2e7), 1e7)
+    >>> tick_labels((-0.5, 0.0, 0.5), 0.5), tick_labels((0.0, 2e7), 1e7)
     (('−0.5', '0.0', '0.5'), ('0', '2×10⁷'))
     """
     largest = max(map(abs, values), default=0.0)
@@ -97,15 +97,15 @@ def said(values: Sequence[float], step: float) -> tuple[str, ...]:
     return tuple(f"{value + 0.0:.{places}f}".replace("-", "−") for value in values)
 
 
-def figures(value: float, unit: str, lang: str = "en") -> str:
+def as_text(value: float, unit: str, lang: str = "en") -> str:
     """A size with four digits and its unit; with a power of ten where it is huge or tiny.
 
-    >>> figures(70.0, "mm"), figures(40.311, "mm", "de"), figures(3e7, "mm"), figures(1e-6, "mm")
+    >>> as_text(70.0, "mm"), as_text(40.311, "mm", "de"), as_text(3e7, "mm"), as_text(1e-6, "mm")
     ('70 mm', '40,31 mm', '3×10⁷ mm', '10⁻⁶ mm')
     """
     plain = not value or 1e-3 <= abs(float(f"{value:.4g}")) < 1e5
     number = f"{float(f'{value:.4g}'):.10g}".replace("-", "−") if plain else _with_power(value).removeprefix("1×")
-    return in_language(f"{number} {unit}", lang)
+    return decimal_sign_in(f"{number} {unit}", lang)
 
 
 def _with_power(value: float) -> str:
@@ -134,4 +134,4 @@ def _stepped(low: float, high: float, step: float, tight: bool) -> Scale:
     first, last = inner if tight else (math.floor(low / step + _TINY), math.ceil(high / step - _TINY))
     ticks = tuple(float(f"{k * step:.12g}") for k in range(first, last + 1))
     low, high = (low, high) if tight else (ticks[0], ticks[-1])
-    return Scale(low, high, ticks, False, said(ticks, step))
+    return Scale(low, high, ticks, False, tick_labels(ticks, step))

@@ -8,17 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from gruebler.drawing.canvas.shapes import Point, Shape, bounds, moved
+from gruebler.drawing.canvas.shapes import Point, Shape, bounds, moved_shape
 from gruebler.drawing.canvas.styles import STYLES
-from gruebler.drawing.canvas.svg import _plain, element, number, style_sheet
+from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, xml_text
 from gruebler.notebook import Brief
 
 __all__ = [
     "MARGIN",
     "Figure",
-    "document",
     "figure_of",
     "svg",
+    "svg_document",
 ]
 
 
@@ -52,30 +52,30 @@ def figure_of(
     """The figure that just holds the shapes."""
     all_shapes = tuple(shapes)
     corner, size = bounds(all_shapes, margin)
-    placed = tuple(moved(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
+    placed = tuple(moved_shape(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
     return Figure(placed, size.x, size.y, title, description, tuple(notes))
 
 
 def svg(figure: Figure, *, styled: bool = True) -> str:
     """The document; with ``styled`` it carries the rules of the styles it uses, and looks the same anywhere.
 
-    >>> from gruebler.drawing.canvas.shapes import Circle, Point
-    >>> svg(figure_of([Circle(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]
+    >>> from gruebler.drawing.canvas.shapes import CircleShape, Point
+    >>> svg(figure_of([CircleShape(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]
     '<title>one &lt; two</title><desc>a circle</desc>'
     """
     used = [shape.style for shape in figure.shapes]
-    return document(figure, used if styled else None, map(element, figure.shapes))
+    return svg_document(figure, used if styled else None, map(svg_element, figure.shapes))
 
 
-def document(page: Figure, used: Iterable[str] | None, lines: Iterable[str]) -> str:
+def svg_document(page: Figure, used: Iterable[str] | None, lines: Iterable[str]) -> str:
     """A page of the size of a figure, with its title and description, around elements that use these styles."""
-    width, height = number(page.width), number(page.height)
+    width, height = svg_number(page.width), svg_number(page.height)
     styles = None if used is None else sorted({"ground", *used}, key=list(STYLES).index)
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" class="gr" role="img" width="{width}" height="{height}" '
             f'viewBox="0 0 {width} {height}">',
-            f"<title>{_plain(page.title)}</title><desc>{_plain(page.description)}</desc>",
+            f"<title>{xml_text(page.title)}</title><desc>{xml_text(page.description)}</desc>",
             *([] if styles is None else [f"<style>{style_sheet(styles)}</style>"]),
             f'<rect class="gr-ground" width="{width}" height="{height}" rx="6"/>',
             *lines,

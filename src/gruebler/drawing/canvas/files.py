@@ -32,8 +32,8 @@ def picture_bytes(figure: Figure, suffix: str, *, dark: bool = False) -> bytes:
     """
     if suffix == "svg":
         return figure.svg().encode("utf-8")
-    from gruebler.drawing.canvas.matplotlib_files import save
+    from gruebler.drawing.canvas.matplotlib_files import save_figure
 
     memory = io.BytesIO()
-    save(figure, memory, suffix, dark=dark)
+    save_figure(figure, memory, suffix, dark=dark)
     return memory.getvalue()

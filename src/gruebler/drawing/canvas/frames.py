@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.matplotlib_files import painted
+from gruebler.drawing.canvas.matplotlib_files import matplotlib_figure
 from gruebler.errors import GrueblerError
 
-__all__ = ["FRAMES", "check_kind", "frames_of"]
+__all__ = ["FRAMES", "check_kind", "frames_file"]
 
 
 FRAMES = ("gif", "webp", "png")
@@ -36,7 +36,9 @@ def check_kind(kind: str) -> None:
         raise GrueblerError(f"expected a kind of file among {', '.join(FRAMES)}, but found {kind!r}")
 
 
-def frames_of(figures: Sequence[Figure], kind: str, seconds: float, *, dark: bool = False, zoom: float = 1.25) -> bytes:
+def frames_file(
+    figures: Sequence[Figure], kind: str, seconds: float, *, dark: bool = False, zoom: float = 1.25
+) -> bytes:
     """The content of a file that shows figures of one size one after another, evenly in so many seconds, over and over.
 
     A figure that comes twice as the same object is painted once. Arguments as for `animated_frames`.
@@ -67,7 +69,7 @@ _SAVED: dict[str, dict[str, Any]] = {"gif": {"optimize": True}, "webp": {"lossle
 
 def _picture(figure: Figure, zoom: float, dark: bool) -> Any:
     """The pixels of a figure."""
-    canvas = painted(figure, dark=dark)
+    canvas = matplotlib_figure(figure, dark=dark)
     canvas.set_dpi(96 * zoom)
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image

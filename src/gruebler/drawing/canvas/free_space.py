@@ -9,10 +9,10 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, text_width
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.styles import STYLES
 
-__all__ = ["HALF", "Room", "apart", "complexes", "from_segment", "inside"]
+__all__ = ["HALF", "Obstacles", "complexes", "distance_between", "from_segment", "is_inside"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -28,18 +28,18 @@ _Stroke = tuple[complex, complex, float]
 _Z = TypeVar("_Z", complex, Complexes)
 
 
-class Room:
+class Obstacles:
     """What is drawn: strokes with half their width, texts as level strokes, and filled polygons."""
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
         self.filled = [
             complexes(part)
             for shape in shapes
-            if isinstance(shape, Lines) and shape.closed and shape.style in _FILLED
+            if isinstance(shape, Polylines) and shape.closed and shape.style in _FILLED
             for part in shape.parts
         ]
         self.lines = _Strokes([stroke for shape in shapes for stroke in _strokes(shape)])
-        self.texts = _Strokes([_text(shape) for shape in shapes if isinstance(shape, Text)])
+        self.texts = _Strokes([_text(shape) for shape in shapes if isinstance(shape, TextShape)])
 
     def take(self, at: Point, wide: float) -> None:
         """A text stands there now."""
@@ -56,7 +56,7 @@ class Room:
         """Whether places lie on a filled polygon."""
         found = np.zeros(len(places), bool)
         for corners in self.filled:
-            found |= inside(places, corners)
+            found |= is_inside(places, corners)
         return found
 
     def open(self, places: Complexes, ways: Complexes) -> Flags:
@@ -77,7 +77,7 @@ class _Strokes:
 
     def gaps(self, first: Complexes, last: Complexes) -> Reals:
         """Pixels between lines (rows) and all strokes (columns); negative where they overlap."""
-        return np.asarray(apart(first[:, None], last[:, None], self.a[None, :], self.b[None, :]) - self.half)
+        return np.asarray(distance_between(first[:, None], last[:, None], self.a[None, :], self.b[None, :]) - self.half)
 
     def gap(self, first: Complexes, last: Complexes) -> Reals:
         """The least of them; infinite if there is nothing."""
@@ -86,16 +86,16 @@ class _Strokes:
 
 def _strokes(shape: Shape) -> Iterator[_Stroke]:
     match shape:
-        case Lines(parts, style, closed) if not style.startswith("halo"):
+        case Polylines(parts, style, closed) if not style.startswith("halo"):
             half = STYLES[style].width / 2
             for part in parts:
                 ends = [*part, part[0]] if closed else list(part)
                 yield from ((complex(*a), complex(*b), half) for a, b in pairwise(ends))
-        case Circle(at, radius) | Arc(at, radius):
+        case CircleShape(at, radius) | ArcShape(at, radius):
             yield complex(*at), complex(*at), radius
 
 
-def _text(text: Text) -> _Stroke:
+def _text(text: TextShape) -> _Stroke:
     wide = text_width(text.words, STYLES[text.style].size)
     return *_core(complex(text.at.x + _FROM_ANCHOR[text.anchor] * wide, text.at.y), wide), HALF
 
@@ -123,7 +123,7 @@ def from_segment(p: Complexes, a: Complexes, b: Complexes) -> Reals:
     return np.asarray(np.abs(p - a - t * along))
 
 
-def apart(a: Complexes, b: Complexes, c: Complexes, d: Complexes) -> Reals:
+def distance_between(a: Complexes, b: Complexes, c: Complexes, d: Complexes) -> Reals:
     """The distance of the segments a-b from the segments c-d; 0 where they cross."""
 
     def side(p: Complexes, q: Complexes, r: Complexes) -> Reals:
@@ -134,10 +134,10 @@ def apart(a: Complexes, b: Complexes, c: Complexes, d: Complexes) -> Reals:
     return np.where(crossing, 0.0, np.minimum.reduce(np.broadcast_arrays(*ends)))
 
 
-def inside(places: Complexes, corners: Complexes) -> Flags:
+def is_inside(places: Complexes, corners: Complexes) -> Flags:
     """Whether places lie inside a polygon.
 
-    >>> inside(np.array([1 + 1j, 3 + 1j]), np.array([0, 2, 2 + 2j, 2j])).tolist()
+    >>> is_inside(np.array([1 + 1j, 3 + 1j]), np.array([0, 2, 2 + 2j, 2j])).tolist()
     [True, False]
     """
     p, a, b = places[:, None], corners[None, :], np.roll(corners, -1)[None, :]

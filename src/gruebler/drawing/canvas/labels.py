@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.drawing.canvas.free_space import HALF, Room, complexes
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text, bounds, text_width
+from gruebler.drawing.canvas.free_space import HALF, Obstacles, complexes
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, bounds, text_width
 from gruebler.drawing.canvas.styles import BAR, STYLES
 
-__all__ = ["labelled", "legend", "named", "noted", "short_names"]
+__all__ = ["labels_or_numbers", "labels_with_names", "legend", "note_near", "short_names"]
 
 _ENOUGH = 7.0  # pixels around a text; more is no better
 _LEAST = 1.5
@@ -28,7 +28,7 @@ _COLUMN = 18.0  # from line to line of the list
 _SHORT = 3  # names of so many letters are taken as numbers
 
 
-def labelled(
+def labels_or_numbers(
     outlines: Mapping[str, Sequence[Point]],
     closed: Mapping[str, bool],
     shapes: Sequence[Shape],
@@ -38,13 +38,13 @@ def labelled(
 
     If a long name finds no room, long names become numbers and a list says what these mean.
     """
-    texts, rows = named(outlines, closed, shapes, names)
+    texts, rows = labels_with_names(outlines, closed, shapes, names)
     points = [point for outline in outlines.values() for point in outline]
     made = [*shapes, *texts]
     return [*made, *(legend(rows, points, made) if rows else ())]
 
 
-def named(
+def labels_with_names(
     outlines: Mapping[str, Sequence[Point]],
     closed: Mapping[str, bool],
     shapes: Sequence[Shape],
@@ -61,9 +61,9 @@ def named(
     return found, {name: number for name, number in numbers.items() if name != number}
 
 
-def noted(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Text:
+def note_near(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> TextShape:
     """A text near a point, where the shapes leave most room for it; above and to the right if nothing is in the way."""
-    room, wide = Room(shapes), text_width(words, STYLES[style].size)
+    room, wide = Obstacles(shapes), text_width(words, STYLES[style].size)
     places = [
         Point(at.x + (off + wide / 2) * math.cos(turn), at.y - (off + HALF) * math.sin(turn))
         for off in (8.0, 14.0, 22.0, 32.0, 44.0, 58.0)
@@ -71,7 +71,7 @@ def noted(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Text:
     ]
     free = room.free(complexes(places), wide)
     best = max(range(len(places)), key=lambda k: (min(float(free[k]), _LEAST), -k))
-    return Text(places[best], words, style)
+    return TextShape(places[best], words, style)
 
 
 def short_names(links: Sequence[str]) -> dict[str, str]:
@@ -93,7 +93,7 @@ def _from_one(most: int) -> range:
     return range(1, 2 * most + 1)
 
 
-class _Place(NamedTuple):
+class _LabelPlace(NamedTuple):
     """Where a name may stand: beside which point of an edge, in which direction, how far from the edge's middle."""
 
     at: Point
@@ -110,7 +110,7 @@ def _placed(
     names: Mapping[str, str],
 ) -> list[Shape] | None:
     """A text for every link, the longest first; None if a long one would touch something."""
-    room = Room(shapes)
+    room = Obstacles(shapes)
     points = [point for outline in outlines.values() for point in outline]
     texts: list[Shape] = []
     for link in sorted(outlines, key=lambda link: -len(names[link])):
@@ -123,13 +123,18 @@ def _placed(
                 return None
             place = farther[1] if farther[0] >= _LEAST else place
         room.take(place.at, wide)
-        texts += [*_leader(place, wide), Text(place.at, names[link], "name")]
+        texts += [*_leader(place, wide), TextShape(place.at, names[link], "name")]
     return texts
 
 
 def _best(
-    room: Room, points: Sequence[Point], outline: Sequence[Point], closed: bool, wide: float, farther: Sequence[float]
-) -> tuple[float, _Place]:
+    room: Obstacles,
+    points: Sequence[Point],
+    outline: Sequence[Point],
+    closed: bool,
+    wide: float,
+    farther: Sequence[float],
+) -> tuple[float, _LabelPlace]:
     """The place with room, at the rim if there is one, near the middle of an edge, and what is free there."""
     places = list(_candidates(outline, closed, wide, farther))
     at = complexes([place.at for place in places])
@@ -151,7 +156,7 @@ def _best(
     return float(free[best]), places[best]
 
 
-def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Sequence[float]) -> Iterator[_Place]:
+def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Sequence[float]) -> Iterator[_LabelPlace]:
     """Places beside the edges, outside of a polygon; the text is as far from its edge in every direction."""
     corners = [*outline, outline[0]] if closed else list(outline)
     area = sum(a.x * b.y - b.x * a.y for a, b in pairwise(corners))
@@ -164,18 +169,18 @@ def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Se
             for more in farther:
                 for part in _PARTS:
                     beside = a.plus(along, part)
-                    yield _Place(beside.plus(n, off + more), beside, n, abs(part - 0.5), more)
+                    yield _LabelPlace(beside.plus(n, off + more), beside, n, abs(part - 0.5), more)
 
 
-def _leader(place: _Place, wide: float) -> Iterator[Shape]:
+def _leader(place: _LabelPlace, wide: float) -> Iterator[Shape]:
     """A line from a link to its number, where this stands off."""
     if place.farther:
         end = place.at.plus(place.normal, -HALF - abs(place.normal.x) * max(0.0, wide / 2 - HALF))
-        yield Lines(((place.beside, end),), "measure")
-        yield Circle(place.beside, 2.0, "dot")
+        yield Polylines(((place.beside, end),), "measure")
+        yield CircleShape(place.beside, 2.0, "dot")
 
 
-def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[Shape] = ()) -> Iterator[Text]:
+def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[Shape] = ()) -> Iterator[TextShape]:
     """Numbers and names in columns below points and shapes, about as wide as these."""
     left, right = min(p.x for p in points), max(p.x for p in points)
     top = max(p.y for p in points) + 44.0
@@ -188,4 +193,4 @@ def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[S
     columns = max(1, int((right - left + 40.0) / widest))
     rows = math.ceil(len(entries) / columns)
     for k, entry in enumerate(entries):
-        yield Text(Point(left + widest * (k // rows), top + _COLUMN * (k % rows)), entry, "name", "start")
+        yield TextShape(Point(left + widest * (k // rows), top + _COLUMN * (k % rows)), entry, "name", "start")

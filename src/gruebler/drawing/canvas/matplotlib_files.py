@@ -10,33 +10,33 @@ from typing import Any, BinaryIO
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.gallery import Item, Section
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Shape, Text, lowered
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Polylines, Shape, TextShape, split_subscripts
 from gruebler.drawing.canvas.styles import COLOURS, STYLES
 from gruebler.errors import GrueblerError
 
-__all__ = ["gallery_pdf", "paint_on", "painted", "save"]
+__all__ = ["gallery_pdf", "matplotlib_figure", "paint_shapes", "save_figure"]
 
 _POINTS = 72 / 96  # of print, to a pixel
 
 
-def save(figure: Figure, file: BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
+def save_figure(figure: Figure, file: BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
     """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``, on light or dark ground.
 
     Raises `GrueblerError` if matplotlib is not installed.
     """
-    canvas = painted(figure, dark=dark)
+    canvas = matplotlib_figure(figure, dark=dark)
     canvas.savefig(file, format=suffix, dpi=96 * zoom, metadata=_METADATA[suffix] | {"Title": figure.title})
 
 
 _METADATA: dict[str, dict[str, Any]] = {"png": {"Software": None}, "pdf": {"CreationDate": None, "Creator": None}}
 
 
-def painted(figure: Figure, *, dark: bool = False) -> Any:
+def matplotlib_figure(figure: Figure, *, dark: bool = False) -> Any:
     """The figure as one of matplotlib's, without pyplot, 96 pixels to the inch."""
     paper = COLOURS["paper"][dark]
     canvas = _library().Figure(figsize=(figure.width / 96, figure.height / 96), facecolor=paper)
     axes = canvas.add_axes((0, 0, 1, 1))
-    paint_on(axes, figure, dark=dark)
+    paint_shapes(axes, figure, dark=dark)
     return canvas
 
 
@@ -54,7 +54,7 @@ def _library() -> Any:
     return figure
 
 
-def paint_on(axes: Any, figure: Figure, *, scale: float = 1.0, dark: bool = False) -> None:
+def paint_shapes(axes: Any, figure: Figure, *, scale: float = 1.0, dark: bool = False) -> None:
     """Paint a figure on axes; ``scale`` is the size of a pixel there, at 96 to the inch."""
     axes.set_xlim(0, figure.width)
     axes.set_ylim(figure.height, 0)
@@ -69,8 +69,8 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
     from matplotlib.path import Path as Outline
 
     style = STYLES[shape.style]
-    if isinstance(shape, Text):
-        pieces = lowered(shape.words)
+    if isinstance(shape, TextShape):
+        pieces = split_subscripts(shape.words)
         axes.text(
             *shape.at,
             _as_math(pieces) if len(pieces) > 1 else shape.words,
@@ -83,13 +83,13 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
         )
         return
     match shape:
-        case Lines(parts, _, closed):
+        case Polylines(parts, _, closed):
             outline = (
                 Outline.make_compound_path(*(_line(part, closed) for part in parts)) if parts else Outline([(0, 0)])
             )
-        case Circle(at, radius):
+        case CircleShape(at, radius):
             outline = Outline.circle(at, radius)
-        case Arc():
+        case ArcShape():
             steps = max(2, math.ceil(abs(shape.extent) / 0.05))
             outline = Outline([shape.place(k / steps) for k in range(steps + 1)])
     axes.add_patch(
@@ -183,7 +183,7 @@ def _paint_item(page: Any, item: Item, corner: tuple[float, float], size: tuple[
     wide, high = scale * item.figure.width / 96 / _A4[0], scale * item.figure.height / 96 / _A4[1]
     middle = left + column / 2
     axes = page.add_axes((middle - wide / 2, box[1] + (box[3] - high) / 2, wide, high))
-    paint_on(axes, item.figure, scale=scale)
+    paint_shapes(axes, item.figure, scale=scale)
     lines = wrap(item.caption, round(150 * column))
     page.text(middle, box[1] - 0.003, "\n".join(lines), fontsize=7, ha="center", va="top", parse_math=False)
     code = "\n".join(wrap(item.code, round(190 * column)))

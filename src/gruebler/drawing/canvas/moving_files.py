@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from gruebler.drawing.canvas.frames import FRAMES, frames_of
-from gruebler.drawing.canvas.moving_page import Settings, page_of
+from gruebler.drawing.canvas.frames import FRAMES, frames_file
+from gruebler.drawing.canvas.moving_page import PageSettings, moving_page_html
 from gruebler.drawing.canvas.moving_picture import MovingPicture, figure_at, moving_svg
 
 __all__ = ["MOVING", "moving_bytes", "moving_page"]
@@ -19,10 +19,10 @@ def moving_page(picture: MovingPicture, lang: str = "en") -> str:
     """An HTML page with the picture, a button and a slider for the drive."""
     clock = picture.clock
     places = max(0, 3 - math.floor(math.log10(max(clock.high - clock.low, 1e-9))))
-    settings = Settings(
+    settings = PageSettings(
         low=clock.low, high=clock.high, seconds=clock.seconds, round=clock.round, places=places, unit=clock.unit
     )
-    return page_of(moving_svg(picture), picture.page, settings, lang)
+    return moving_page_html(moving_svg(picture), picture.page, settings, lang)
 
 
 def moving_bytes(picture: MovingPicture, kind: str, *, dark: bool = False, lang: str = "en") -> bytes:
@@ -37,4 +37,4 @@ def moving_bytes(picture: MovingPicture, kind: str, *, dark: bool = False, lang:
         return moving_page(picture, lang).encode("utf-8")
     count = min(_MOST, max(2, round(_RATE * picture.clock.seconds)))
     figures = [figure_at(picture, k / count) for k in range(count)]
-    return frames_of(figures, kind, picture.clock.seconds, dark=dark)
+    return frames_file(figures, kind, picture.clock.seconds, dark=dark)

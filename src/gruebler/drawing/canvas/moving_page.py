@@ -9,7 +9,7 @@ from typing import TypedDict
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.styles import COLOURS
 
-__all__ = ["Settings", "page_of"]
+__all__ = ["PageSettings", "moving_page_html"]
 
 
 _WORDS = {
@@ -49,7 +49,7 @@ if(e.key==" "){e.preventDefault();b.click()}else if(k){e.preventDefault();s.step
 run();show(at(0));tick();"""
 
 
-class Settings(TypedDict):
+class PageSettings(TypedDict):
     """What the script needs to know: from where to where the drive goes, and in which time."""
 
     low: float
@@ -61,7 +61,7 @@ class Settings(TypedDict):
     unit: str
 
 
-def page_of(picture: str, about: Figure, settings: Settings, lang: str) -> str:
+def moving_page_html(picture: str, about: Figure, settings: PageSettings, lang: str) -> str:
     """The page around an SVG that moves by itself, with the title and description of a figure."""
     words = _WORDS[lang]
     low, high = settings["low"], settings["high"]

@@ -13,9 +13,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.drawing.canvas.figure import Figure, document, figure_of
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, bounds, moved
-from gruebler.drawing.canvas.svg import element, number
+from gruebler.drawing.canvas.figure import Figure, figure_of, svg_document
+from gruebler.drawing.canvas.shapes import (
+    ArcShape,
+    CircleShape,
+    Point,
+    Polylines,
+    Shape,
+    TextShape,
+    bounds,
+    moved_shape,
+)
+from gruebler.drawing.canvas.svg import svg_element, svg_number
 from gruebler.errors import GrueblerError
 
 __all__ = [
@@ -24,14 +33,14 @@ __all__ = [
     "MovingPicture",
     "Shift",
     "Turn",
+    "always",
     "at_time",
-    "even",
+    "even_keys",
     "figure_at",
-    "lasting",
-    "listed",
+    "key_list",
     "moving",
     "moving_svg",
-    "still",
+    "still_picture",
 ]
 
 _MARGIN = 16.0
@@ -94,7 +103,7 @@ def moving(bodies: Iterable[Body], clock: Clock, title: str, description: str) -
     return MovingPicture(parts, clock, corner, Figure((), size.x, size.y, title, description))
 
 
-def lasting(seconds: float) -> float:
+def always(seconds: float) -> float:
     """The time, if it is a positive number of seconds up to an hour; else `gruebler.GrueblerError`."""
     if not 0 < seconds <= _LONGEST:
         raise GrueblerError(
@@ -104,23 +113,23 @@ def lasting(seconds: float) -> float:
     return seconds
 
 
-def still(bodies: Iterable[Body], title: str, description: str) -> Figure:
+def still_picture(bodies: Iterable[Body], title: str, description: str) -> Figure:
     """The figure of bodies at their first key."""
     return figure_of(at_time(bodies, 0.0), title, description, margin=_MARGIN)
 
 
-def even(turns: float, start: float = 0.0) -> Turn:
+def even_keys(turns: float, start: float = 0.0) -> Turn:
     """A motion by so many turns at an even speed."""
     return Turn((start, start + math.tau * turns)) if turns else Turn((start,))
 
 
-def listed(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
+def key_list(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
     """What lines mean: pairs of a style and words, one below the other, each beside a piece of its line."""
     shapes: list[Shape] = []
     for k, (style, words) in enumerate(rows):
         left = at.plus(Point(0.0, _ROW * k))
-        shapes += [Lines(((left, left.plus(Point(_SAMPLE, 0.0))),), style)]
-        shapes += [Text(left.plus(Point(_SAMPLE + 8.0, 0.0)), words, "value", "start")]
+        shapes += [Polylines(((left, left.plus(Point(_SAMPLE, 0.0))),), style)]
+        shapes += [TextShape(left.plus(Point(_SAMPLE + 8.0, 0.0)), words, "value", "start")]
     return shapes
 
 
@@ -130,7 +139,7 @@ def listed(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
 def at_time(bodies: Iterable[Body], time: float) -> list[Shape]:
     """The shapes of all bodies when so great a part of the time (0 to 1) has passed.
 
-    >>> body = Body((Circle(Point(10, 0), 2, "joint"),), (Shift((Point(5, 5),)), even(1)))
+    >>> body = Body((CircleShape(Point(10, 0), 2, "joint"),), (Shift((Point(5, 5),)), even_keys(1)))
     >>> at = at_time([body], 0.25)[0].at  # a quarter turn upwards
     >>> round(at.x, 9), round(at.y, 9)
     (5.0, -5.0)
@@ -164,20 +173,20 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
         return place.plus(_turned(p, turn))
 
     match shape:
-        case Lines(lines, style, closed):
-            return Lines(tuple(tuple(map(to, line)) for line in lines), style, closed)
-        case Circle(at, radius, style):
-            return Circle(to(at), radius, style)
-        case Arc(at, radius, begin, extent, style):
-            return Arc(to(at), radius, begin - cmath.phase(turn), extent, style)
-        case Text(at, words, style, anchor):
-            return Text(to(at), words, style, anchor)
+        case Polylines(lines, style, closed):
+            return Polylines(tuple(tuple(map(to, line)) for line in lines), style, closed)
+        case CircleShape(at, radius, style):
+            return CircleShape(to(at), radius, style)
+        case ArcShape(at, radius, begin, extent, style):
+            return ArcShape(to(at), radius, begin - cmath.phase(turn), extent, style)
+        case TextShape(at, words, style, anchor):
+            return TextShape(to(at), words, style, anchor)
 
 
 def figure_at(picture: MovingPicture, time: float) -> Figure:
     """One instant of a moving picture, in its frame."""
     by, page = Point(-picture.corner.x, -picture.corner.y), picture.page
-    shapes = tuple(moved(shape, by) for shape in at_time(picture.bodies, time))
+    shapes = tuple(moved_shape(shape, by) for shape in at_time(picture.bodies, time))
     return Figure(shapes, page.width, page.height, page.title, page.description)
 
 
@@ -187,13 +196,13 @@ def figure_at(picture: MovingPicture, time: float) -> Figure:
 def moving_svg(picture: MovingPicture) -> str:
     """The picture as SVG that moves by itself (SMIL), over and over, without script."""
     used = [shape.style for body in picture.bodies for shape in body.shapes]
-    shift = f"{number(-picture.corner.x)} {number(-picture.corner.y)}"
+    shift = f"{svg_number(-picture.corner.x)} {svg_number(-picture.corner.y)}"
     groups = (_group(body, picture.clock.seconds) for body in picture.bodies)
-    return document(picture.page, used, [f'<g transform="translate({shift})">', *groups, "</g>"])
+    return svg_document(picture.page, used, [f'<g transform="translate({shift})">', *groups, "</g>"])
 
 
 def _group(body: Body, seconds: float) -> str:
-    shapes = "".join(map(element, body.shapes))
+    shapes = "".join(map(svg_element, body.shapes))
     if not body.steps:
         return shapes
     written = [_keys(step) for step in body.steps]
@@ -213,5 +222,5 @@ def _moves(written: Sequence[tuple[str, list[str]]], seconds: float) -> Iterator
 
 def _keys(step: Shift | Turn) -> tuple[str, list[str]]:
     if isinstance(step, Shift):
-        return "translate", [f"{number(place.x)} {number(place.y)}" for place in step.places]
+        return "translate", [f"{svg_number(place.x)} {svg_number(place.y)}" for place in step.places]
     return "rotate", [f"{round(-math.degrees(angle), 2) + 0.0:.10g}" for angle in step.angles]

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 
 from gruebler.drawing.canvas.axes import Axis, Scale, angles, decades, decimals
 from gruebler.drawing.canvas.figure import Figure, figure_of
-from gruebler.drawing.canvas.free_space import Room, complexes
-from gruebler.drawing.canvas.labels import noted
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text, moved, text_width
-from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.canvas.free_space import Obstacles, complexes
+from gruebler.drawing.canvas.labels import note_near
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, moved_shape, text_width
+from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.errors import GrueblerError
-from gruebler.text import in_language
+from gruebler.text import decimal_sign_in
 
-__all__ = ["Band", "Curve", "Mark", "Panel", "Rest", "Spot", "plotted", "ratio_diagram"]
+__all__ = ["AxisMarker", "Band", "Curve", "Panel", "PointMarker", "Rest", "draw_panels", "ratio_diagram"]
 
 Reals = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ class Curve(NamedTuple):
     """Whether it is read at the axis on the right."""
 
 
-class Spot(NamedTuple):
+class PointMarker(NamedTuple):
     """A point that is named."""
 
     x: float
@@ -61,7 +61,7 @@ class Band(NamedTuple):
     words: str
 
 
-class Mark(NamedTuple):
+class AxisMarker(NamedTuple):
     """A place on the axis below that is marked by a line upwards."""
 
     x: float
@@ -84,8 +84,8 @@ class Panel(NamedTuple):
     curves: tuple[Curve, ...]
     right: Axis | None = None
     bands: tuple[Band, ...] = ()
-    marks: tuple[Mark, ...] = ()
-    spots: tuple[Spot, ...] = ()
+    marks: tuple[AxisMarker, ...] = ()
+    spots: tuple[PointMarker, ...] = ()
     rests: tuple[Rest, ...] = ()
     size: Point = _SIZE
     marked: str = ""
@@ -97,18 +97,18 @@ class Panel(NamedTuple):
         return Point(self.size.x * self.across.scale.part(x), -self.size.y * axis.scale.part(y))
 
 
-def plotted(panels: Sequence[Panel], title: str, description: str, lang: str = "en") -> Figure:
+def draw_panels(panels: Sequence[Panel], title: str, description: str, lang: str = "en") -> Figure:
     """The figure of panels one below the other; all lines with a name are listed on the right.
 
     >>> x = np.linspace(0, 360, 100)
     >>> panel = Panel(Axis("x", angles(0, 360)), Axis("y", decimals(-1, 1)), (Curve(x, np.sin(x), "", "line-1"),))
-    >>> plotted([panel], "sine", "A wave.").title
+    >>> draw_panels([panel], "sine", "A wave.").title
     'sine'
     """
     shapes: list[Shape] = []
     top = 0.0
     for panel in panels:
-        shapes += [moved(shape, Point(0.0, top + panel.size.y)) for shape in _painted(panel)]
+        shapes += [moved_shape(shape, Point(0.0, top + panel.size.y)) for shape in _painted(panel)]
         top += panel.size.y + _BETWEEN
     named = {curve.name: curve.style for panel in panels for curve in panel.curves if curve.name}
     named |= {panel.marked: "dead" for panel in panels if panel.marks and panel.marked}
@@ -119,8 +119,8 @@ def plotted(panels: Sequence[Panel], title: str, description: str, lang: str = "
 
 def _localised(shape: Shape, lang: str) -> Shape:
     """A shape whose numbers have the decimal sign of a language."""
-    if isinstance(shape, Text) and shape.style in ("tick", "value"):
-        return replace(shape, words=in_language(shape.words, lang))
+    if isinstance(shape, TextShape) and shape.style in ("tick", "value"):
+        return replace(shape, words=decimal_sign_in(shape.words, lang))
     return shape
 
 
@@ -130,14 +130,14 @@ def _right_margin(axis: Axis) -> float:
 
 def _painted(panel: Panel) -> list[Shape]:
     """Everything in a panel; the words at its points keep clear of lines, not of the grid."""
-    drawn: list[Shape] = [Lines(lines, c.style) for c in panel.curves if (lines := tuple(_pieces(panel, c)))]
+    drawn: list[Shape] = [Polylines(lines, c.style) for c in panel.curves if (lines := tuple(_pieces(panel, c)))]
     drawn += [*_frame(panel), *_marks(panel)]
     sides = [x for off in _MARGINS for x in (-off, panel.size.x + off)]
-    margins = Lines(tuple((Point(x, 0.0), Point(x, -panel.size.y)) for x in sides), "grid")
+    margins = Polylines(tuple((Point(x, 0.0), Point(x, -panel.size.y)) for x in sides), "grid")
     for spot in panel.spots:
         at = panel.place(spot.x, spot.y, spot.right)
-        drawn.append(Circle(at, 3.2, "dot"))
-        drawn += [noted(at, spot.words, "value", [*drawn, margins])] if spot.words else []
+        drawn.append(CircleShape(at, 3.2, "dot"))
+        drawn += [note_near(at, spot.words, "value", [*drawn, margins])] if spot.words else []
     shaded = [shape for band in panel.bands for shape in _shaded(panel, band, drawn)]
     rests = [_rest(panel, rest) for rest in panel.rests]
     return [*rests, *shaded, *_grid(panel), *drawn]
@@ -147,7 +147,9 @@ def _rest(panel: Panel, rest: Rest) -> Shape:
     """A dwell, shaded from below to above."""
     left, right = (panel.size.x * panel.across.scale.part(x) for x in (rest.low, rest.high))
     high = panel.size.y
-    return Lines(((Point(left, 0.0), Point(right, 0.0), Point(right, -high), Point(left, -high)),), "rest", closed=True)
+    return Polylines(
+        ((Point(left, 0.0), Point(right, 0.0), Point(right, -high), Point(left, -high)),), "rest", closed=True
+    )
 
 
 # --- axes ------------------------------------------------------------------------------------------
@@ -160,7 +162,7 @@ def _grid(panel: Panel) -> Iterator[Shape]:
     rows = [Point(0.0, -high * up.part(y)) for y in up.ticks]
     lines = [(p, Point(p.x, -high)) for p in columns] + [(p, Point(wide, p.y)) for p in rows]
     if lines:
-        yield Lines(tuple(lines), "grid")
+        yield Polylines(tuple(lines), "grid")
 
 
 def _frame(panel: Panel) -> Iterator[Shape]:
@@ -169,52 +171,52 @@ def _frame(panel: Panel) -> Iterator[Shape]:
     corner = Point(0.0, 0.0)
     ends = [Point(0.0, -high), corner, Point(wide, 0.0), *([Point(wide, -high)] if panel.right else [])]
     strokes: list[tuple[Point, ...]] = [tuple(ends)]
-    texts: list[Text] = []
+    texts: list[TextShape] = []
     across = panel.across.scale
     for x, name in zip(across.ticks, across.names, strict=True):
         at = Point(wide * across.part(x), 0.0)
         strokes.append((at, at.plus(Point(0, 1), _TICK if name else _TICK / 2)))
-        texts += [Text(at.plus(Point(0, 1), _TICK + 10.0), name, "tick")] if name else []
+        texts += [TextShape(at.plus(Point(0, 1), _TICK + 10.0), name, "tick")] if name else []
     for axis, left, out in ((panel.up, 0.0, -1.0), *([(panel.right, wide, 1.0)] if panel.right else [])):
         for y, name in zip(axis.scale.ticks, axis.scale.names, strict=True):
             at = Point(left, -high * axis.scale.part(y))
             strokes.append((at, at.plus(Point(out, 0.0), _TICK if name else _TICK / 2)))
             beside = at.plus(Point(out, 0.0), _TICK + 4.0)
-            texts += [Text(beside, name, "tick", "end" if out < 0 else "start")] if name else []
-    yield Lines(tuple(strokes), "axis")
+            texts += [TextShape(beside, name, "tick", "end" if out < 0 else "start")] if name else []
+    yield Polylines(tuple(strokes), "axis")
     yield from texts
-    yield Text(Point(wide, _TICK + 27.0), panel.across.words, "value", "end")
+    yield TextShape(Point(wide, _TICK + 27.0), panel.across.words, "value", "end")
     above = -high - _ABOVE * (
         2 if any([*(mark.words for mark in panel.marks), *(rest.words for rest in panel.rests)]) else 1
     )
-    yield Text(Point(0.0, above), panel.up.words, "value", "start")
+    yield TextShape(Point(0.0, above), panel.up.words, "value", "start")
     if panel.right:
-        yield Text(Point(wide, above), panel.right.words, "value", "end")
+        yield TextShape(Point(wide, above), panel.right.words, "value", "end")
 
 
 def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]:
     """A range of heights, with its words where most room is."""
     low, high = (panel.place(panel.across.scale.low, y) for y in (band.low, band.high))
     wide = Point(panel.size.x, 0.0)
-    yield Lines(((low, low.plus(wide), high.plus(wide), high),), "warning", closed=True)
+    yield Polylines(((low, low.plus(wide), high.plus(wide), high),), "warning", closed=True)
     half = text_width(band.words, 11.0) / 2
     places = [Point(x, y) for y in (high.y + 11.0, low.y - 11.0) for x in (wide.x - half - 6.0, half + 6.0, wide.x / 2)]
-    free = Room(drawn).free(complexes(places), 2 * half)
-    yield Text(places[int(free.argmax())], band.words, "tick")
+    free = Obstacles(drawn).free(complexes(places), 2 * half)
+    yield TextShape(places[int(free.argmax())], band.words, "tick")
 
 
 def _marks(panel: Panel) -> Iterator[Shape]:
     """Lines upwards; their words and those of dwells stand side by side above the panel, as long as there is room."""
     last = -math.inf
-    rests = [Mark((rest.low + rest.high) / 2, rest.words) for rest in panel.rests]
+    rests = [AxisMarker((rest.low + rest.high) / 2, rest.words) for rest in panel.rests]
     for mark in sorted([*panel.marks, *rests]):
         foot = panel.place(mark.x, panel.up.scale.low)
         top = Point(foot.x, -panel.size.y)
         if mark not in rests:
-            yield Lines(((foot, top),), "dead")
+            yield Polylines(((foot, top),), "dead")
         half = text_width(mark.words, 11.0) / 2
         if mark.words and foot.x - half > last:
-            yield Text(top.plus(Point(0.0, -13.0)), mark.words, "tick")
+            yield TextShape(top.plus(Point(0.0, -13.0)), mark.words, "tick")
             last = foot.x + half + 4.0
 
 
@@ -239,7 +241,7 @@ def _pieces(panel: Panel, curve: Curve) -> list[tuple[Point, ...]]:
             parts[-1].append(inside[1])
         else:
             parts.append(list(inside))
-    return [tuple(thinned(part, FINE)) for part in parts]
+    return [tuple(simplified(part, FINE)) for part in parts]
 
 
 def _clipped(a: Point, b: Point, size: Point) -> tuple[Point, Point] | None:
@@ -262,8 +264,8 @@ def _listed(named: dict[str, str], left: float) -> Iterator[Shape]:
     """The names of the lines, one below the other, each beside a piece of its line."""
     for k, (name, style) in enumerate(named.items()):
         at = Point(left, 8.0 + _ROW * k)
-        yield Lines(((at, at.plus(Point(_SAMPLE, 0.0))),), style)
-        yield Text(at.plus(Point(_SAMPLE + 8.0, 0.0)), name, "value", "start")
+        yield Polylines(((at, at.plus(Point(_SAMPLE, 0.0))),), style)
+        yield TextShape(at.plus(Point(_SAMPLE + 8.0, 0.0)), name, "value", "start")
 
 
 # --- straight-line guidance ------------------------------------------------------------------------
@@ -314,7 +316,7 @@ def ratio_diagram(
     Raises `GrueblerError` for lists of different lengths, less than two values, or ratios that are not positive.
 
     >>> figure = ratio_diagram([0.5, 1.6, 2.9], [1e-6, 1e-4, 5e-3], [0.8, 2.0, 3.9], at=(2.85, 0.005, 3.9))
-    >>> [shape.words for shape in figure.shapes if isinstance(shape, Text)][-4:]
+    >>> [shape.words for shape in figure.shapes if isinstance(shape, TextShape)][-4:]
     ['P₁', 'P₂', 'Q_G', 'L/l₁']
     """
     phi, q, way = (np.array(list(values), np.float64) for values in (angle, ratio, length))
@@ -325,16 +327,16 @@ def ratio_diagram(
     if not (np.isfinite([phi, q, way]).all() and (q > 0).all()):
         raise GrueblerError("expected finite values with ratios above 0")
     words, degrees = _WORDS[lang], np.degrees(phi)
-    spots: tuple[Spot, ...] = ()
+    spots: tuple[PointMarker, ...] = ()
     about = words["about"]
     if at is not None:
         x = math.degrees(at[0])
-        spots = Spot(x, at[1], "P₁"), Spot(x, at[2], "P₂", right=True)
+        spots = PointMarker(x, at[1], "P₁"), PointMarker(x, at[2], "P₂", right=True)
         about += " " + words["at"].format(angle=x, ratio=at[1], length=at[2])
-        about = in_language(about, lang)
+        about = decimal_sign_in(about, lang)
 
     def axis(key: str, scale: Scale) -> Axis:
-        return Axis(words[key], scale._replace(names=tuple(in_language(name, lang) for name in scale.names)))
+        return Axis(words[key], scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
 
     panel = Panel(
         axis("angle", angles(0.0, float(degrees.max()), tight=True)),
@@ -344,8 +346,8 @@ def ratio_diagram(
             Curve(degrees, way, words["length"], "line-2", right=True),
         ),
         axis("length", decimals(0.0, float(way.max()))),
-        marks=(Mark(spots[0].x, ""),) if spots else (),
+        marks=(AxisMarker(spots[0].x, ""),) if spots else (),
         spots=spots,
         size=Point(*size),
     )
-    return plotted([panel], title or words["title"], about)
+    return draw_panels([panel], title or words["title"], about)

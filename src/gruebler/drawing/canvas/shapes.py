@@ -13,7 +13,18 @@ from typing import NamedTuple
 
 from gruebler.drawing.canvas.styles import STYLES
 
-__all__ = ["Arc", "Circle", "Lines", "Point", "Shape", "Text", "bounds", "lowered", "moved", "text_width"]
+__all__ = [
+    "ArcShape",
+    "CircleShape",
+    "Point",
+    "Polylines",
+    "Shape",
+    "TextShape",
+    "bounds",
+    "moved_shape",
+    "split_subscripts",
+    "text_width",
+]
 
 
 class Point(NamedTuple):
@@ -52,7 +63,7 @@ class Point(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Lines:
+class Polylines:
     """One or several lines through points, closed or open."""
 
     parts: tuple[tuple[Point, ...], ...]
@@ -61,7 +72,7 @@ class Lines:
 
 
 @dataclass(frozen=True, slots=True)
-class Circle:
+class CircleShape:
     """A circle."""
 
     at: Point
@@ -70,7 +81,7 @@ class Circle:
 
 
 @dataclass(frozen=True, slots=True)
-class Arc:
+class ArcShape:
     """A part of a circle, from an angle on by an extent of less than a full turn; positive from x to y."""
 
     at: Point
@@ -86,7 +97,7 @@ class Arc:
 
 
 @dataclass(frozen=True, slots=True)
-class Text:
+class TextShape:
     """Words at a place, their middle at its height; the anchor is start, middle or end."""
 
     at: Point
@@ -95,7 +106,7 @@ class Text:
     anchor: str = "middle"
 
 
-Shape = Lines | Circle | Arc | Text
+Shape = Polylines | CircleShape | ArcShape | TextShape
 
 
 def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]:
@@ -109,10 +120,10 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
 _LOWERED = re.compile(r"(?<!\w)([^\W\d_])_(\w{1,3})(?!\w)")
 
 
-def lowered(words: str) -> list[tuple[str, bool]]:
+def split_subscripts(words: str) -> list[tuple[str, bool]]:
     """A text in pieces, each with whether it stands lower: up to three signs after a letter and an underscore.
 
-    >>> lowered("μ_min = 3°, left_arm")
+    >>> split_subscripts("μ_min = 3°, left_arm")
     [('μ', False), ('min', True), (' = 3°, left_arm', False)]
     """
     pieces = _LOWERED.split(words)
@@ -130,24 +141,24 @@ def text_width(words: str, size: float = 13.0) -> float:
 
 def _corners(shape: Shape) -> Iterator[Point]:
     match shape:
-        case Lines(parts):
+        case Polylines(parts):
             yield from (point for part in parts for point in part)
-        case Circle(at, radius) | Arc(at, radius):
+        case CircleShape(at, radius) | ArcShape(at, radius):
             yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
-        case Text(at, words, style, anchor):
+        case TextShape(at, words, style, anchor):
             wide = text_width(words, STYLES[style].size)
             left = at.x - wide * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
             yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
 
 
-def moved(shape: Shape, by: Point) -> Shape:
+def moved_shape(shape: Shape, by: Point) -> Shape:
     """The shape somewhere else."""
     match shape:
-        case Lines(parts, style, closed):
-            return Lines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
-        case Circle(at, radius, style):
-            return Circle(at.plus(by), radius, style)
-        case Arc(at, radius, begin, extent, style):
-            return Arc(at.plus(by), radius, begin, extent, style)
-        case Text(at, words, style, anchor):
-            return Text(at.plus(by), words, style, anchor)
+        case Polylines(parts, style, closed):
+            return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
+        case CircleShape(at, radius, style):
+            return CircleShape(at.plus(by), radius, style)
+        case ArcShape(at, radius, begin, extent, style):
+            return ArcShape(at.plus(by), radius, begin, extent, style)
+        case TextShape(at, words, style, anchor):
+            return TextShape(at.plus(by), words, style, anchor)

@@ -8,16 +8,16 @@ import numpy as np
 
 from gruebler.drawing.canvas.shapes import Point
 
-__all__ = ["FINE", "thinned"]
+__all__ = ["FINE", "simplified"]
 
 FINE = 0.12
 """Pixels by which a drawn curve may be off."""
 
 
-def thinned(points: Sequence[Point], most: float) -> list[Point]:
+def simplified(points: Sequence[Point], most: float) -> list[Point]:
     """Fewer points of a line, so that it stays within a distance of the others (Douglas and Peucker 1973).
 
-    >>> thinned([Point(0, 0), Point(1, 0.01), Point(2, 0)], 0.1)
+    >>> simplified([Point(0, 0), Point(1, 0.01), Point(2, 0)], 0.1)
     [Point(x=0, y=0), Point(x=2, y=0)]
     """
     xy = np.array(points, np.float64)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from xml.sax.saxutils import escape
 
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, lowered
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, split_subscripts
 from gruebler.drawing.canvas.styles import COLOURS, STYLES, Style
 
 __all__ = [
-    "element",
-    "number",
     "style_sheet",
+    "svg_element",
+    "svg_number",
 ]
 
 _CONTROLS = dict.fromkeys((*range(9), 11, 12, *range(14, 32), 65534, 65535, *range(55296, 57344)))
@@ -39,20 +39,22 @@ def _declarations(style: Style, ground: int) -> str:
     return ";".join(parts if ground == 0 else [p for p in parts if p != "fill:none"])
 
 
-def element(shape: Shape) -> str:
+def svg_element(shape: Shape) -> str:
     """A shape as an element of SVG."""
     match shape:
-        case Lines(parts, style, closed):
+        case Polylines(parts, style, closed):
             return f'<path class="gr-{style}" d="{"".join(_line(part, closed) for part in parts)}"/>'
-        case Circle(at, radius, style):
-            return f'<circle class="gr-{style}" cx="{number(at.x)}" cy="{number(at.y)}" r="{number(radius)}"/>'
-        case Arc(_, radius, _, extent, style):
-            size = number(radius)
+        case CircleShape(at, radius, style):
+            return (
+                f'<circle class="gr-{style}" cx="{svg_number(at.x)}" cy="{svg_number(at.y)}" r="{svg_number(radius)}"/>'
+            )
+        case ArcShape(_, radius, _, extent, style):
+            size = svg_number(radius)
             flags = f"{int(abs(extent) > math.pi)} {int(extent > 0)}"
             ends = _pair(shape.place(0)), _pair(shape.place(1))
             return f'<path class="gr-{style}" d="M{ends[0]}A{size} {size} 0 {flags} {ends[1]}"/>'
-        case Text(at, words, style, anchor):
-            where = f'x="{number(at.x)}" y="{number(at.y + 0.35 * STYLES[style].size)}"'
+        case TextShape(at, words, style, anchor):
+            where = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
             return f'<text class="gr-{style}" {where}{anchored}>{_worded(words, STYLES[style].size)}</text>'
 
@@ -62,29 +64,29 @@ def _line(points: tuple[Point, ...], closed: bool) -> str:
 
 
 def _pair(point: Point) -> str:
-    return f"{number(point.x)} {number(point.y)}"
+    return f"{svg_number(point.x)} {svg_number(point.y)}"
 
 
-def number(value: float) -> str:
+def svg_number(value: float) -> str:
     """Tenths of a pixel; no minus zero."""
     return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
 
 
 def _worded(words: str, size: float) -> str:
     """Words with what stands lower, and after it as high as before."""
-    pieces = lowered(words)
+    pieces = split_subscripts(words)
     if len(pieces) == 1:
-        return _plain(words)
+        return xml_text(words)
     made, was_low = "", False
     for piece, low in pieces:
         shift = 0.25 * size * (low - was_low)
-        small = f' font-size="{number(0.75 * size)}"' if low else ""
-        moved = f'<tspan dy="{number(shift)}"{small}>{_plain(piece)}</tspan>'
-        made += moved if shift or small else _plain(piece)
+        small = f' font-size="{svg_number(0.75 * size)}"' if low else ""
+        moved = f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(piece)}</tspan>'
+        made += moved if shift or small else xml_text(piece)
         was_low = low
     return made
 
 
-def _plain(words: str) -> str:
+def xml_text(words: str) -> str:
     """Text that XML can hold."""
     return escape(words.translate(_CONTROLS))

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.styles import BAR
 
 __all__ = [
+    "JointMember",
     "JointSign",
-    "Member",
     "arrow",
     "arrow_head",
     "bar",
@@ -39,7 +39,7 @@ _HATCH = 6.0
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class JointMember:
     """A link at a joint: the direction in which it lies, and whether it is the frame."""
 
     towards: Point
@@ -60,32 +60,35 @@ class JointSign:
     """How far the sign goes from its middle."""
 
 
-def joint_sign(kind: str, at: Point, members: Sequence[Member], *, letter: str = "") -> JointSign:
+def joint_sign(kind: str, at: Point, members: Sequence[JointMember], *, letter: str = "") -> JointSign:
     """The sign of a pair by name; a letter is written where the pair has no sign of its own in the plane."""
     if letter or kind not in _SIGNS:
         return _lettered(at, members, letter)
     return _SIGNS[kind](at, members)
 
 
-def _turning(at: Point, members: Sequence[Member]) -> JointSign:
+def _turning(at: Point, members: Sequence[JointMember]) -> JointSign:
     """An open circle; one ring more for each link beyond two."""
     rings = len(members) - 2
     radius = RADIUS + _RING * rings
-    above = (Circle(at, radius, "joint"), *(Circle(at, RADIUS + _RING * k, "ring") for k in range(rings)))
+    above = (CircleShape(at, radius, "joint"), *(CircleShape(at, RADIUS + _RING * k, "ring") for k in range(rings)))
     return JointSign((), above, (at,) * len(members), Point(1, 0), radius)
 
 
-def _lettered(at: Point, members: Sequence[Member], letter: str) -> JointSign:
+def _lettered(at: Point, members: Sequence[JointMember], letter: str) -> JointSign:
     """A circle with the symbol of the pair, wide enough for it; one ring more for each link beyond two."""
     inner = 5.0 + 3.6 * max(1, len(letter))
     rings = range(len(members) - 2)
-    above = [Circle(at, inner + _RING * len(rings), "joint"), *(Circle(at, inner + _RING * k, "ring") for k in rings)]
+    above = [
+        CircleShape(at, inner + _RING * len(rings), "joint"),
+        *(CircleShape(at, inner + _RING * k, "ring") for k in rings),
+    ]
     return JointSign(
-        (), (*above, Text(at, letter, "letter")), (at,) * len(members), Point(1, 0), inner + _RING * len(rings)
+        (), (*above, TextShape(at, letter, "letter")), (at,) * len(members), Point(1, 0), inner + _RING * len(rings)
     )
 
 
-def _sliding(at: Point, members: Sequence[Member]) -> JointSign:
+def _sliding(at: Point, members: Sequence[JointMember]) -> JointSign:
     """A block in a guide; the guide belongs to the first member (the frame is put first), the block to the others."""
     u = members[0].towards.unit
     u = Point(-u.x, -u.y)
@@ -94,52 +97,52 @@ def _sliding(at: Point, members: Sequence[Member]) -> JointSign:
     hold = back.plus(u, -BAR / 2)
     corners = [back.plus(v, s * _GUIDE.y) for s in (-1, 1)]
     ends = [corner.plus(u, 2 * _GUIDE.x) for corner in corners]
-    below: list[Shape] = [Lines(((ends[0], corners[0], corners[1], ends[1]),), "rail")]
+    below: list[Shape] = [Polylines(((ends[0], corners[0], corners[1], ends[1]),), "rail")]
     if members[0].is_frame:
         below += [ticks(corners[0], ends[0], Point(-v.x, -v.y)), ticks(corners[1], ends[1], v)]
     style = "block-frame" if members[1].is_frame else "block"
     block = tuple(at.plus(u, a * _BLOCK.x).plus(v, b * _BLOCK.y) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    above: list[Shape] = [Lines((block,), style, closed=True)]
+    above: list[Shape] = [Polylines((block,), style, closed=True)]
     for k in range(len(members) - 2):
         part = 1 - (k + 1) / (len(members) - 1)
-        above.append(Lines((tuple(at.plus(p.minus(at), part) for p in block),), "ring", closed=True))
+        above.append(Polylines((tuple(at.plus(p.minus(at), part) for p in block),), "ring", closed=True))
     return JointSign(tuple(below), tuple(above), (hold,) + (at,) * (len(members) - 1), u, _GUIDE.x)
 
 
-def _double_slide(at: Point, members: Sequence[Member]) -> JointSign:
+def _double_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
     """A plate with a cross: it slides both ways."""
     half = 10.0 + _RING * (len(members) - 2)
     square = tuple(Point(at.x + a * half, at.y + b * half) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
     h = 6.5
     cross = ((Point(at.x - h, at.y), Point(at.x + h, at.y)), (Point(at.x, at.y - h), Point(at.x, at.y + h)))
-    above = (Lines((square,), "joint", closed=True), Lines(cross, "ring"))
+    above = (Polylines((square,), "joint", closed=True), Polylines(cross, "ring"))
     return JointSign((), above, (at,) * len(members), Point(1, 0), half)
 
 
-def _normal(members: Sequence[Member]) -> Point:
+def _normal(members: Sequence[JointMember]) -> Point:
     """From the first member to the second: the common normal of a contact."""
     return members[1].towards.unit.minus(members[0].towards.unit).unit
 
 
-def _rolling(at: Point, members: Sequence[Member]) -> JointSign:
+def _rolling(at: Point, members: Sequence[JointMember]) -> JointSign:
     """Two discs that touch."""
     n = _normal(members)
     middles = (at.plus(n, -_DISC), at.plus(n, _DISC))
     above = tuple(
-        Circle(middle, _DISC - 0.5, "block-frame" if member.is_frame else "block")
+        CircleShape(middle, _DISC - 0.5, "block-frame" if member.is_frame else "block")
         for middle, member in zip(middles, members, strict=True)
     )
     return JointSign((), above, middles, n.across, 2 * _DISC)
 
 
-def _roll_slide(at: Point, members: Sequence[Member]) -> JointSign:
+def _roll_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
     """A disc on a flat; the flat belongs to the first member."""
     n = _normal(members)
     t = n.across
     flat = tuple(at.plus(t, a * 14.0).plus(n, b) for a, b in ((-1, -7.0), (1, -7.0), (1, -0.5), (-1, -0.5)))
     middle = at.plus(n, _DISC)
     styles = ["block-frame" if member.is_frame else "block" for member in members]
-    above = (Lines((flat,), styles[0], closed=True), Circle(middle, _DISC - 0.5, styles[1]))
+    above = (Polylines((flat,), styles[0], closed=True), CircleShape(middle, _DISC - 0.5, styles[1]))
     return JointSign((), above, (at.plus(n, -5.0), middle), t, 2 * _DISC)
 
 
@@ -156,8 +159,8 @@ def bar(points: Sequence[Point], *, is_frame: bool = False, halo: bool = False) 
     """A link of even width along points; a halo sets it off from what it crosses."""
     line = (tuple(points),)
     kind = "frame-bar" if is_frame else "body-bar"
-    shapes: list[Shape] = [Lines((_shortened(points),), "halo-bar")] if halo else []
-    shapes += [Lines(line, "outline-bar"), Lines(line, kind)]
+    shapes: list[Shape] = [Polylines((_shortened(points),), "halo-bar")] if halo else []
+    shapes += [Polylines(line, "outline-bar"), Polylines(line, kind)]
     return [*shapes, _bar_hatching(points)] if is_frame else shapes
 
 
@@ -174,12 +177,12 @@ def _shortened(points: Sequence[Point]) -> tuple[Point, ...]:
 def polygon(corners: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:
     """A link with three joints or more: a shaded polygon with rounded corners."""
     line = (tuple(corners),)
-    shapes: list[Shape] = [Lines(line, "halo", closed=True)] if halo else []
-    shapes += [Lines(line, "outline", closed=True), Lines(line, "frame" if is_frame else "body", closed=True)]
+    shapes: list[Shape] = [Polylines(line, "halo", closed=True)] if halo else []
+    shapes += [Polylines(line, "outline", closed=True), Polylines(line, "frame" if is_frame else "body", closed=True)]
     return [*shapes, hatching(corners)] if is_frame else shapes
 
 
-def _bar_hatching(points: Sequence[Point]) -> Lines:
+def _bar_hatching(points: Sequence[Point]) -> Polylines:
     """Slanted strokes across a bar."""
     strokes = []
     half = BAR / 2
@@ -190,10 +193,10 @@ def _bar_hatching(points: Sequence[Point]) -> Lines:
         for k in range(number):
             foot = a.plus(u, (k + 0.5) * along.length / number)
             strokes.append((foot.plus(v, half).plus(u, -half / 2), foot.plus(v, -half).plus(u, half / 2)))
-    return Lines(tuple(strokes), "hatch")
+    return Polylines(tuple(strokes), "hatch")
 
 
-def hatching(corners: Sequence[Point]) -> Lines:
+def hatching(corners: Sequence[Point]) -> Polylines:
     """Strokes at 45 degrees inside a polygon and its rim."""
     spread = [p.x + p.y for p in corners]
     first, last = math.ceil((min(spread) - BAR / 2) / 8.0), math.floor((max(spread) + BAR / 2) / 8.0)
@@ -201,7 +204,7 @@ def hatching(corners: Sequence[Point]) -> Lines:
     for k in range(first, last + 1):
         cuts = _cuts(corners, 8.0 * k)
         strokes += [(_stretched(a, b), _stretched(b, a)) for a, b in zip(cuts[::2], cuts[1::2], strict=False)]
-    return Lines(tuple(strokes), "hatch")
+    return Polylines(tuple(strokes), "hatch")
 
 
 def _cuts(corners: Sequence[Point], level: float) -> list[Point]:
@@ -218,13 +221,13 @@ def _stretched(a: Point, b: Point) -> Point:
     return a.plus(a.minus(b).unit, BAR / 2 - 1)
 
 
-def ticks(a: Point, b: Point, outward: Point) -> Lines:
+def ticks(a: Point, b: Point, outward: Point) -> Polylines:
     """The strokes that stand on a line of the frame, on its outer side."""
     along = b.minus(a)
     number = max(2, round(along.length / _HATCH))
     places = [a.plus(along, (k + 0.5) / number) for k in range(number)]
     lean = outward.plus(along.unit, -0.7)
-    return Lines(tuple((p.plus(outward, 1.3), p.plus(lean, 6.0)) for p in places), "hatch")
+    return Polylines(tuple((p.plus(outward, 1.3), p.plus(lean, 6.0)) for p in places), "hatch")
 
 
 def widest_gap(angles: Sequence[float]) -> float:
@@ -242,11 +245,11 @@ def widest_gap(angles: Sequence[float]) -> float:
 def turning_drive(at: Point, radius: float, away: float) -> list[Shape]:
     """A curved arrow around a joint, its middle in the direction given by an angle."""
     extent = math.radians(-230)
-    arc = Arc(at, radius, away - extent / 2, extent, "drive")
+    arc = ArcShape(at, radius, away - extent / 2, extent, "drive")
     return [arc, arrow_head(arc)]
 
 
-def arrow_head(arc: Arc) -> Lines:
+def arrow_head(arc: ArcShape) -> Polylines:
     """The head at the end of an arc."""
     tip = arc.place(1.0)
     forward = tip.minus(arc.at).unit.across
@@ -261,10 +264,10 @@ def straight_drive(at: Point, axis: Point, side: Point) -> list[Shape]:
 
 def arrow(tail: Point, tip: Point, line: str = "drive", head: str = "head") -> list[Shape]:
     """A straight arrow; its head goes on for 7 pixels beyond the tip of the line."""
-    return [Lines(((tail, tip),), line), _head(tip, tip.minus(tail).unit, head)]
+    return [Polylines(((tail, tip),), line), _head(tip, tip.minus(tail).unit, head)]
 
 
-def _head(at: Point, forward: Point, style: str = "head") -> Lines:
+def _head(at: Point, forward: Point, style: str = "head") -> Polylines:
     side = forward.across
     back = at.plus(forward, -1.5)
-    return Lines(((at.plus(forward, 7.0), back.plus(side, 4.6), back.plus(side, -4.6)),), style, closed=True)
+    return Polylines(((at.plus(forward, 7.0), back.plus(side, 4.6), back.plus(side, -4.6)),), style, closed=True)

@@ -12,17 +12,17 @@ from typing import NamedTuple, TypedDict, Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from gruebler.drawing.canvas.figure import MARGIN, Figure, document
+from gruebler.drawing.canvas.figure import MARGIN, Figure, svg_document
 from gruebler.drawing.canvas.shapes import Point, Shape, bounds
-from gruebler.drawing.canvas.svg import element, number
-from gruebler.drawing.linkage.bodies import PINS, Part, at_pose, parts
-from gruebler.drawing.linkage.layers import coupler_curve, drive_parts
-from gruebler.drawing.linkage.posed_linkage import Stage, staged
+from gruebler.drawing.canvas.svg import svg_element, svg_number
+from gruebler.drawing.linkage.bodies import PINS, BodyPart, body_parts, shapes_at_pose
+from gruebler.drawing.linkage.layers import coupler_curve_lines, drive_parts
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 
-__all__ = ["Options", "Scene", "animated_svg", "scene", "svg_of"]
+__all__ = ["AnimationOptions", "Scene", "animated_svg", "scene", "svg_of"]
 
 _WORDS = {
     "en": {True: "It moves through {turns} turn(s) of its drive.", False: "It moves to and fro through its range."},
@@ -34,7 +34,7 @@ _WORDS = {
 _LONGEST = 3600.0  # seconds
 
 
-class Options(TypedDict, total=False):
+class AnimationOptions(TypedDict, total=False):
     """Arguments of `scene` besides the linkage."""
 
     branch: str | Iterable[str] | None
@@ -49,8 +49,8 @@ class Options(TypedDict, total=False):
 class Scene(NamedTuple):
     """A linkage through a full turn of its drive, or to and fro, in pixels."""
 
-    stage: Stage
-    pieces: tuple[Part, ...]
+    stage: PosedLinkage
+    pieces: tuple[BodyPart, ...]
     still: tuple[Shape, ...]
     """Curves."""
     corner: Point
@@ -94,12 +94,12 @@ def scene(
     """
     if not 0 < seconds <= _LONGEST:
         raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
-    stage = staged(linkage, branch=branch, between=between, drives=drives)
+    stage = posed_linkage(linkage, branch=branch, between=between, drives=drives)
     turns = stage.driven().span.turns
-    pieces = (*parts(stage), *drive_parts(stage))
+    pieces = (*body_parts(stage), *drive_parts(stage))
     rows = range(0, len(stage.path), 2)
-    poses = [shape for row in rows for part in pieces for shape in at_pose(stage, part, stage.path, row)]
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
+    poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(stage, part, stage.path, row)]
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(stage, one)]
     still = tuple(curve)
     corner, size = bounds([*poses, *still], MARGIN)
     words = _WORDS[lang][stage.goes_round].format(turns=turns)
@@ -108,7 +108,7 @@ def scene(
     return Scene(stage, pieces, still, corner, page, seconds * (turns if stage.goes_round else 1))
 
 
-def animated_svg(linkage: Linkage, **options: Unpack[Options]) -> str:
+def animated_svg(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
     """A linkage through a full turn of its drive, or to and fro where the drive has limits, over and over.
 
     Options and errors are those of `scene`.
@@ -125,14 +125,14 @@ def svg_of(shown: Scene) -> str:
     """The scene as SVG that moves by itself."""
     motion = _Motion(shown)
     lines = [
-        f'<g transform="translate({number(-shown.corner.x)} {number(-shown.corner.y)})">',
+        f'<g transform="translate({svg_number(-shown.corner.x)} {svg_number(-shown.corner.y)})">',
         *motion.groups([part for part in shown.pieces if part.layer < PINS]),
-        *map(element, shown.still),
+        *map(svg_element, shown.still),
         *motion.groups([part for part in shown.pieces if part.layer >= PINS]),
         "</g>",
     ]
     used = [shape.style for shape in shown.still] + [shape.style for part in shown.pieces for shape in part.shapes]
-    return document(shown.page, used, lines)
+    return svg_document(shown.page, used, lines)
 
 
 class _Motion:
@@ -143,10 +143,10 @@ class _Motion:
         self.rows = shown.rows
         self.timing = f'dur="{shown.seconds:g}s" repeatCount="indefinite"'
 
-    def groups(self, pieces: Sequence[Part]) -> Iterator[str]:
+    def groups(self, pieces: Sequence[BodyPart]) -> Iterator[str]:
         """A group for parts of the same link that follow each other; what belongs to the frame stands still."""
         for link, mine in groupby(pieces, key=lambda part: part.link):
-            shapes = "".join(element(shape) for part in mine for shape in part.shapes)
+            shapes = "".join(svg_element(shape) for part in mine for shape in part.shapes)
             if link == self.stage.lower.mechanism.frame:
                 yield shapes
                 continue
@@ -160,7 +160,7 @@ class _Motion:
     def _shifts(self, link: str) -> list[str]:
         k = self.stage.lower.mechanism.chain.index(link)
         places = [self.stage.local(complex(z)) for z in self.stage.path.places[0, :, k]]
-        return [f"{number(places[row].x)} {number(places[row].y)}" for row in self.rows]
+        return [f"{svg_number(places[row].x)} {svg_number(places[row].y)}" for row in self.rows]
 
     def _turns(self, link: str) -> list[str]:
         angles = np.degrees(self.stage.path.angle(link))

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Unpack
 
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.frames import check_kind, frames_of
-from gruebler.drawing.canvas.shapes import Point, moved
-from gruebler.drawing.linkage.animation import Options, Scene, scene
-from gruebler.drawing.linkage.bodies import PINS, at_pose
+from gruebler.drawing.canvas.frames import check_kind, frames_file
+from gruebler.drawing.canvas.shapes import Point, moved_shape
+from gruebler.drawing.linkage.animation import AnimationOptions, Scene, scene
+from gruebler.drawing.linkage.bodies import PINS, shapes_at_pose
 from gruebler.linkages import Linkage
 
 __all__ = [
@@ -19,7 +19,7 @@ _MOST = 144  # pictures of a file
 
 
 def animated_frames(
-    linkage: Linkage, kind: str, *, dark: bool = False, zoom: float = 1.25, **options: Unpack[Options]
+    linkage: Linkage, kind: str, *, dark: bool = False, zoom: float = 1.25, **options: Unpack[AnimationOptions]
 ) -> bytes:
     """The content of a ``gif``, ``webp`` or ``png`` file that shows the linkage moving, over and over.
 
@@ -37,7 +37,7 @@ def animated_frames(
     rows = shown.rows[:-1]
     rows = rows[:: -(-len(rows) // _MOST)]
     made = {row: _figure(shown, row) for row in dict.fromkeys(rows)}
-    return frames_of([made[row] for row in rows], kind, shown.seconds, dark=dark, zoom=zoom)
+    return frames_file([made[row] for row in rows], kind, shown.seconds, dark=dark, zoom=zoom)
 
 
 def _figure(shown: Scene, row: int) -> Figure:
@@ -48,10 +48,10 @@ def _figure(shown: Scene, row: int) -> Figure:
             shape
             for part in shown.pieces
             if (part.layer >= PINS) == pins
-            for shape in at_pose(stage, part, stage.path, row)
+            for shape in shapes_at_pose(stage, part, stage.path, row)
         ]
         for pins in (False, True)
     )
     page = shown.page
-    shapes = tuple(moved(shape, by) for shape in (*below, *shown.still, *above))
+    shapes = tuple(moved_shape(shape, by) for shape in (*below, *shown.still, *above))
     return Figure(shapes, page.width, page.height, page.title, page.description)

@@ -10,8 +10,8 @@ from typing import Unpack
 
 import numpy as np
 
-from gruebler.drawing.canvas.moving_page import Settings, page_of
-from gruebler.drawing.linkage.animation import Options, Scene, scene, svg_of
+from gruebler.drawing.canvas.moving_page import PageSettings, moving_page_html
+from gruebler.drawing.linkage.animation import AnimationOptions, Scene, scene, svg_of
 from gruebler.linkages import Linkage
 
 __all__ = [
@@ -19,7 +19,7 @@ __all__ = [
 ]
 
 
-def animated_page(linkage: Linkage, **options: Unpack[Options]) -> str:
+def animated_page(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
     """An HTML page with the moving linkage, a button and a slider; options and errors are those of `animated_svg`.
 
     Where the reader wants little motion it stands still at first.
@@ -30,19 +30,19 @@ def animated_page(linkage: Linkage, **options: Unpack[Options]) -> str:
     (1, 1, False)
     """
     shown = scene(linkage, **options)
-    return page_of(svg_of(shown), shown.page, _settings(shown), options.get("lang", "en"))
+    return moving_page_html(svg_of(shown), shown.page, _settings(shown), options.get("lang", "en"))
 
 
-def _settings(shown: Scene) -> Settings:
+def _settings(shown: Scene) -> PageSettings:
     """Those of a linkage."""
     stage = shown.stage
     ends = stage.path.drives[[0, -1]]
     rising = np.flatnonzero(ends[1] > ends[0])
     if not len(rising):  # a path on which no drive grows: the part of it
-        return Settings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
+        return PageSettings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
     turning = stage.linkage.mechanism.drives[rising[0]].direction.startswith("R")
     low, high = (math.degrees(q) if turning else float(q) for q in ends[:, rising[0]])
-    return Settings(
+    return PageSettings(
         low=round(low, 6),
         high=round(high, 6),
         seconds=shown.seconds,

@@ -6,12 +6,12 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from gruebler.drawing.canvas.axes import figures
-from gruebler.drawing.canvas.shapes import Lines, Point, Shape, Text, bounds
+from gruebler.drawing.canvas.axes import as_text
+from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, TextShape, bounds
 from gruebler.drawing.canvas.symbols import arrow
-from gruebler.drawing.linkage.layer_context import Sheet
-from gruebler.drawing.linkage.posed_linkage import Stage
-from gruebler.linkages import Named
+from gruebler.drawing.linkage.layer_context import LayerContext
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
+from gruebler.linkages import LinkPoint
 
 __all__ = ["acceleration_arrows", "scale_bars", "velocity_arrows"]
 
@@ -23,17 +23,17 @@ _BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
 _RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
 
 
-def velocity_arrows(sheet: Sheet) -> list[Shape]:
+def velocity_arrows(sheet: LayerContext) -> list[Shape]:
     """Velocities of joints and named points for a drive of speed 1."""
     return _arrows(sheet.stage, 1, "velocity")
 
 
-def acceleration_arrows(sheet: Sheet) -> list[Shape]:
+def acceleration_arrows(sheet: LayerContext) -> list[Shape]:
     """Accelerations of joints and named points for a drive of even speed 1."""
     return _arrows(sheet.stage, 2, "acceleration")
 
 
-def _rates(stage: Stage, order: int) -> list[tuple[complex, complex]]:
+def _rates(stage: PosedLinkage, order: int) -> list[tuple[complex, complex]]:
     """Places of joints and named points, each once, with their velocities or accelerations."""
     stage.driven()
     pairs = {}
@@ -43,13 +43,13 @@ def _rates(stage: Stage, order: int) -> list[tuple[complex, complex]]:
     return list(pairs.values())
 
 
-def _longest(stage: Stage, rates: Sequence[tuple[complex, complex]]) -> float:
+def _longest(stage: PosedLinkage, rates: Sequence[tuple[complex, complex]]) -> float:
     """The length of the longest one; 0 if nothing moves, or infinitely fast."""
     longest = max((abs(rate) for _, rate in rates), default=0.0)
     return longest if _REST * stage.lower.size < longest < math.inf else 0.0
 
 
-def _arrows(stage: Stage, order: int, style: str) -> list[Shape]:
+def _arrows(stage: PosedLinkage, order: int, style: str) -> list[Shape]:
     rates = _rates(stage, order)
     longest = _longest(stage, rates)
     shapes: list[Shape] = []
@@ -61,18 +61,18 @@ def _arrows(stage: Stage, order: int, style: str) -> list[Shape]:
     return shapes
 
 
-def _moving_points(stage: Stage) -> list[Named]:
+def _moving_points(stage: PosedLinkage) -> list[LinkPoint]:
     """Named points, and turning joints away from the frame."""
     lower, mechanism = stage.lower, stage.lower.mechanism
     places = list(lower.points.values())
     for number, joint in enumerate(mechanism.chain.joints):
         if joint.pair.name == "revolute" and mechanism.frame not in joint.links:
             e = lower.elements[number, joint.links[0]]
-            places.append(Named(joint.links[0], e.x, e.y))
+            places.append(LinkPoint(joint.links[0], e.x, e.y))
     return places
 
 
-class _Bar(NamedTuple):
+class _ScaleBar(NamedTuple):
     """At most so many pixels that stand for so many units."""
 
     pixels: float
@@ -81,7 +81,7 @@ class _Bar(NamedTuple):
     style: str
 
 
-def scale_bars(sheet: Sheet, layers: Sequence[str]) -> list[Shape]:
+def scale_bars(sheet: LayerContext, layers: Sequence[str]) -> list[Shape]:
     """Bars of round numbers of units for arrows and lengths, one below the other, below all that is drawn."""
     corner, size = bounds(sheet.drawn, 0.0)
     shapes: list[Shape] = []
@@ -91,21 +91,24 @@ def scale_bars(sheet: Sheet, layers: Sequence[str]) -> list[Shape]:
         left = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
         right = left.plus(_RIGHT, number * bar.pixels / bar.most)
         ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (left, right)]
-        words = figures(number, bar.unit, sheet.lang)
-        shapes += [Lines(((left, right), *ends), bar.style), Text(right.plus(_RIGHT, 9.0), words, "value", "start")]
+        words = as_text(number, bar.unit, sheet.lang)
+        shapes += [
+            Polylines(((left, right), *ends), bar.style),
+            TextShape(right.plus(_RIGHT, 9.0), words, "value", "start"),
+        ]
     return shapes
 
 
-def _bar(stage: Stage, key: str) -> _Bar | None:
+def _bar(stage: PosedLinkage, key: str) -> _ScaleBar | None:
     unit = stage.linkage.unit
     if key == "scale":
-        return _Bar(_LENGTH, _LENGTH / stage.scale, unit, "measure")
+        return _ScaleBar(_LENGTH, _LENGTH / stage.scale, unit, "measure")
     order = {"velocities": 1, "accelerations": 2}.get(key, 0)
     longest = _longest(stage, _rates(stage, order)) if order else 0.0
     if not longest:
         return None
     by = f"{'rad' if stage.driven().turning_drive else unit}{'²' if order == 2 else ''}"
-    return _Bar(_LONGEST, longest, f"{unit}/{by}", ("velocity", "acceleration")[order - 1])
+    return _ScaleBar(_LONGEST, longest, f"{unit}/{by}", ("velocity", "acceleration")[order - 1])
 
 
 def _round(most: float) -> float:

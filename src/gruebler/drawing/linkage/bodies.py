@@ -12,24 +12,24 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
-from gruebler.drawing.canvas.symbols import Member, joint_sign, ticks
-from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.drawing.canvas.symbols import JointMember, joint_sign, ticks
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 from gruebler.drawing.linkage.wheels import round_parts
 from gruebler.kinematics import Motion
-from gruebler.linkages import Line, Linkage, Named, Pin
+from gruebler.linkages import Line, Linkage, LinkPoint, Pin
 
 __all__ = [
-    "Part",
+    "BodyPart",
     "Slide",
-    "at_pose",
     "barrel",
+    "body_parts",
     "corners_of",
     "hull",
     "in_link",
     "layered",
-    "parts",
     "pins_of",
+    "shapes_at_pose",
     "slides",
 ]
 
@@ -46,7 +46,7 @@ _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
 _LONGEST = 1.8  # times its shortest length: as far as a cylinder reaches
 
 
-class Part(NamedTuple):
+class BodyPart(NamedTuple):
     """Shapes of a link, in pixels and coordinates of the link."""
 
     layer: int
@@ -74,13 +74,13 @@ class Slide(NamedTuple):
 # --- sliding joints ------------------------------------------------------------------------------
 
 
-def slides(stage: Stage) -> tuple[Slide, ...]:
+def slides(stage: PosedLinkage) -> tuple[Slide, ...]:
     """The sliding joints, with how far their blocks go on the path of the stage."""
     chain = stage.lower.mechanism.chain
     return tuple(_slide(stage, k) for k, joint in enumerate(chain.joints) if joint.pair.name == "prismatic")
 
 
-def _slide(stage: Stage, number: int) -> Slide:
+def _slide(stage: PosedLinkage, number: int) -> Slide:
     lower = stage.lower
     guide, block = _guide_and_block(stage, number)
     line, own = lower.elements[number, guide], lower.elements[number, block]
@@ -99,7 +99,7 @@ def _slide(stage: Stage, number: int) -> Slide:
     return Slide(number, guide, block, sign, middle, along, start + low * along, start + high * along)
 
 
-def _guide_and_block(stage: Stage, number: int) -> tuple[str, str]:
+def _guide_and_block(stage: PosedLinkage, number: int) -> tuple[str, str]:
     """The frame is the guide, a link that stands for a pin in a slot the block; else the one with fewer joints is.
 
     Of two links alike the one that is called so is the block, else the one named second.
@@ -161,22 +161,24 @@ def _is_cylinder(
 # --- bodies --------------------------------------------------------------------------------------
 
 
-def parts(stage: Stage) -> tuple[Part, ...]:
+def body_parts(stage: PosedLinkage) -> tuple[BodyPart, ...]:
     """All parts of the linkage, from below."""
     found = slides(stage)
     frame = stage.lower.mechanism.frame
     links = [link for link in stage.lower.mechanism.chain.links if link != frame]
     bodies = {link: _body(stage, link, found) for link in links}
-    made = [Part(FRAME, *part) for part in round_parts(stage)]
-    made += [Part(FRAME, frame, tuple(_ground(stage, found)))]
-    made += [Part(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))]
-    made += [Part(BODIES, frame, tuple(_pedestal(stage, pin))) for pin in _covered(stage, found)]
+    made = [BodyPart(FRAME, *part) for part in round_parts(stage)]
+    made += [BodyPart(FRAME, frame, tuple(_ground(stage, found)))]
+    made += [
+        BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
+    ]
+    made += [BodyPart(BODIES, frame, tuple(_pedestal(stage, pin))) for pin in _covered(stage, found)]
     made += [_block(stage, slide) for slide in found if slide.sign != "slot"]
     made += _pin_parts(stage)
     return tuple(part for part in made if part.shapes)
 
 
-def corners_of(stage: Stage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
+def corners_of(stage: PosedLinkage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
     """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
     lower = stage.lower
     nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
@@ -211,7 +213,7 @@ def _height(a: Point, b: Point, c: Point) -> float:
     return b.minus(a).unit.across.dot(c.minus(a))
 
 
-def _body(stage: Stage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
+def _body(stage: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
     """A bar or polygon through the joints, and bars for its guides; outlines first, so that they grow together."""
     corners = corners_of(stage, link, found)
     outlines: list[Shape] = []
@@ -219,21 +221,21 @@ def _body(stage: Stage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
     slots: list[Shape] = []
     if len(corners) > 1:
         suffix = "-bar" if len(corners) == 2 else ""
-        outlines.append(Lines((corners,), "outline" + suffix, closed=len(corners) > 2))
-        fills.append(Lines((corners,), "body" + suffix, closed=len(corners) > 2))
+        outlines.append(Polylines((corners,), "outline" + suffix, closed=len(corners) > 2))
+        fills.append(Polylines((corners,), "body" + suffix, closed=len(corners) > 2))
     for slide in found:
         if slide.sign == "cylinder":
             if link in (slide.guide, slide.block):
                 line, wide = _cylinder(stage, slide, link)
-                outlines.append(Lines(line, f"outline-{wide}"))
-                fills.append(Lines(line, f"body-{wide}"))
+                outlines.append(Polylines(line, f"outline-{wide}"))
+                fills.append(Polylines(line, f"body-{wide}"))
         elif slide.guide == link:
             line = (_guide_line(stage, slide, _reach(slide)),)
             wide = "wide" if slide.sign == "slot" else "bar"
-            outlines.append(Lines(line, f"outline-{wide}"))
-            fills.append(Lines(line, f"body-{wide}"))
+            outlines.append(Polylines(line, f"outline-{wide}"))
+            fills.append(Polylines(line, f"body-{wide}"))
             if slide.sign == "slot":
-                slots += [Lines(line, "slot-rim"), Lines(line, "slot")]
+                slots += [Polylines(line, "slot-rim"), Polylines(line, "slot")]
     return [*outlines, *fills, *slots]
 
 
@@ -242,12 +244,12 @@ def _reach(slide: Slide) -> float:
     return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
 
 
-def _guide_line(stage: Stage, slide: Slide, beyond: float) -> tuple[Point, Point]:
+def _guide_line(stage: PosedLinkage, slide: Slide, beyond: float) -> tuple[Point, Point]:
     more = max(beyond, 1.0) / stage.scale * slide.along
     return stage.local(slide.low - more), stage.local(slide.high + more)
 
 
-def barrel(stage: Stage, slide: Slide) -> tuple[Point, Point]:
+def barrel(stage: PosedLinkage, slide: Slide) -> tuple[Point, Point]:
     """The middle line of a barrel: from near its pin as far as the shortest length allows."""
     pin = stage.local(pins_of(stage.lower, slide.guide)[0])
     ends = sorted((stage.local(slide.low), stage.local(slide.high)), key=lambda end: end.minus(pin).length)
@@ -255,7 +257,7 @@ def barrel(stage: Stage, slide: Slide) -> tuple[Point, Point]:
     return pin.plus(along.unit, 11.0), pin.plus(along, 0.93)
 
 
-def _cylinder(stage: Stage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
+def _cylinder(stage: PosedLinkage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
     """What carries the barrel, or the rod from its pin into the barrel, also where the cylinder is longest."""
     lower = stage.lower
     pin = pins_of(lower, slide.guide)[0]
@@ -269,32 +271,32 @@ def _cylinder(stage: Stage, slide: Slide, link: str) -> tuple[tuple[tuple[Point,
 
 
 def _extent(shapes: list[Shape]) -> float:
-    points = [p for shape in shapes if isinstance(shape, Lines) for part in shape.parts for p in part]
+    points = [p for shape in shapes if isinstance(shape, Polylines) for part in shape.parts for p in part]
     return max((math.dist(a, b) for a in points for b in points), default=0.0)
 
 
-def _block(stage: Stage, slide: Slide) -> Part:
+def _block(stage: PosedLinkage, slide: Slide) -> BodyPart:
     """A rectangle: a block along its guide, or the barrel of a cylinder."""
     if slide.sign == "cylinder":
         a, b = barrel(stage, slide)
-        return Part(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
+        return BodyPart(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
     line = stage.lower.elements[slide.joint, slide.block]
     assert isinstance(line, Line)
     u = Point(math.cos(line.angle), -math.sin(line.angle))
     at = stage.local(slide.middle)
-    return Part(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
+    return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
 
 
-def _box(a: Point, b: Point, half: float) -> Lines:
+def _box(a: Point, b: Point, half: float) -> Polylines:
     side = b.minus(a).unit.across
     corners = a.plus(side, -half), b.plus(side, -half), b.plus(side, half), a.plus(side, half)
-    return Lines((corners,), "block", closed=True)
+    return Polylines((corners,), "block", closed=True)
 
 
 # --- the frame and the pins ----------------------------------------------------------------------
 
 
-def _ground(stage: Stage, found: tuple[Slide, ...]) -> list[Shape]:
+def _ground(stage: PosedLinkage, found: tuple[Slide, ...]) -> list[Shape]:
     """Rails with hatching along the guides of the frame, a pedestal below each of its pins."""
     lower, frame = stage.lower, stage.lower.mechanism.frame
     shapes: list[Shape] = []
@@ -304,7 +306,7 @@ def _ground(stage: Stage, found: tuple[Slide, ...]) -> list[Shape]:
             half = 8.5 if slide.sign == "slot" else _BLOCK[1] + 2.5
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
-                shapes += [Lines((rail,), "rail"), ticks(*rail, side)]
+                shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
     covered = set(_covered(stage, found))
     for pin in dict.fromkeys(pins_of(lower, frame)):
         if pin not in covered:
@@ -312,18 +314,18 @@ def _ground(stage: Stage, found: tuple[Slide, ...]) -> list[Shape]:
     return shapes
 
 
-def _pedestal(stage: Stage, pin: complex) -> list[Shape]:
+def _pedestal(stage: PosedLinkage, pin: complex) -> list[Shape]:
     at = stage.local(pin)
     left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
     base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
     return [
-        Lines(((at, right, left),), "block-frame", closed=True),
-        Lines((base,), "rail"),
+        Polylines(((at, right, left),), "block-frame", closed=True),
+        Polylines((base,), "rail"),
         ticks(*base, Point(0.0, 1.0)),
     ]
 
 
-def _covered(stage: Stage, found: tuple[Slide, ...]) -> list[complex]:
+def _covered(stage: PosedLinkage, found: tuple[Slide, ...]) -> list[complex]:
     """The pins of the frame whose pedestals the body of another link would cover in the pose: they stand before it."""
     lower, frame = stage.lower, stage.lower.mechanism.frame
     joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
@@ -332,12 +334,13 @@ def _covered(stage: Stage, found: tuple[Slide, ...]) -> list[complex]:
         element = lower.elements.get((number, frame))
         if not isinstance(element, Pin):
             continue
-        foot = Point(*stage.place(Named(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
+        foot = Point(*stage.place(LinkPoint(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
         for link in lower.mechanism.chain.links:
             if link == frame or joint in joints[link]:
                 continue
             corners = [
-                stage.place(Named(link, p.x / stage.scale, -p.y / stage.scale)) for p in corners_of(stage, link, found)
+                stage.place(LinkPoint(link, p.x / stage.scale, -p.y / stage.scale))
+                for p in corners_of(stage, link, found)
             ]
             if len(corners) > 2 and _inside(foot, corners):
                 out.append(complex(element.x, element.y))
@@ -351,7 +354,7 @@ def _inside(point: Point, corners: Sequence[Point]) -> bool:
     return min(sides) > 0 or max(sides) < 0
 
 
-def _pin_parts(stage: Stage) -> list[Part]:
+def _pin_parts(stage: PosedLinkage) -> list[BodyPart]:
     """Turning joints, and dots for named points that lie at none."""
     lower = stage.lower
     made, taken = [], set()
@@ -361,18 +364,18 @@ def _pin_parts(stage: Stage) -> list[Part]:
         link = min(joint.links, key=lambda one: one != lower.mechanism.frame)
         taken |= {(one, *lower.elements[number, one][:2]) for one in joint.links}
         e = lower.elements[number, link]
-        members = [Member(Point(1.0, 0.0))] * len(joint.links)
-        made.append(Part(PINS, link, joint_sign("revolute", stage.local(complex(e.x, e.y)), members).above))
+        members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
+        made.append(BodyPart(PINS, link, joint_sign("revolute", stage.local(complex(e.x, e.y)), members).above))
     for point in dict.fromkeys(lower.points.values()):
         if tuple(point) not in taken:
-            made.append(Part(PINS, point.link, (Circle(stage.local(complex(point.x, point.y)), 3.2, "dot"),)))
+            made.append(BodyPart(PINS, point.link, (CircleShape(stage.local(complex(point.x, point.y)), 3.2, "dot"),)))
     return made
 
 
 # --- putting them where they lie -----------------------------------------------------------------
 
 
-def at_pose(stage: Stage, part: Part, motion: Motion | None = None, row: int = 0) -> list[Shape]:
+def shapes_at_pose(stage: PosedLinkage, part: BodyPart, motion: Motion | None = None, row: int = 0) -> list[Shape]:
     """The shapes of a part in the pose of the stage, or in a row of another motion."""
     poses = stage.pose if motion is None else motion
     k = stage.lower.mechanism.chain.index(part.link)
@@ -380,19 +383,19 @@ def at_pose(stage: Stage, part: Part, motion: Motion | None = None, row: int = 0
     return [_put(shape, turn, place) for shape in part.shapes]
 
 
-def layered(stage: Stage, pieces: Sequence[Part], lowest: int, highest: int) -> list[Shape]:
+def layered(stage: PosedLinkage, pieces: Sequence[BodyPart], lowest: int, highest: int) -> list[Shape]:
     """The shapes of some layers in the pose of the stage."""
-    return [shape for part in pieces if lowest <= part.layer <= highest for shape in at_pose(stage, part)]
+    return [shape for part in pieces if lowest <= part.layer <= highest for shape in shapes_at_pose(stage, part)]
 
 
-def in_link(stage: Stage, link: str, shapes: Sequence[Shape]) -> Part:
+def in_link(stage: PosedLinkage, link: str, shapes: Sequence[Shape]) -> BodyPart:
     """Shapes that lie somewhere in the pose of the stage, as a part that goes with a link above all others."""
     k = stage.lower.mechanism.chain.index(link)
     back = complex(stage.pose.turns[0, k]).conjugate()
-    origin = _put(Circle(stage.local(complex(stage.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
-    assert isinstance(origin, Circle)
+    origin = _put(CircleShape(stage.local(complex(stage.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
+    assert isinstance(origin, CircleShape)
     place = Point(-origin.at.x, -origin.at.y)
-    return Part(PINS + 1, link, tuple(_put(shape, back, place) for shape in shapes))
+    return BodyPart(PINS + 1, link, tuple(_put(shape, back, place) for shape in shapes))
 
 
 def _put(shape: Shape, turn: complex, place: Point) -> Shape:
@@ -400,11 +403,11 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
         return Point(place.x + turn.real * p.x + turn.imag * p.y, place.y - turn.imag * p.x + turn.real * p.y)
 
     match shape:
-        case Lines(lines, style, closed):
-            return Lines(tuple(tuple(map(put, line)) for line in lines), style, closed)
-        case Circle(at, radius, style):
-            return Circle(put(at), radius, style)
-        case Arc(at, radius, begin, extent, style):
-            return Arc(put(at), radius, begin - cmath.phase(turn), extent, style)
-        case Text(at, words, style, anchor):
-            return Text(put(at), words, style, anchor)
+        case Polylines(lines, style, closed):
+            return Polylines(tuple(tuple(map(put, line)) for line in lines), style, closed)
+        case CircleShape(at, radius, style):
+            return CircleShape(put(at), radius, style)
+        case ArcShape(at, radius, begin, extent, style):
+            return ArcShape(put(at), radius, begin - cmath.phase(turn), extent, style)
+        case TextShape(at, words, style, anchor):
+            return TextShape(put(at), words, style, anchor)

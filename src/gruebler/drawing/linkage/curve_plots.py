@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 
 from gruebler.drawing.canvas.axes import Axis, Scale, decimals
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.panels import Curve, Panel, Spot, plotted
+from gruebler.drawing.canvas.panels import Curve, Panel, PointMarker, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
-from gruebler.drawing.linkage.posed_linkage import floating, nodes
+from gruebler.drawing.linkage.posed_linkage import floating_link, link_nodes
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage, Named
-from gruebler.text import in_language
+from gruebler.linkages import Linkage, LinkPoint
+from gruebler.text import decimal_sign_in
 
 __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 
@@ -85,7 +85,7 @@ def hodograph(
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, 1) for place in places]
     per = run.drive_unit if speed is None else "s"
-    rate = "1" if speed is None else in_language(f"{speed:.6g} {run.drive_unit}/s", lang)
+    rate = "1" if speed is None else decimal_sign_in(f"{speed:.6g} {run.drive_unit}/s", lang)
     names = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
     axes = [f"{one} in {run.unit}/{per}" for one in names]
     ranges = [
@@ -93,19 +93,21 @@ def hodograph(
     ]
     tips = factor * run.course.at(run.round_drives, 1).complex_point(places[0], 1)
     spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
-    panel = _square(paths, chosen if len(chosen) > 1 else [""], axes, [*spots, Spot(0.0, 0.0, "")], ranges=ranges)
+    panel = _square(
+        paths, chosen if len(chosen) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges
+    )
     about = words["hodograph_about"].format(range=run.range, output=", ".join(chosen), speed=rate)
-    return plotted([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about, lang)
+    return draw_panels([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about, lang)
 
 
-def _tips(run: PlotRun, path: Complexes, near: float) -> list[Spot]:
+def _tips(run: PlotRun, path: Complexes, near: float) -> list[PointMarker]:
     """Points at round drive values; of those near to each other the first is named."""
-    spots: list[Spot] = []
+    spots: list[PointMarker] = []
     for drive, z in zip(run.round_drives, path, strict=True):
         if np.isfinite(z):
             named = [spot for spot in spots if spot.words]
             apart = all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in named)
-            spots.append(Spot(z.real, z.imag, run.value(drive) if apart else ""))
+            spots.append(PointMarker(z.real, z.imag, run.value(drive) if apart else ""))
     return spots
 
 
@@ -168,20 +170,20 @@ def family_plot(
 
 def family_of(
     linkage: Linkage, link: str | None, start: complex | None, end: complex | None, count: int
-) -> dict[str, Named]:
+) -> dict[str, LinkPoint]:
     """The points of a family, named by their coordinates in the link."""
     if not 2 <= count <= _MOST:
         raise LinkageError(
             f"a family has 2 to {_MOST} points, not {count!r}", f"eine Schar hat 2 bis {_MOST} Punkte, nicht {count!r}"
         )
-    chosen = floating(linkage) if link is None else link
+    chosen = floating_link(linkage) if link is None else link
     if chosen not in linkage.mechanism.chain.links:
         raise LinkageError(f"there is no link {chosen!r}; the links are {', '.join(linkage.mechanism.chain.links)}")
     if chosen == linkage.mechanism.frame:
         raise LinkageError(
             f"{chosen!r} is the frame: its points do not move", f"{chosen!r} ist das Gestell: seine Punkte ruhen"
         )
-    places = nodes(linkage, chosen)
+    places = link_nodes(linkage, chosen)
     if start is None or end is None:
         if len(places) < 2:
             raise LinkageError(f"{chosen!r} has one joint and no point: say between which points the family lies")
@@ -190,12 +192,12 @@ def family_of(
     if not np.isfinite([start, end]).all() or start == end:
         raise LinkageError(f"expected two different finite points, but found {start} and {end}")
     points = [start + k / (count - 1) * (end - start) for k in range(count)]
-    return {f"{p.real:.4g}, {p.imag + 0.0:.4g}".replace("-", "−"): Named(chosen, p.real, p.imag) for p in points}
+    return {f"{p.real:.4g}, {p.imag + 0.0:.4g}".replace("-", "−"): LinkPoint(chosen, p.real, p.imag) for p in points}
 
 
 def _paths(
     linkage: Linkage,
-    places: dict[str, Named],
+    places: dict[str, LinkPoint],
     branch: Branch,
     between: Between,
     lang: str,
@@ -206,13 +208,13 @@ def _paths(
     paths = [run.motion.complex_point(place) for place in places.values()]
     row = len(run.drives) // 6
     skeleton = _skeleton(run.motion, row, places.values())
-    spots = [Spot(path[row].real, path[row].imag, "") for path in paths]
+    spots = [PointMarker(path[row].real, path[row].imag, "") for path in paths]
     panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
     about = words["curves_about"].format(range=run.range, output="; ".join(places), at=run.value(run.drives[row]))
-    return plotted([panel], words["curves"].format(name=run.name), about, lang)
+    return draw_panels([panel], words["curves"].format(name=run.name), about, lang)
 
 
-def _skeleton(motion: Motion, row: int, places: Iterable[Named]) -> list[Complexes]:
+def _skeleton(motion: Motion, row: int, places: Iterable[LinkPoint]) -> list[Complexes]:
     """The lines between the joints of every moving link in a pose, and from one of them to each point of the link."""
     lower = motion.plan.lower
     lines = []
@@ -229,7 +231,7 @@ def _square(
     paths: Sequence[Complexes],
     names: Sequence[str],
     axes: Sequence[str],
-    spots: Sequence[Spot],
+    spots: Sequence[PointMarker],
     thin: Sequence[Complexes] = (),
     ranges: Sequence[tuple[float, float]] = (),
 ) -> Panel:

@@ -9,15 +9,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.drawing.canvas.axes import figures
-from gruebler.drawing.canvas.free_space import HALF, Complexes, Reals, Room, complexes
-from gruebler.drawing.canvas.labels import noted
-from gruebler.drawing.canvas.shapes import Lines, Point, Shape, Text, text_width
+from gruebler.drawing.canvas.axes import as_text
+from gruebler.drawing.canvas.free_space import HALF, Complexes, Obstacles, Reals, complexes
+from gruebler.drawing.canvas.labels import note_near
+from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.styles import STYLES
 from gruebler.drawing.linkage.bodies import hull, pins_of, slides
-from gruebler.drawing.linkage.layer_context import Sheet
-from gruebler.drawing.linkage.posed_linkage import Stage
-from gruebler.linkages import Line, Named
+from gruebler.drawing.linkage.layer_context import LayerContext
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
+from gruebler.linkages import Line, LinkPoint
 
 __all__ = ["dimension_lines"]
 
@@ -42,17 +42,17 @@ _SAME = 1e-9  # sizes: dimensions are not drawn below
 class _Measure(NamedTuple):
     """Two points whose distance is told."""
 
-    first: Named
-    second: Named
+    first: LinkPoint
+    second: LinkPoint
     length: float
 
 
-def dimension_lines(sheet: Sheet) -> list[Shape]:
+def dimension_lines(sheet: LayerContext) -> list[Shape]:
     """A dimension line for every length of every link, clear of bodies and of each other where there is room."""
     stage = sheet.stage
     shapes: list[Shape] = []
     for measure in _measures(stage):
-        words = figures(measure.length, stage.linkage.unit, sheet.lang)
+        words = as_text(measure.length, stage.linkage.unit, sheet.lang)
         shapes += _dimension(stage.place(measure.first), stage.place(measure.second), words, [*sheet.drawn, *shapes])
     return shapes
 
@@ -60,7 +60,7 @@ def dimension_lines(sheet: Sheet) -> list[Shape]:
 # --- what is measured ------------------------------------------------------------------------------
 
 
-def _measures(stage: Stage) -> list[_Measure]:
+def _measures(stage: PosedLinkage) -> list[_Measure]:
     """Lengths of the links as they were given, the short ones first: their dimension lines stand nearest."""
     linkage = stage.linkage
     least = _SAME * linkage.size
@@ -74,11 +74,11 @@ def _measures(stage: Stage) -> list[_Measure]:
     return sorted((one for one in found if one.length > least), key=lambda one: one.length)
 
 
-def _named(link: str, z: complex) -> Named:
-    return Named(link, z.real, z.imag)
+def _named(link: str, z: complex) -> LinkPoint:
+    return LinkPoint(link, z.real, z.imag)
 
 
-def _sides(stage: Stage, link: str) -> Iterator[tuple[complex, complex]]:
+def _sides(stage: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pin to pin along a line, or around a polygon; from pins within a polygon to its two nearest corners."""
     linkage = stage.linkage
     joints = linkage.mechanism.chain.joints
@@ -98,7 +98,7 @@ def _sides(stage: Stage, link: str) -> Iterator[tuple[complex, complex]]:
         yield from ((corner, z) for corner in sorted(corners, key=lambda corner: abs(corner - z))[:2])
 
 
-def _beside(stage: Stage, link: str) -> Iterator[tuple[complex, complex]]:
+def _beside(stage: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pins to the line of a slide on the same link: the offset, if there is one."""
     linkage = stage.linkage
     joints = linkage.mechanism.chain.joints
@@ -114,7 +114,7 @@ def _beside(stage: Stage, link: str) -> Iterator[tuple[complex, complex]]:
                         yield foot, pin
 
 
-def _cylinders(stage: Stage) -> Iterator[_Measure]:
+def _cylinders(stage: PosedLinkage) -> Iterator[_Measure]:
     """How long cylinders are in this pose, from pin to pin."""
     for slide in slides(stage):
         if slide.sign == "cylinder":
@@ -126,7 +126,7 @@ def _cylinders(stage: Stage) -> Iterator[_Measure]:
 # --- how it is drawn -------------------------------------------------------------------------------
 
 
-class _Way(NamedTuple):
+class _LinePlacement(NamedTuple):
     """How a dimension line may stand: on which side, how far off, its number after which part of it."""
 
     side: int
@@ -143,8 +143,8 @@ def _dimension(a: Point, b: Point, words: str, drawn: Sequence[Shape]) -> list[S
     fits = along.length > 2 * (half + _HEAD[0])
     shift = max(0.0, 0.5 - (half + _HEAD[0] + 2.0) / max(along.length, 1.0))
     parts = sorted({min(max(part, 0.5 - shift), 0.5 + shift) for part in _PARTS}) if fits else [0.5]
-    ways = [_Way(*one) for one in product((1, -1), _OFFSETS, parts)]
-    room = Room(drawn)
+    ways = [_LinePlacement(*one) for one in product((1, -1), _OFFSETS, parts)]
+    room = Obstacles(drawn)
     best = ways[int(_costs(a, b, ways, wide if fits else None, room).argmin())]
     out = Point(best.side * v.x, best.side * v.y)
     first, last = a.plus(out, best.off), b.plus(out, best.off)
@@ -158,12 +158,12 @@ def _dimension(a: Point, b: Point, words: str, drawn: Sequence[Shape]) -> list[S
         beyond = 0.0 if inside else 2 * _HEAD[0]
         lines.append((first.plus(u, -beyond), last.plus(u, beyond)))
         heads = heads if inside else [(at, Point(-way.x, -way.y)) for at, way in heads]
-    shapes: list[Shape] = [Lines(tuple(lines), "dimension"), *(_head(at, way) for at, way in heads)]
-    text = Text(middle, words, "value") if fits else noted(middle, words, "value", [*drawn, *shapes])
+    shapes: list[Shape] = [Polylines(tuple(lines), "dimension"), *(_head(at, way) for at, way in heads)]
+    text = TextShape(middle, words, "value") if fits else note_near(middle, words, "value", [*drawn, *shapes])
     return [*shapes, text]
 
 
-def _extension(foot: Point, out: Point, off: float, room: Room) -> tuple[Point, Point]:
+def _extension(foot: Point, out: Point, off: float, room: Obstacles) -> tuple[Point, Point]:
     """From a measured point to beyond its dimension line; it begins behind the texts that are in the way."""
     starts = [start for start in _STARTS if start < off] or [_START]
     end = foot.plus(out, off + _BEYOND)
@@ -172,7 +172,7 @@ def _extension(foot: Point, out: Point, off: float, room: Room) -> tuple[Point, 
     return next((p for p, gap in zip(feet, gaps, strict=True) if gap > 0), feet[0]), end
 
 
-def _costs(a: Point, b: Point, ways: Sequence[_Way], wide: float | None, room: Room) -> Reals:
+def _costs(a: Point, b: Point, ways: Sequence[_LinePlacement], wide: float | None, room: Obstacles) -> Reals:
     """What is wrong with each way of a dimension: docs/theory/drawing.md. Without a width no number stands in it."""
     start, along = complex(*a), complex(*b.minus(a))
     unit = along / abs(along)
@@ -194,7 +194,7 @@ def _costs(a: Point, b: Point, ways: Sequence[_Way], wide: float | None, room: R
     return cost
 
 
-def _touched(room: Room, first: Complexes, last: Complexes, price: float) -> Reals:
+def _touched(room: Obstacles, first: Complexes, last: Complexes, price: float) -> Reals:
     """The price of all that lies nearer to lines than is wanted, the full one where it touches."""
     gaps = np.concatenate([room.lines.gaps(first, last), room.texts.gaps(first, last)], axis=1)
     nearest = np.clip(1.0 - gaps / _CLEAR, 0.0, 1.0).max(axis=1, initial=0.0)
@@ -207,7 +207,7 @@ def _gap(u: Point, wide: float) -> float:
     return min(across / max(abs(u.x), 1e-9), up / max(abs(u.y), 1e-9))
 
 
-def _head(at: Point, way: Point) -> Lines:
+def _head(at: Point, way: Point) -> Polylines:
     long, half = _HEAD
     back, side = at.plus(way, long), way.across
-    return Lines(((at, back.plus(side, half), back.plus(side, -half)),), "dimension-head", closed=True)
+    return Polylines(((at, back.plus(side, half), back.plus(side, -half)),), "dimension-head", closed=True)

@@ -11,14 +11,14 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from gruebler.drawing.canvas.axes import figures
-from gruebler.drawing.canvas.labels import noted, short_names
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape
+from gruebler.drawing.canvas.axes import as_text
+from gruebler.drawing.canvas.labels import note_near, short_names
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.drawing.canvas.symbols import arrow
-from gruebler.drawing.linkage.layer_context import Sheet
+from gruebler.drawing.linkage.layer_context import LayerContext
 from gruebler.drawing.linkage.poles import cross
-from gruebler.drawing.linkage.posed_linkage import Stage
-from gruebler.linkages import Line, Named
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
+from gruebler.linkages import Line, LinkPoint
 
 __all__ = ["Pole", "instant_centres", "pole_marks", "pole_numbers"]
 
@@ -43,7 +43,7 @@ class Pole(NamedTuple):
     """Whether it stays with the joint of the two links."""
 
 
-def instant_centres(stage: Stage) -> list[Pole]:
+def instant_centres(stage: PosedLinkage) -> list[Pole]:
     """The poles of a pose by pairs of links, permanent ones first; none for links at rest against each other.
 
     All pairs of up to four links; of more the permanent poles and those against the frame.
@@ -59,19 +59,19 @@ def instant_centres(stage: Stage) -> list[Pole]:
     return list(found.values())
 
 
-def _permanent(stage: Stage) -> Iterator[Pole]:
+def _permanent(stage: PosedLinkage) -> Iterator[Pole]:
     """At turning joints the pin; of slides the point at infinity across the guide."""
     links = stage.linkage.mechanism.chain.links
     for number, joint in enumerate(stage.lower.mechanism.chain.joints):
         for one, other in itertools.combinations([link for link in joint.links if link in links], 2):
             element = stage.lower.elements[number, one]
-            at = complex(stage.pose.complex_point(Named(one, element.x, element.y))[0])
+            at = complex(stage.pose.complex_point(LinkPoint(one, element.x, element.y))[0])
             if joint.pair.name == "revolute":
                 yield Pole((one, other), at, permanent=True)
             elif joint.pair.name == "prismatic" and isinstance(element, Line):
                 across = cmath.rect(1.0, float(stage.pose.angle(one)[0]) + element.angle) * 1j
                 pins = [
-                    complex(stage.pose.complex_point(Named(link, e.x, e.y))[0])
+                    complex(stage.pose.complex_point(LinkPoint(link, e.x, e.y))[0])
                     for link in (other, one)
                     for (k, own), e in stage.lower.elements.items()
                     if own == link and k != number and stage.lower.mechanism.chain.joints[k].pair.name == "revolute"
@@ -79,7 +79,7 @@ def _permanent(stage: Stage) -> Iterator[Pole]:
                 yield Pole((one, other), pins[0] if pins else at, across, permanent=True)
 
 
-def _moving_pole(stage: Stage, one: str, other: str) -> Pole | None:
+def _moving_pole(stage: PosedLinkage, one: str, other: str) -> Pole | None:
     """The pole of two links by their velocities; None if they are at rest against each other."""
     pose, chain, size = stage.pose, stage.lower.mechanism.chain, stage.lower.size
     i, j = chain.index(one), chain.index(other)
@@ -94,9 +94,9 @@ def _moving_pole(stage: Stage, one: str, other: str) -> Pole | None:
     return Pole((one, other), middle + 1j * apart / turning)
 
 
-def _joint_of(stage: Stage, link: str, near: complex) -> complex:
+def _joint_of(stage: PosedLinkage, link: str, near: complex) -> complex:
     """The joint of a link that is nearest to a place."""
-    own = [Named(link, e.x, e.y) for (_, holder), e in stage.lower.elements.items() if holder == link]
+    own = [LinkPoint(link, e.x, e.y) for (_, holder), e in stage.lower.elements.items() if holder == link]
     places = [complex(stage.pose.complex_point(place)[0]) for place in own]
     return min(places, key=lambda z: abs(z - near))
 
@@ -117,7 +117,7 @@ def _name(pole: Pole, numbers: Mapping[str, str]) -> str:
     return f"P({one}, {other})"
 
 
-def pole_marks(sheet: Sheet) -> list[Shape]:
+def pole_marks(sheet: LayerContext) -> list[Shape]:
     """Crosses and names of the poles, with polar rays; poles far away by arrows on their rays, with the distance."""
     stage = sheet.stage
     found = instant_centres(stage)
@@ -133,10 +133,10 @@ def pole_marks(sheet: Sheet) -> list[Shape]:
                 mine.append(pole)
         if not pole.permanent and not pole.direction and _near(stage, pole.at):
             rays = (ends[-1] for ends in _rays(stage, pole, found))
-            shapes += [Lines(((stage.local(start), stage.local(pole.at)),), "dead") for start in rays]
+            shapes += [Polylines(((stage.local(start), stage.local(pole.at)),), "dead") for start in rays]
     for z, group in groups:
         at = stage.local(z)
-        shapes.append(Circle(at, 3.0, "dot") if any(pole.permanent for pole in group) else cross(at))
+        shapes.append(CircleShape(at, 3.0, "dot") if any(pole.permanent for pole in group) else cross(at))
     words: list[tuple[Point, str]] = [
         (stage.local(z), ", ".join(_name(pole, numbers) for pole in group)) for z, group in groups
     ]
@@ -147,17 +147,17 @@ def pole_marks(sheet: Sheet) -> list[Shape]:
                 shapes += arrow(stage.local(start), tip, "dead", "dot")
                 words.append((tip, text))
     for at, text in words:
-        shapes.append(noted(at, text, "value", [*sheet.drawn, *shapes]))
+        shapes.append(note_near(at, text, "value", [*sheet.drawn, *shapes]))
     return shapes
 
 
-def _near(stage: Stage, z: complex) -> bool:
+def _near(stage: PosedLinkage, z: complex) -> bool:
     upper, lower = stage.reach
     at, away = stage.local(z), _AWAY * max(lower.x - upper.x, lower.y - upper.y)
     return max(upper.x - at.x, at.x - lower.x, upper.y - at.y, at.y - lower.y) <= away
 
 
-def _rays(stage: Stage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
+def _rays(stage: PosedLinkage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
     """The permanent poles on each polar ray of a pole that are no points at infinity, the nearest to it first."""
     permanent = {frozenset(one.links): one for one in found if one.permanent}
 
@@ -171,7 +171,7 @@ def _rays(stage: Stage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[com
             yield tuple(sorted(ends, key=away))
 
 
-def _far(sheet: Sheet, pole: Pole, found: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
+def _far(sheet: LayerContext, pole: Pole, found: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
     """Where arrows to a pole outside begin, and what stands at them: its name, and how far it is from there."""
     stage = sheet.stage
     nearest = [ends[0] for ends in _rays(stage, pole, found)] if not pole.permanent else []
@@ -179,9 +179,9 @@ def _far(sheet: Sheet, pole: Pole, found: Sequence[Pole], name: str) -> Iterator
         yield from ((start, f"{name} ∞") for start in nearest or [pole.at])
         return
     for start in nearest or [_joint_of(stage, pole.links[1], pole.at)]:
-        yield start, f"{name} {figures(abs(pole.at - start), stage.linkage.unit, sheet.lang)}"
+        yield start, f"{name} {as_text(abs(pole.at - start), stage.linkage.unit, sheet.lang)}"
 
 
-def _tip(stage: Stage, pole: Pole, start: complex) -> Point:
+def _tip(stage: PosedLinkage, pole: Pole, start: complex) -> Point:
     way = stage.local(pole.direction or pole.at - start).unit
     return stage.local(start).plus(way, _RAY)

@@ -6,15 +6,15 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from gruebler.drawing.canvas.shapes import Shape
-from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 
-__all__ = ["Layer", "Sheet"]
+__all__ = ["Layer", "LayerContext"]
 
 
-class Sheet(NamedTuple):
+class LayerContext(NamedTuple):
     """What a layer is drawn on."""
 
-    stage: Stage
+    stage: PosedLinkage
     output: str | None
     """The link or joint that is looked at; None for the linkage's own."""
     drawn: Sequence[Shape]
@@ -22,4 +22,4 @@ class Sheet(NamedTuple):
     lang: str = "en"
 
 
-Layer = Callable[[Sheet], list[Shape]]
+Layer = Callable[[LayerContext], list[Shape]]

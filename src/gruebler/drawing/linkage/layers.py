@@ -12,30 +12,30 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.analysis.drive_cycle import PathCourse
+from gruebler.analysis.drive_cycle import PathCycle
 from gruebler.analysis.events import stops
 from gruebler.analysis.outputs import find_output
-from gruebler.analysis.transmission import Leg, driving_legs
-from gruebler.drawing.canvas.labels import noted
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
-from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.analysis.transmission import PushingLink, pushing_links
+from gruebler.drawing.canvas.labels import note_near
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
+from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.drawing.canvas.symbols import RADIUS, straight_drive, turning_drive, widest_gap
 from gruebler.drawing.linkage.arrows import acceleration_arrows, velocity_arrows
-from gruebler.drawing.linkage.bodies import Part, at_pose, corners_of, in_link, slides
+from gruebler.drawing.linkage.bodies import BodyPart, corners_of, in_link, shapes_at_pose, slides
 from gruebler.drawing.linkage.dimensions import dimension_lines
 from gruebler.drawing.linkage.instant_centres import pole_marks
-from gruebler.drawing.linkage.layer_context import Layer, Sheet
+from gruebler.drawing.linkage.layer_context import Layer, LayerContext
 from gruebler.drawing.linkage.poles import centrode_lines, inflection_lines
-from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
-from gruebler.linkages import Line, Named
-from gruebler.text import in_language
+from gruebler.linkages import Line, LinkPoint
+from gruebler.text import decimal_sign_in
 
 __all__ = [
     "BELOW",
     "LAYERS",
-    "coupler_curve",
+    "coupler_curve_lines",
     "curve_of",
     "drive_arrows",
     "drive_parts",
@@ -57,7 +57,7 @@ _AT_REST = 1e-7  # sizes for a drive of speed 1: below, a point leaves in the di
 # --- curves --------------------------------------------------------------------------------------
 
 
-def coupler_curve(stage: Stage, name: str) -> list[Shape]:
+def coupler_curve_lines(stage: PosedLinkage, name: str) -> list[Shape]:
     """The path of a point through the range of the drive; where that is limited, the rest of its circuit thinly.
 
     Raises `LinkageError` for a name that is no point or joint, and with several drives.
@@ -67,7 +67,7 @@ def coupler_curve(stage: Stage, name: str) -> list[Shape]:
     if stage.goes_round:
         drives = np.linspace(course.span.low, course.span.high, _SAMPLES * course.span.turns + 1)
         return [curve_of(stage, course.at(drives, 0).complex_point(point), "curve")]
-    if isinstance(course, PathCourse):
+    if isinstance(course, PathCycle):
         return [curve_of(stage, course.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
     rest = circuit(stage.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]), step=_STEP)
     return [
@@ -76,36 +76,36 @@ def coupler_curve(stage: Stage, name: str) -> list[Shape]:
     ]
 
 
-def curve_of(stage: Stage, z: Complexes, style: str) -> Lines:
+def curve_of(stage: PosedLinkage, z: Complexes, style: str) -> Polylines:
     """A line through places, with as few points as will do."""
     points = [stage.local(complex(one)) for one in z]
     closed = points[0].minus(points[-1]).length < 1e-3
-    line = thinned(points, FINE)
-    return Lines((tuple(line[:-1] if closed and len(line) > 2 else line),), style, closed)
+    line = simplified(points, FINE)
+    return Polylines((tuple(line[:-1] if closed and len(line) > 2 else line),), style, closed)
 
 
 # --- drives --------------------------------------------------------------------------------------
 
 
-def drive_arrows(stage: Stage) -> list[Shape]:
+def drive_arrows(stage: PosedLinkage) -> list[Shape]:
     """A curved arrow at every turning drive, a straight one beside every sliding one, in their positive sense."""
-    return [shape for part in drive_parts(stage) for shape in at_pose(stage, part)]
+    return [shape for part in drive_parts(stage) for shape in shapes_at_pose(stage, part)]
 
 
-def drive_parts(stage: Stage) -> list[Part]:
+def drive_parts(stage: PosedLinkage) -> list[BodyPart]:
     """The arrows of the drives, each going with a link of its joint."""
     lower = stage.lower
-    made: list[Part] = []
+    made: list[BodyPart] = []
     for number, drive in enumerate(lower.mechanism.drives if stage.linkage.mechanism.drives else ()):
         first, other = lower.reference(number)
         e, f = lower.elements[drive.joint, first], lower.elements[drive.joint, other]
-        at = stage.place(Named(other, f.x, f.y))
+        at = stage.place(LinkPoint(other, f.x, f.y))
         if isinstance(e, Line):
             angle = e.angle + float(stage.pose.angle(first)[0])
             axis = Point(math.cos(angle), -math.sin(angle))
             cylinder = [s for s in slides(stage) if s.joint == drive.joint and s.sign == "cylinder"]
             if cylinder:
-                at = at.plus(stage.place(Named(first, e.x, e.y)).minus(at), 0.5)
+                at = at.plus(stage.place(LinkPoint(first, e.x, e.y)).minus(at), 0.5)
             arrow = straight_drive(at, axis, axis.across if axis.x < 0 else Point(0, 0).minus(axis.across))
             made.append(in_link(stage, cylinder[0].guide if cylinder else other, arrow))
         else:
@@ -114,7 +114,7 @@ def drive_parts(stage: Stage) -> list[Part]:
     return made
 
 
-def _free_direction(stage: Stage, joint: int, at: Point) -> float:
+def _free_direction(stage: PosedLinkage, joint: int, at: Point) -> float:
     """The middle of the widest gap between the bodies at a joint, the pedestal of the frame among them."""
     lower = stage.lower
     angles = []
@@ -123,14 +123,14 @@ def _free_direction(stage: Stage, joint: int, at: Point) -> float:
             angles.append(math.pi / 2)
             continue
         pins = [(n, e) for (n, own), e in lower.elements.items() if own == link and n != joint]
-        angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := stage.place(Named(link, e.x, e.y)))]
+        angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := stage.place(LinkPoint(link, e.x, e.y)))]
     return widest_gap(angles or [math.pi / 2])
 
 
 # --- layers by name ------------------------------------------------------------------------------
 
 
-def _dead_centres(sheet: Sheet) -> list[Shape]:
+def _dead_centres(sheet: LayerContext) -> list[Shape]:
     """The links as thin lines where the output stops or rests."""
     stage = sheet.stage
     course = stage.driven()
@@ -145,7 +145,7 @@ def _dead_centres(sheet: Sheet) -> list[Shape]:
     return [shape for row in range(len(found)) for shape in ghost(stage, motion, row)]
 
 
-def ghosts(stage: Stage, count: int) -> list[Shape]:
+def ghosts(stage: PosedLinkage, count: int) -> list[Shape]:
     """So many positions, evenly through the turns of the drive; in a range from one end to the other."""
     drives = stage.path.drives[:, 0]
     places = (
@@ -157,7 +157,7 @@ def ghosts(stage: Stage, count: int) -> list[Shape]:
     return [shape for row in range(count) for shape in ghost(stage, motion, row)]
 
 
-def ghost(stage: Stage, motion: Motion, row: int) -> list[Shape]:
+def ghost(stage: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
     """The outlines of all moving links, their guides and their joints."""
     lower, found = stage.lower, slides(stage)
     lines: list[tuple[Point, ...]] = []
@@ -167,8 +167,8 @@ def ghost(stage: Stage, motion: Motion, row: int) -> list[Shape]:
             continue
 
         def moved(points: Iterable[Point], link: str = link) -> tuple[Point, ...]:
-            shape = at_pose(stage, Part(0, link, (Lines((tuple(points),), "ghost"),)), motion, row)[0]
-            assert isinstance(shape, Lines)
+            shape = shapes_at_pose(stage, BodyPart(0, link, (Polylines((tuple(points),), "ghost"),)), motion, row)[0]
+            assert isinstance(shape, Polylines)
             return shape.parts[0]
 
         corners = moved(corners_of(stage, link, found))
@@ -178,30 +178,30 @@ def ghost(stage: Stage, motion: Motion, row: int) -> list[Shape]:
         lines += [moved(map(stage.local, (slide.low, slide.high))) for slide in guides]
         own = [stage.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
         joints |= {(round(p.x, 1), round(p.y, 1)): p for p in moved(own)}
-    return [Lines(tuple(lines), "ghost"), *(Circle(at, 4.0, "ghost-pin") for at in joints.values())]
+    return [Polylines(tuple(lines), "ghost"), *(CircleShape(at, 4.0, "ghost-pin") for at in joints.values())]
 
 
-def _transmission(sheet: Sheet) -> list[Shape]:
+def _transmission(sheet: LayerContext) -> list[Shape]:
     """The angle between the force on the output and the normal of its way, with its value."""
     stage = sheet.stage
     stage.driven()
-    pushed = [_push(stage, leg) for leg in driving_legs(stage.pose.plan, find_output(stage.linkage, sheet.output))]
+    pushed = [_push(stage, leg) for leg in pushing_links(stage.pose.plan, find_output(stage.linkage, sheet.output))]
     at, force, normal = min(pushed, key=lambda one: abs(cmath.phase(one[2] / one[1])))
     apex = stage.local(at)
     begin, extent = -cmath.phase(force), -cmath.phase(normal / force)
-    rays = [(apex, Arc(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
-    arc = Arc(apex, _ARC, begin, extent, "measure")
-    shapes: list[Shape] = [Lines(tuple(rays), "measure"), arc]
-    value = in_language(f"μ = {math.degrees(abs(extent)):.1f}°", sheet.lang)
-    return [*shapes, noted(arc.place(0.5), value, "value", [*sheet.drawn, *shapes])]
+    rays = [(apex, ArcShape(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
+    arc = ArcShape(apex, _ARC, begin, extent, "measure")
+    shapes: list[Shape] = [Polylines(tuple(rays), "measure"), arc]
+    value = decimal_sign_in(f"μ = {math.degrees(abs(extent)):.1f}°", sheet.lang)
+    return [*shapes, note_near(arc.place(0.5), value, "value", [*sheet.drawn, *shapes])]
 
 
-def _push(stage: Stage, leg: Leg) -> tuple[complex, complex, complex]:
+def _push(stage: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, complex]:
     """Where a leg pushes, in which direction (from there back to the leg), and the nearer normal of the way there."""
     pose, chain = stage.pose, stage.lower.mechanism.chain
 
     def point(element: tuple[str, complex, complex]) -> complex:
-        return complex(pose.complex_point(Named(element[0], element[1].real, element[1].imag))[0])
+        return complex(pose.complex_point(LinkPoint(element[0], element[1].real, element[1].imag))[0])
 
     def across(element: tuple[str, complex, complex]) -> complex:
         return 1j * complex(pose.turns[0, chain.index(element[0])]) * element[2]
@@ -222,16 +222,16 @@ def _push(stage: Stage, leg: Leg) -> tuple[complex, complex, complex]:
     return at, force, normal if (force.conjugate() * normal).real >= 0 else -normal
 
 
-def point_names(stage: Stage, shapes: Sequence[Shape]) -> Iterable[Text]:
+def point_names(stage: PosedLinkage, shapes: Sequence[Shape]) -> Iterable[TextShape]:
     """The names of points, beside them."""
     drawn = list(shapes)
     for name, point in stage.lower.points.items():
-        text = noted(stage.place(point), name, "name", drawn)
+        text = note_near(stage.place(point), name, "name", drawn)
         drawn.append(text)
         yield text
 
 
-def _later(_: Sheet) -> list[Shape]:
+def _later(_: LayerContext) -> list[Shape]:
     """Bars are put below everything else, when all of it is there."""
     return []
 

@@ -8,9 +8,9 @@ from itertools import chain
 import numpy as np
 
 from gruebler.drawing.canvas.figure import MARGIN, Figure, figure_of
-from gruebler.drawing.linkage.bodies import FRAME, PINS, layered, parts
+from gruebler.drawing.linkage.bodies import FRAME, PINS, body_parts, layered
 from gruebler.drawing.linkage.layers import curve_of, drive_arrows, ghost, point_names
-from gruebler.drawing.linkage.posed_linkage import stage_of
+from gruebler.drawing.linkage.posed_linkage import posed_along_motion
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.drawing.structure.picture import draw
 from gruebler.kinematics import Motion
@@ -44,9 +44,9 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
         return replace(
             draw(mechanism, labels=True, lang=lang, name=name), description=f"{about} {motion.message(lang)}"
         )
-    stage = stage_of(motion)
+    stage = posed_along_motion(motion)
     rows = sorted({round(row) for row in np.linspace(0, len(motion) - 1, _GHOSTS + 1)[1:]} - {0})
-    pieces = parts(stage)
+    pieces = body_parts(stage)
     below, above = layered(stage, pieces, FRAME, PINS - 1), layered(stage, pieces, PINS, PINS)
     shapes = [
         *chain.from_iterable(ghost(stage, motion, row) for row in rows),

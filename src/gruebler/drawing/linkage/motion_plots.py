@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.analysis import transmission_angle
-from gruebler.analysis.events import natural, stops
+from gruebler.analysis.events import natural_speed, stops
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import measure_transmission
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.panels import Band, Curve, Mark, Panel, Rest, Spot, plotted
+from gruebler.drawing.canvas.panels import AxisMarker, Band, Curve, Panel, PointMarker, Rest, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
-from gruebler.text import in_language
+from gruebler.text import decimal_sign_in
 
 __all__ = ["transfer_plot", "transmission_plot"]
 
@@ -102,7 +102,7 @@ def transfer_plot(
         named = rests if order == 0 else tuple(rest._replace(words="") for rest in rests)
         panels.append(Panel(run.across, axis, curves, marks=shown, rests=named, size=_LOW, marked=words["mark"]))
     about = words["transfer_about"].format(range=run.range, output=called) + _described(run, marks, rests, words)
-    return plotted(panels, words["transfer"].format(name=run.name, output=called), about, lang)
+    return draw_panels(panels, words["transfer"].format(name=run.name, output=called), about, lang)
 
 
 def _check(run: PlotRun, output: Output, asked: str | None) -> None:
@@ -128,7 +128,7 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
         )
 
 
-def _described(run: PlotRun, marks: tuple[Mark, ...], rests: tuple[Rest, ...], words: dict[str, str]) -> str:
+def _described(run: PlotRun, marks: tuple[AxisMarker, ...], rests: tuple[Rest, ...], words: dict[str, str]) -> str:
     """The dead centres and dwells in words."""
     values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
     out = " " + words["dead"].format(values=values) if values else ""
@@ -157,18 +157,18 @@ def _order_words(run: PlotRun, output: Output, order: int) -> str:
 def _least(run: PlotRun, output: Output, order: int) -> float:
     """The size of a derivative that is rounding only."""
     by = 1.0 if run.course.turning_drive else run.course.plan.lower.size ** (order - 1)
-    return _NOISE * natural(run.course, output) / by
+    return _NOISE * natural_speed(run.course, output) / by
 
 
-def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[Mark, ...], tuple[Rest, ...]]:
+def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[AxisMarker, ...], tuple[Rest, ...]]:
     """The dead centres and the dwells within what is plotted."""
     centres, dwells = stops(run.course, output)
     drives = [run.within(centre.drive) for centre in centres]
     shown = sorted(drive for drive in drives if drive is not None)
     low, high, period = float(run.drives[0]), float(run.drives[-1]), run.course.span.period
     again = [drive + period for drive in shown if drive + period <= high + 1e-9 * period]
-    marks = [Mark(run.shown(drive), run.value(drive)) for drive in shown]
-    marks += [Mark(run.shown(drive), "") for drive in again]
+    marks = [AxisMarker(run.shown(drive), run.value(drive)) for drive in shown]
+    marks += [AxisMarker(run.shown(drive), "") for drive in again]
     rests = []
     for dwell in dwells:
         laps = range(math.floor((low - dwell.end) / period), math.ceil((high - dwell.begin) / period) + 1)
@@ -215,9 +215,11 @@ def transmission_plot(
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
         marks=marks,
         rests=rests,
-        spots=(Spot(run.shown(at), least, f"μ_min = {least:.1f}°"),),
+        spots=(PointMarker(run.shown(at), least, f"μ_min = {least:.1f}°"),),
         marked=words["mark"],
     )
-    about = words["transmission_about"].format(range=run.range, mu=in_language(f"{least:.2f}", lang), at=run.value(at))
+    about = words["transmission_about"].format(
+        range=run.range, mu=decimal_sign_in(f"{least:.2f}", lang), at=run.value(at)
+    )
     about += _described(run, marks, rests, words)
-    return plotted([panel], words["transmission"].format(name=run.name, output=called), about, lang)
+    return draw_panels([panel], words["transmission"].format(name=run.name, output=called), about, lang)

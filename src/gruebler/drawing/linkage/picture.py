@@ -7,35 +7,35 @@ from dataclasses import replace
 from itertools import pairwise
 from math import cos, degrees, pi, sin
 
-from gruebler.drawing.canvas.axes import figures
+from gruebler.drawing.canvas.axes import as_text
 from gruebler.drawing.canvas.figure import MARGIN, Figure, figure_of
-from gruebler.drawing.canvas.labels import legend, named
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.labels import labels_with_names, legend
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.linkage.arrows import scale_bars
 from gruebler.drawing.linkage.bodies import (
     BLOCKS,
     BODIES,
     FRAME,
     PINS,
-    Part,
+    BodyPart,
     Slide,
-    at_pose,
     barrel,
+    body_parts,
     corners_of,
     layered,
-    parts,
+    shapes_at_pose,
     slides,
 )
 from gruebler.drawing.linkage.dimensions import dimension_lines
 from gruebler.drawing.linkage.instant_centres import pole_numbers
-from gruebler.drawing.linkage.layer_context import Sheet
-from gruebler.drawing.linkage.layers import BELOW, coupler_curve, drive_arrows, ghosts, layer, point_names
-from gruebler.drawing.linkage.posed_linkage import Stage, staged
+from gruebler.drawing.linkage.layer_context import LayerContext
+from gruebler.drawing.linkage.layers import BELOW, coupler_curve_lines, drive_arrows, ghosts, layer, point_names
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.drawing.structure.picture import draw
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import Linkage
-from gruebler.text import in_language
+from gruebler.text import decimal_sign_in
 
 __all__ = ["draw_linkage", "shown_linkage"]
 
@@ -117,14 +117,14 @@ def draw_linkage(
     >>> len(figure.svg()) < 8000
     True
     """
-    stage = staged(linkage, drive, branch=branch, between=between)
+    stage = posed_linkage(linkage, drive, branch=branch, between=between)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve(stage, one)]
-    pieces = parts(stage)
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(stage, one)]
+    pieces = body_parts(stage)
     frame = layered(stage, pieces, FRAME, FRAME)
     pins = layered(stage, pieces, PINS, PINS)
     bodies = layered(stage, pieces, BODIES, PINS - 1)
-    sheet = Sheet(stage, output, [*frame, *bodies, *pins], lang)
+    sheet = LayerContext(stage, output, [*frame, *bodies, *pins], lang)
     made = {key: layers[key](sheet) for key in layers if key in BELOW}
     below = [shape for shapes in made.values() for shape in shapes]
     shapes = [
@@ -152,7 +152,7 @@ def draw_linkage(
         rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
     if rows:
         shapes += legend(rows, [Point(0.0, 0.0)], shapes)
-    said, missing = told(stage, curves, {key: made[key] for key in layers}, lang, ghost or 0)
+    said, missing = picture_notes(stage, curves, {key: made[key] for key in layers}, lang, ghost or 0)
     described = f"{describe(linkage.mechanism, lang)} {' '.join([*said, *missing])}"
     return figure_of(shapes, title(linkage.mechanism, lang, name), described, MARGIN, missing)
 
@@ -167,18 +167,18 @@ def shown_linkage(linkage: Linkage) -> Figure:
 
 
 def _named(
-    stage: Stage, pieces: Sequence[Part], shapes: Sequence[Shape], names: Mapping[str, str] | None
+    stage: PosedLinkage, pieces: Sequence[BodyPart], shapes: Sequence[Shape], names: Mapping[str, str] | None
 ) -> tuple[list[Shape], dict[str, str]]:
     """Names beside the bodies, and what is to be listed."""
     found = slides(stage)
     outlines = {link: _outline(stage, link, pieces, found) for link in stage.linkage.mechanism.chain.links}
-    return named(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
+    return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
 
 
-def _outline(stage: Stage, link: str, pieces: Sequence[Part], found: tuple[Slide, ...]) -> tuple[Point, ...]:
+def _outline(stage: PosedLinkage, link: str, pieces: Sequence[BodyPart], found: tuple[Slide, ...]) -> tuple[Point, ...]:
     """Corners beside which the name of a link is put: those of its body, barrel, rod or block; for the frame a base."""
     mine = [part for part in pieces if part.link == link]
-    lines = [(part.layer, shape) for part in mine for shape in part.shapes if isinstance(shape, Lines)]
+    lines = [(part.layer, shape) for part in mine for shape in part.shapes if isinstance(shape, Polylines)]
     corners = corners_of(stage, link, found)
     rod = next((slide for slide in found if slide.block == link and slide.sign == "cylinder"), None)
     rims = [rim for part in mine for shape in part.shapes if (rim := _rim(shape))]
@@ -199,24 +199,24 @@ def _outline(stage: Stage, link: str, pieces: Sequence[Part], found: tuple[Slide
 
 def _rim(shape: Shape) -> tuple[Point, ...]:
     """Some points around a wheel, a cam or another contour; none of what is no such body."""
-    if isinstance(shape, Circle) and shape.radius > _WHEEL and shape.style != "dead":
+    if isinstance(shape, CircleShape) and shape.radius > _WHEEL and shape.style != "dead":
         turns = [2 * pi * k / _ROUND for k in range(_ROUND)]
         return tuple(shape.at.plus(Point(cos(turn), sin(turn)), shape.radius) for turn in turns)
-    if isinstance(shape, Lines) and shape.style == "area" and shape.closed:
+    if isinstance(shape, Polylines) and shape.style == "area" and shape.closed:
         contour = shape.parts[0]
         return contour[:: -(-len(contour) // _ROUND)]
     return ()
 
 
-def _seen_of_rod(stage: Stage, rod: Slide) -> tuple[Point, ...]:
+def _seen_of_rod(stage: PosedLinkage, rod: Slide) -> tuple[Point, ...]:
     """What of a rod is outside of its barrel: from there to its pin."""
     return *_placed(stage, rod.guide, barrel(stage, rod)[1:]), *_placed(stage, rod.block, [stage.local(rod.middle)])
 
 
-def _placed(stage: Stage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
+def _placed(stage: PosedLinkage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
     """Points of a link where they lie in the pose."""
-    (line,) = at_pose(stage, Part(BODIES, link, (Lines((tuple(corners),), "edge"),)))
-    assert isinstance(line, Lines)
+    (line,) = shapes_at_pose(stage, BodyPart(BODIES, link, (Polylines((tuple(corners),), "edge"),)))
+    assert isinstance(line, Polylines)
     return line.parts[0]
 
 
@@ -233,15 +233,15 @@ def _count(number: int) -> int:
     return number
 
 
-def told(
-    stage: Stage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
+def picture_notes(
+    stage: PosedLinkage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
 ) -> tuple[list[str], list[str]]:
     """The pose and what is shown, in sentences; and what was asked for but is not there."""
     words, drives = _WORDS[lang], stage.linkage.mechanism.drives
     values = [
-        in_language(f"{round(degrees(value), 2) + 0.0:g}°", lang)
+        decimal_sign_in(f"{round(degrees(value), 2) + 0.0:g}°", lang)
         if drive.direction.startswith("R")
-        else figures(float(value), stage.linkage.unit, lang)
+        else as_text(float(value), stage.linkage.unit, lang)
         for value, drive in zip(stage.pose.drives[0], drives, strict=bool(drives))
     ]
     said = [words["pose" if drives else "home"].format(values=", ".join(values))]
@@ -259,6 +259,6 @@ def told(
 def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
     """What a layer is called; of an inflection circle with the poles that lie in the picture."""
     name = _LAYER_NAMES[key][lang == "de"]
-    words = {shape.words for shape in shapes if isinstance(shape, Text)}
+    words = {shape.words for shape in shapes if isinstance(shape, TextShape)}
     found = [called[lang == "de"] for letter, called in _POLES.items() if key == "inflection" and letter in words]
     return f"{name} ({', '.join(found)})" if found else name

@@ -10,14 +10,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.analysis.drive_cycle import Course, follow
-from gruebler.drawing.canvas.axes import Axis, angles, decimals, figures
+from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle
+from gruebler.drawing.canvas.axes import Axis, angles, as_text, decimals
 from gruebler.drawing.linkage.posed_linkage import drive_rows
 from gruebler.drawing.structure.messages import title
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage
-from gruebler.text import in_language
+from gruebler.text import decimal_sign_in
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
 
@@ -38,7 +38,7 @@ _RANGE = {"en": "drive from {low} to {high}", "de": "Antrieb von {low} bis {high
 class PlotRun:
     """Poses of a linkage with one drive, and how the drive is told."""
 
-    course: Course
+    course: DriveCycle
     drives: Reals
     motion: Motion
     lang: str
@@ -82,8 +82,8 @@ class PlotRun:
     def value(self, drive: float) -> str:
         """A drive value in words."""
         if not self.course.turning_drive:
-            return figures(drive, self.unit, self.lang)
-        return in_language(f"{round(self.shown(drive), 6) + 0.0:.4g}°", self.lang)
+            return as_text(drive, self.unit, self.lang)
+        return decimal_sign_in(f"{round(self.shown(drive), 6) + 0.0:.4g}°", self.lang)
 
     @cached_property
     def round_drives(self) -> Reals:
@@ -124,7 +124,7 @@ def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lan
             "no joint is driven, so there is nothing to be plotted; name a drive",
             "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
         )
-    course = follow(linkage, branch)
+    course = drive_cycle(linkage, branch)
     drives = drive_rows(course, between, ROWS)
     if between is None and course.span.full:
         drives = drives - drives[0]

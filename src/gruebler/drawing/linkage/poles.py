@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.drawing.canvas.labels import noted
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape
-from gruebler.drawing.canvas.simplification import FINE, thinned
-from gruebler.drawing.linkage.layer_context import Sheet
-from gruebler.drawing.linkage.posed_linkage import Stage, drive_rows, floating
+from gruebler.drawing.canvas.labels import note_near
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape
+from gruebler.drawing.canvas.simplification import FINE, simplified
+from gruebler.drawing.linkage.layer_context import LayerContext
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage, drive_rows, floating_link
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 
@@ -25,9 +25,9 @@ _TURNING = 1e-6  # for a drive of speed 1: a link that turns more slowly has its
 _POINT = 1e-6  # sizes: a smaller inflection circle is a point
 
 
-def cross(at: Point) -> Lines:
+def cross(at: Point) -> Polylines:
     """A small cross."""
-    return Lines(
+    return Polylines(
         tuple((at.plus(d, -5.0), at.plus(d, 5.0)) for d in (Point(1.0, 1.0).unit, Point(1.0, -1.0).unit)), "edge"
     )
 
@@ -39,7 +39,7 @@ class _Box(NamedTuple):
     lower: Point
 
     @classmethod
-    def around(cls, stage: Stage, factor: float) -> _Box:
+    def around(cls, stage: PosedLinkage, factor: float) -> _Box:
         upper, lower = stage.reach
         more = factor * max(lower.x - upper.x, lower.y - upper.y)
         return cls(upper.plus(Point(-more, -more)), lower.plus(Point(more, more)))
@@ -48,7 +48,7 @@ class _Box(NamedTuple):
         return self.upper.x <= at.x <= self.lower.x and self.upper.y <= at.y <= self.lower.y
 
 
-def _number(sheet: Sheet) -> int:
+def _number(sheet: LayerContext) -> int:
     """The link that is looked at: the one asked for, else a link that is no neighbour of the frame."""
     links, output = sheet.stage.lower.mechanism.chain.links, sheet.output
     if output is not None and output not in links:
@@ -59,10 +59,10 @@ def _number(sheet: Sheet) -> int:
             f"{there}",
             f"Polbahnen und Wendekreis gehören zu einem Glied; {output!r} ist keines von {there}",
         )
-    return links.index(floating(sheet.stage.linkage) if output is None else output)
+    return links.index(floating_link(sheet.stage.linkage) if output is None else output)
 
 
-def inflection_lines(sheet: Sheet) -> list[Shape]:
+def inflection_lines(sheet: LayerContext) -> list[Shape]:
     """The inflection circle as far as it is near, with the pole P and the inflection pole W opposite to it.
 
     Pole and circle: docs/theory/geometry.md.
@@ -81,16 +81,16 @@ def inflection_lines(sheet: Sheet) -> list[Shape]:
     box = _Box.around(stage, _WIDE)
     circle = pole - 0.5j * shift * (1 - np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1)))
     lines = _within(stage, circle, box)
-    shapes: list[Shape] = [Lines(tuple(lines), "inflection")] if lines else []
+    shapes: list[Shape] = [Polylines(tuple(lines), "inflection")] if lines else []
     for z, name in ((pole, "P"), (pole - 1j * shift, "W")):
         point = stage.local(z)
         if lines and box.holds(point):
-            shapes.append(cross(point) if name == "P" else Circle(point, 3.2, "dot"))
-            shapes.append(noted(point, name, "value", [*sheet.drawn, *shapes]))
+            shapes.append(cross(point) if name == "P" else CircleShape(point, 3.2, "dot"))
+            shapes.append(note_near(point, name, "value", [*sheet.drawn, *shapes]))
     return shapes
 
 
-def centrode_lines(sheet: Sheet) -> list[Shape]:
+def centrode_lines(sheet: LayerContext) -> list[Shape]:
     """The fixed centrode p and the moving one q, which roll on each other, as far as they are near; q in this pose."""
     stage, k = sheet.stage, _number(sheet)
     course = stage.driven()
@@ -106,9 +106,9 @@ def centrode_lines(sheet: Sheet) -> list[Shape]:
         lines = _within(stage, z, box)
         if max((b.minus(line[0]).length for line in lines for b in line), default=0.0) < 1.0:
             return []
-        shapes.append(Lines(tuple(lines), style))
+        shapes.append(Polylines(tuple(lines), style))
         longest = max(lines, key=len)
-        shapes.append(noted(longest[len(longest) // 3], name, "value", [*sheet.drawn, *shapes]))
+        shapes.append(note_near(longest[len(longest) // 3], name, "value", [*sheet.drawn, *shapes]))
     return shapes
 
 
@@ -119,7 +119,7 @@ def _poles_of(motion: Motion, k: int) -> Complexes:
         return np.asarray(motion.places[0, :, k] + 1j * motion.places[1, :, k] / rate)
 
 
-def _within(stage: Stage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
+def _within(stage: PosedLinkage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
     """The parts of a line that lie in a box."""
     parts: list[list[Point]] = [[]]
     for one in z:
@@ -128,4 +128,4 @@ def _within(stage: Stage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
             parts[-1].append(at)
         elif parts[-1]:
             parts.append([])
-    return [tuple(thinned(part, FINE)) for part in parts if len(part) > 1]
+    return [tuple(simplified(part, FINE)) for part in parts if len(part) > 1]

@@ -10,17 +10,17 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gruebler.analysis.drive_cycle import Course, follow, follow_path_of
+from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.reference_pose import at_home
-from gruebler.kinematics.solve import planned
-from gruebler.linkages import Linkage, Named, Pin
+from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.solve import cached_plan
+from gruebler.linkages import Linkage, LinkPoint, Pin
 from gruebler.mechanism import Mechanism
-from gruebler.text import in_language
+from gruebler.text import decimal_sign_in
 
-__all__ = ["Stage", "drive_rows", "floating", "nodes", "stage_of", "staged"]
+__all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_along_motion", "posed_linkage"]
 
 Reals = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -34,12 +34,12 @@ _ENDLESS = 1.5  # sizes on both sides of the start of a slide without limits
 
 
 @dataclass(frozen=True)
-class Stage:
+class PosedLinkage:
     """What pictures and animations of a linkage need to know of its motion."""
 
     lower: Linkage
     """The linkage with turning and sliding joints only; links that it had before keep their names."""
-    course: Course | None
+    course: DriveCycle | None
     """The whole motion; None with several drives or none, and where there is one position only."""
     pose: Motion
     """One row, with rates for a drive of speed 1 where there is one drive."""
@@ -63,7 +63,7 @@ class Stage:
         """A point of a link in pixels, in coordinates of the link."""
         return Point(self.scale * z.real, -self.scale * z.imag)
 
-    def place(self, point: Named) -> Point:
+    def place(self, point: LinkPoint) -> Point:
         """Where a point lies in the pose, in pixels."""
         return self.local(complex(self.pose.complex_point(point)[0]))
 
@@ -74,7 +74,7 @@ class Stage:
         low, high = z.real.min() + 1j * z.imag.min(), z.real.max() + 1j * z.imag.max()
         return Point(float(low.real), -float(high.imag)), Point(float(high.real), -float(low.imag))
 
-    def driven(self) -> Course:
+    def driven(self) -> DriveCycle:
         """The course; `LinkageError` with several drives."""
         if self.course is None:
             count = len(self.linkage.mechanism.drives)
@@ -92,7 +92,7 @@ class Stage:
         return self.course
 
 
-def stage_of(motion: Motion) -> Stage:
+def posed_along_motion(motion: Motion) -> PosedLinkage:
     """A motion of one row or more as it was solved, its first row as the pose; without the rest of its course."""
     first = replace(
         motion,
@@ -105,22 +105,22 @@ def stage_of(motion: Motion) -> Stage:
         unknowns=motion.unknowns[:1],
         unbounded=(),
     )
-    return Stage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
+    return PosedLinkage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
 
 
-def _is_whole(course: Course, drives: Reals) -> bool:
+def _is_whole(course: DriveCycle, drives: Reals) -> bool:
     """Whether drive values go through all turns after which everything repeats."""
     return bool(drives[-1] - drives[0] > course.span.period * (1 - 1e-9))
 
 
-def staged(
+def posed_linkage(
     linkage: Linkage,
     drive: float | Sequence[float] | None = None,
     *,
     branch: str | Iterable[str] | None = None,
     between: tuple[float, float] | None = None,
     drives: ArrayLike | None = None,
-) -> Stage:
+) -> PosedLinkage:
     """Follow a linkage through its range, between two drive values, or along a path of its drives; stop it in a pose.
 
     Without a drive value the pose is the home; else a third of the way to a half turn; else a quarter of the range,
@@ -139,36 +139,36 @@ def staged(
         ) from None
     if not linkage.mechanism.drives:
         return _at_rest(linkage)
-    plan = planned(linkage)
+    plan = cached_plan(linkage)
     if drives is not None:
-        along = follow_path_of(linkage, drives, branch)
+        along = path_cycle(linkage, drives, branch)
         path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
-        return Stage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
+        return PosedLinkage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
     if len(linkage.mechanism.drives) == 1:
         try:
-            course = follow(linkage, branch)
+            course = drive_cycle(linkage, branch)
         except LinkageError as error:
             return _one_position(linkage, given, branch, error)
         path = course.at(drive_rows(course, between), 0)
         pose = course.at(np.array([_value(course, given, path.drives[:, 0])]), 2)
-        return Stage(plan.lower, course, pose, path, _scale(plan.lower, path))
+        return PosedLinkage(plan.lower, course, pose, path, _scale(plan.lower, path))
     if given is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
-        given = zeros if plan.lower.home is None else at_home(plan, zeros).drives
+        given = zeros if plan.lower.home is None else pose_at_reference(plan, zeros).drives
     pose = move(linkage, given.reshape(1, -1), branch=branch)
     if not len(pose):
         raise LinkageError(pose.message(), pose.message("de"))
     return _posed(pose)
 
 
-def _posed(pose: Motion) -> Stage:
+def _posed(pose: Motion) -> PosedLinkage:
     """One pose and no more."""
-    return Stage(pose.plan.lower, None, pose, pose, _scale(pose.plan.lower, pose))
+    return PosedLinkage(pose.plan.lower, None, pose, pose, _scale(pose.plan.lower, pose))
 
 
 def _one_position(
     linkage: Linkage, given: Reals | None, branch: str | Iterable[str] | None, why: LinkageError
-) -> Stage:
+) -> PosedLinkage:
     """The pose of a linkage that cannot be followed, at the value given or where there is one; else its error."""
     tried = given.reshape(1, -1) if given is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
     turning = linkage.mechanism.drives[0].direction.startswith("R")
@@ -182,14 +182,14 @@ def _one_position(
     raise why
 
 
-def _at_rest(linkage: Linkage) -> Stage:
+def _at_rest(linkage: Linkage) -> PosedLinkage:
     """The home of a linkage without a drive, found as that of the same linkage with one."""
     mechanism = linkage.mechanism
     for number in range(len(mechanism.chain.joints)) if linkage.home is not None else ():
         try:
             driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [number]))
-            plan = planned(driven)
-            pose = move(driven, at_home(plan, np.zeros(1)).drives.reshape(1, -1))
+            plan = cached_plan(driven)
+            pose = move(driven, pose_at_reference(plan, np.zeros(1)).drives.reshape(1, -1))
         except GrueblerError:
             continue
         if len(pose):
@@ -201,7 +201,7 @@ def _at_rest(linkage: Linkage) -> Stage:
     )
 
 
-def drive_rows(course: Course, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
+def drive_rows(course: DriveCycle, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
     """Drive values: so many even ones of each full turn, else of the whole range, slow at both ends.
 
     Raises `LinkageError` if nothing of the range lies between the two values asked for.
@@ -228,7 +228,7 @@ def drive_rows(course: Course, between: tuple[float, float] | None = None, count
     return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
-def _value(course: Course, given: Reals | None, rows: Reals) -> float:
+def _value(course: DriveCycle, given: Reals | None, rows: Reals) -> float:
     """The drive value of the pose."""
     if given is None:
         start = float(course.start.drives[0, 0])
@@ -251,29 +251,29 @@ def _value(course: Course, given: Reals | None, rows: Reals) -> float:
     return value
 
 
-def _range(course: Course, lang: str) -> str:
+def _range(course: DriveCycle, lang: str) -> str:
     low, high = (_said(course, value, lang) for value in (course.span.low, course.span.high))
     if lang == "de":
         return f"der Antrieb geht in dieser Einbaulage von {low} bis {high}"
     return f"the drive goes from {low} to {high} on this branch"
 
 
-def _said(course: Course, value: float, lang: str) -> str:
+def _said(course: DriveCycle, value: float, lang: str) -> str:
     degrees = "Grad" if lang == "de" else "degrees"
     words = f"{math.degrees(value):.6g} {degrees}" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
-    return in_language(words, lang)
+    return decimal_sign_in(words, lang)
 
 
-def floating(linkage: Linkage) -> str:
+def floating_link(linkage: Linkage) -> str:
     """Of the links that are no neighbours of the frame the one with most joints and points; else the last link."""
     mechanism = linkage.mechanism
     near = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
     far = [link for link in mechanism.chain.links if link not in near]
     moving = [link for link in mechanism.chain.links if link != mechanism.frame]
-    return max(far, key=lambda link: len(nodes(linkage, link))) if far else moving[-1]
+    return max(far, key=lambda link: len(link_nodes(linkage, link))) if far else moving[-1]
 
 
-def nodes(linkage: Linkage, link: str) -> list[complex]:
+def link_nodes(linkage: Linkage, link: str) -> list[complex]:
     """The places of the joints and then the named points of a link, in its coordinates, each once."""
     joints = [complex(e.x, e.y) for (_, own), e in linkage.elements.items() if own == link]
     return list(dict.fromkeys([*joints, *(complex(p.x, p.y) for p in linkage.points.values() if p.link == link)]))
@@ -281,7 +281,7 @@ def nodes(linkage: Linkage, link: str) -> list[complex]:
 
 def _reached(lower: Linkage, path: Motion) -> Complexes:
     """Where all joints and named points are on the path, one after another."""
-    places = [Named(link, e.x, e.y) for (_, link), e in lower.elements.items()]
+    places = [LinkPoint(link, e.x, e.y) for (_, link), e in lower.elements.items()]
     return np.concatenate([path.complex_point(place) for place in (*places, *lower.points.values())])
 
 

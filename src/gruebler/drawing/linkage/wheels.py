@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape
-from gruebler.drawing.linkage.posed_linkage import Stage
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape
+from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 from gruebler.drawing.machines.geneva_shape import GenevaShape
 from gruebler.linkages import elements
 
@@ -28,18 +28,18 @@ class RoundPart(NamedTuple):
     shapes: tuple[Shape, ...]
 
 
-def round_parts(stage: Stage) -> Iterator[RoundPart]:
+def round_parts(stage: PosedLinkage) -> Iterator[RoundPart]:
     """The round parts of a linkage, the larger first, each once for each link and centre."""
     found: dict[tuple[object, ...], RoundPart] = {}
     for (joint, link), element in stage.linkage.elements.items():
         if isinstance(element, elements.Wheel | elements.Circle):
             key = (link, element.x, element.y, element.radius)
             found.setdefault(key, _disc(stage, link, element))
-        elif isinstance(element, elements.Disc):
+        elif isinstance(element, elements.CamDisc):
             found[link, joint] = RoundPart(link, tuple(_cam(stage, element)))
         elif isinstance(element, elements.NonCircular):
             found[link, joint] = _noncircular(stage, joint, link, element)
-        elif isinstance(element, elements.Driver | elements.Cross):
+        elif isinstance(element, elements.GenevaDriver | elements.GenevaWheel):
             found[link, joint] = _geneva(stage, joint, link, element)
     for (joint, link), element in stage.linkage.elements.items():
         if isinstance(element, elements.Line) and (ends := _face(stage, joint, link, element)):
@@ -50,39 +50,39 @@ def round_parts(stage: Stage) -> Iterator[RoundPart]:
 
 def _size(part: RoundPart) -> float:
     shape = part.shapes[0]
-    if isinstance(shape, Circle):
+    if isinstance(shape, CircleShape):
         return shape.radius
-    return max(math.hypot(p.x, p.y) for p in shape.parts[0]) if isinstance(shape, Lines) else 0.0
+    return max(math.hypot(p.x, p.y) for p in shape.parts[0]) if isinstance(shape, Polylines) else 0.0
 
 
-def _disc(stage: Stage, link: str, element: elements.Wheel | elements.Circle) -> RoundPart:
+def _disc(stage: PosedLinkage, link: str, element: elements.Wheel | elements.Circle) -> RoundPart:
     """A disc with a cross, or a ring where it is hollow, fixed wheels as the frame."""
     centre, radius = complex(element.x, element.y), stage.scale * abs(element.radius)
     at = stage.local(centre)
     style = "block-frame" if link == stage.linkage.mechanism.frame else "area"
     if element.radius < 0:
         rings = tuple(_ring(at, r)[:: 1 if r > radius else -1] for r in (radius + _RIM, radius))
-        return RoundPart(link, (Lines(rings, style, closed=True),))
-    shapes: list[Shape] = [Circle(at, radius, style)]
+        return RoundPart(link, (Polylines(rings, style, closed=True),))
+    shapes: list[Shape] = [CircleShape(at, radius, style)]
     if isinstance(element, elements.Wheel) or radius > 12:
         arm = _ARM * radius
         cross = ((at.x - arm, at.y, at.x + arm, at.y), (at.x, at.y - arm, at.x, at.y + arm))
-        shapes.append(Lines(tuple((Point(a, b), Point(c, d)) for a, b, c, d in cross), "hatch"))
+        shapes.append(Polylines(tuple((Point(a, b), Point(c, d)) for a, b, c, d in cross), "hatch"))
     return RoundPart(link, tuple(shapes))
 
 
-def _face(stage: Stage, joint: int, link: str, line: elements.Line) -> tuple[float, float] | None:
+def _face(stage: PosedLinkage, joint: int, link: str, line: elements.Line) -> tuple[float, float] | None:
     """From where to where a face or rack that touches a round part reaches along its line; None if nothing is round.
 
     That of a swinging follower goes from its point to beyond the cam's axis.
     """
     for (number, own), element in stage.linkage.elements.items():
-        if number == joint and isinstance(element, elements.Disc):
+        if number == joint and isinstance(element, elements.CamDisc):
             wide = 0.7 * element.base * element.scale
             if not element.distance:
                 return -wide, wide
             k = stage.pose._link(link)
-            axis = complex(stage.pose.complex_point(elements.Named(own, element.x, element.y))[0])
+            axis = complex(stage.pose.complex_point(elements.LinkPoint(own, element.x, element.y))[0])
             seen = (axis - stage.pose.places[0, 0, k]) / stage.pose.turns[0, k] - complex(line.x, line.y)
             way = float((seen * cmath.rect(1, -line.angle)).real)
             return min(0.0, way - wide), max(0.0, way + wide)
@@ -91,15 +91,15 @@ def _face(stage: Stage, joint: int, link: str, line: elements.Line) -> tuple[flo
     return None
 
 
-def _flat(stage: Stage, link: str, line: elements.Line, ends: tuple[float, float]) -> Iterator[Shape]:
+def _flat(stage: PosedLinkage, link: str, line: elements.Line, ends: tuple[float, float]) -> Iterator[Shape]:
     """A face or rack, and the rods that carry it."""
     foot, along = complex(line.x, line.y), cmath.rect(1, line.angle)
     if link != stage.linkage.mechanism.frame:
         for (_, own), other in stage.lower.elements.items():
             if own == link and isinstance(other, elements.Pin | elements.Line):
                 rod = (stage.local(foot), stage.local(complex(other.x, other.y)))
-                yield from (Lines((rod,), "outline-rod"), Lines((rod,), "body-rod"))
-    yield Lines((tuple(stage.local(foot + way * along) for way in ends),), "rail")
+                yield from (Polylines((rod,), "outline-rod"), Polylines((rod,), "body-rod"))
+    yield Polylines((tuple(stage.local(foot + way * along) for way in ends),), "rail")
 
 
 def _ring(at: Point, radius: float) -> tuple[Point, ...]:
@@ -108,55 +108,60 @@ def _ring(at: Point, radius: float) -> tuple[Point, ...]:
     return tuple(Point(at.x + radius * math.cos(t), at.y - radius * math.sin(t)) for t in turns)
 
 
-def _contour(stage: Stage, centre: complex, angle: float, points: np.ndarray) -> tuple[Point, ...]:
+def _contour(stage: PosedLinkage, centre: complex, angle: float, points: np.ndarray) -> tuple[Point, ...]:
     turn = cmath.rect(1, angle)
     return tuple(stage.local(centre + turn * complex(z)) for z in points)
 
 
-def _cam(stage: Stage, disc: elements.Disc) -> Iterator[Shape]:
+def _cam(stage: PosedLinkage, disc: elements.CamDisc) -> Iterator[Shape]:
     """The profile of a cam, its base circle dashed."""
     from gruebler.kinematics.contours import cam_of
 
     points = cam_of(disc).profile(np.linspace(0, math.tau, _STEPS)[:-1])
     centre, scaled = complex(disc.x, disc.y), disc.scale * (points[:, 0] + 1j * points[:, 1])
-    yield Lines((_contour(stage, centre, disc.angle, scaled),), "area", closed=True)
-    yield Circle(stage.local(centre), stage.scale * disc.scale * disc.base, "dead")
+    yield Polylines((_contour(stage, centre, disc.angle, scaled),), "area", closed=True)
+    yield CircleShape(stage.local(centre), stage.scale * disc.scale * disc.base, "dead")
 
 
-def _noncircular(stage: Stage, joint: int, link: str, wheel: elements.NonCircular) -> RoundPart:
+def _noncircular(stage: PosedLinkage, joint: int, link: str, wheel: elements.NonCircular) -> RoundPart:
     """The curve of a non-circular wheel, with its direction from the axis."""
     from gruebler.kinematics.noncircular import transfer_of
 
     of_joint = [(own, e) for (number, own), e in stage.linkage.elements.items() if number == joint]
     pair = [(own, e) for own, e in of_joint if isinstance(e, elements.NonCircular)]
     (near, one), (far, other) = sorted(pair, key=lambda end: end[1].transfer == elements.INVERSE)
-    here, there = (stage.pose.complex_point(elements.Named(own, e.x, e.y))[0] for own, e in ((near, one), (far, other)))
+    here, there = (
+        stage.pose.complex_point(elements.LinkPoint(own, e.x, e.y))[0] for own, e in ((near, one), (far, other))
+    )
     curve = transfer_of(one, other).curves()[wheel is other] * abs(there - here)
     contour = _contour(stage, complex(wheel.x, wheel.y), wheel.angle, curve)
     ends = _contour(stage, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
     style = "block-frame" if link == stage.linkage.mechanism.frame else "area"
-    return RoundPart(link, (Lines((contour,), style, closed=True), Lines((ends,), "hatch")))
+    return RoundPart(link, (Polylines((contour,), style, closed=True), Polylines((ends,), "hatch")))
 
 
-def _geneva(stage: Stage, joint: int, link: str, element: elements.Driver | elements.Cross) -> RoundPart:
+def _geneva(
+    stage: PosedLinkage, joint: int, link: str, element: elements.GenevaDriver | elements.GenevaWheel
+) -> RoundPart:
     """The driver's arm with its pins and locking disc, or the wheel with its slots."""
     from gruebler.geneva import Geneva
 
     of_joint = {type(e): (own, e) for (number, own), e in stage.linkage.elements.items() if number == joint}
-    (near, driver), (far, cross) = of_joint[elements.Driver], of_joint[elements.Cross]
-    assert isinstance(driver, elements.Driver)
-    assert isinstance(cross, elements.Cross)
+    (near, driver), (far, cross) = of_joint[elements.GenevaDriver], of_joint[elements.GenevaWheel]
+    assert isinstance(driver, elements.GenevaDriver)
+    assert isinstance(cross, elements.GenevaWheel)
     geneva = Geneva(cross.slots, internal=cross.internal, pins=driver.pins)
     shape = GenevaShape(geneva)
-    ends = (elements.Named(own, e.x, e.y) for own, e in ((near, driver), (far, cross)))
+    ends = (elements.LinkPoint(own, e.x, e.y) for own, e in ((near, driver), (far, cross)))
     one, two = (stage.pose.complex_point(end)[0] for end in ends)
     size, centre = abs(two - one), complex(element.x, element.y)
-    if isinstance(element, elements.Cross):
+    if isinstance(element, elements.GenevaWheel):
         contour = _contour(stage, centre, element.angle, shape.sign * size * shape.wheel())
         outer = (_ring(stage.local(centre), stage.scale * size * shape.rim), contour[::-1])
-        return RoundPart(link, (Lines(outer if cross.internal else (contour,), "area", closed=True),))
+        return RoundPart(link, (Polylines(outer if cross.internal else (contour,), "area", closed=True),))
     shapes: list[Shape] = [
-        Lines((_contour(stage, centre, element.angle, size * lock),), "area", closed=True) for lock in shape.locking()
+        Polylines((_contour(stage, centre, element.angle, size * lock),), "area", closed=True)
+        for lock in shape.locking()
     ]
     pins = [
         centre + size * shape.crank * cmath.rect(1, element.angle + math.tau * k / driver.pins)
@@ -164,12 +169,12 @@ def _geneva(stage: Stage, joint: int, link: str, element: elements.Driver | elem
     ]
     for pin in pins:
         bar = (stage.local(centre), stage.local(pin))
-        shapes += [Lines((bar,), "outline-bar"), Lines((bar,), "body-bar")]
-    shapes += [Circle(stage.local(pin), stage.scale * size * shape.pin, "node") for pin in pins]
+        shapes += [Polylines((bar,), "outline-bar"), Polylines((bar,), "body-bar")]
+    shapes += [CircleShape(stage.local(pin), stage.scale * size * shape.pin, "node") for pin in pins]
     return RoundPart(link, tuple(shapes))
 
 
-def _belts(stage: Stage) -> Iterator[RoundPart]:
+def _belts(stage: PosedLinkage) -> Iterator[RoundPart]:
     """The two straight runs of a belt whose wheels turn about points of the frame."""
     mechanism, made = stage.linkage.mechanism, stage.linkage.elements
     fixed = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
@@ -179,7 +184,8 @@ def _belts(stage: Stage) -> Iterator[RoundPart]:
         if len(wheels) != 2:
             continue
         (a, r), (b, s) = (
-            (complex(stage.pose.complex_point(elements.Named(link, e.x, e.y))[0]), abs(e.radius)) for link, e in wheels
+            (complex(stage.pose.complex_point(elements.LinkPoint(link, e.x, e.y))[0]), abs(e.radius))
+            for link, e in wheels
         )
         crossed = wheels[0][1].belt == "crossed"
         along, gap = (b - a) / abs(b - a), abs(b - a)
@@ -188,4 +194,4 @@ def _belts(stage: Stage) -> Iterator[RoundPart]:
         for side in (1, -1):
             touch = along * cmath.rect(1, side * lean)
             runs.append((stage.local(a + r * touch), stage.local(b + (-s if crossed else s) * touch)))
-        yield RoundPart(mechanism.frame, (Lines(tuple(runs), "rail"),))
+        yield RoundPart(mechanism.frame, (Polylines(tuple(runs), "rail"),))

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gruebler.cams import Cam, Flat, Roller
 from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.drawing.canvas.symbols import ticks
 
 __all__ = ["follower_body", "ground"]
@@ -58,7 +58,7 @@ def _translating(cam: Cam, scale: float) -> list[Shape]:
 
 def _swinging(cam: Cam, scale: float, side: float) -> list[Shape]:
     """An arm with its origin at the pivot, along its own x axis."""
-    pin = Circle(Point(0.0, 0.0), 6.2, "joint")
+    pin = CircleShape(Point(0.0, 0.0), 6.2, "joint")
     if isinstance(cam.follower, Flat):
         face = scale * cam.follower.face
         reach = scale * max(one.value for one in cam.findings().face) + _BEYOND
@@ -75,19 +75,19 @@ def _swinging(cam: Cam, scale: float, side: float) -> list[Shape]:
 
 
 def _roller(at: Point, r: float) -> list[Shape]:
-    return [Circle(at, r, "node"), Circle(at, min(3.0, r / 2), "dot")]
+    return [CircleShape(at, r, "node"), CircleShape(at, min(3.0, r / 2), "dot")]
 
 
 def _bar(a: Point, b: Point) -> list[Shape]:
-    return [Lines(((a, b),), "outline-bar"), Lines(((a, b),), "body-bar")]
+    return [Polylines(((a, b),), "outline-bar"), Polylines(((a, b),), "body-bar")]
 
 
 def _box(left: float, right: float, top: float, bottom: float) -> tuple[Point, ...]:
     return Point(left, top), Point(right, top), Point(right, bottom), Point(left, bottom)
 
 
-def _block(corners: tuple[Point, ...]) -> Lines:
-    return Lines((corners,), "block", closed=True)
+def _block(corners: tuple[Point, ...]) -> Polylines:
+    return Polylines((corners,), "block", closed=True)
 
 
 # --- what stands still -----------------------------------------------------------------------------
@@ -98,12 +98,12 @@ def ground(cam: Cam, scale: float) -> list[Shape]:
     if cam.follower.swings:
         at = Point(scale * cam.follower.distance, 0.0)
         left, right = (Point(at.x + one * _FOOT.x, _FOOT.y) for one in (-1, 1))
-        return [Lines(((at, left, right),), "block-frame", closed=True), ticks(left, right, Point(0.0, 1.0))]
+        return [Polylines(((at, left, right),), "block-frame", closed=True), ticks(left, right, Point(0.0, 1.0))]
     x, bottom = scale * _offset(cam), -_above(cam, scale)
     shapes: list[Shape] = []
     for side in (-1.0, 1.0):
         rail = Point(x + side * _GUIDE.x, bottom), Point(x + side * _GUIDE.x, bottom - _GUIDE.y)
-        shapes += [Lines((rail,), "rail"), ticks(*rail, Point(side, 0.0))]
+        shapes += [Polylines((rail,), "rail"), ticks(*rail, Point(side, 0.0))]
     return shapes
 
 

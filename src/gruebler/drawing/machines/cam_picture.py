@@ -11,9 +11,18 @@ from numpy.typing import NDArray
 
 from gruebler.cams import Cam, CamError, Roller
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.moving_picture import Body, Clock, MovingPicture, even, lasting, listed, moving, still
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text, bounds
-from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.canvas.moving_picture import (
+    Body,
+    Clock,
+    MovingPicture,
+    always,
+    even_keys,
+    key_list,
+    moving,
+    still_picture,
+)
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, bounds
+from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.drawing.canvas.symbols import arrow_head
 from gruebler.drawing.machines.cam_follower import follower_body, ground
 from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagram
@@ -97,7 +106,7 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
         lift=f"{math.degrees(lift) + 0.0:.4g}°" if cam.follower.swings else f"{lift + 0.0:.4g}",
         pressure=math.degrees(float(cam.pressure_angle(at))) + 0.0,
     )
-    return still(shown, name or _title(cam, lang), f"{_about(cam, lang)} {told}")
+    return still_picture(shown, name or _title(cam, lang), f"{_about(cam, lang)} {told}")
 
 
 def animate_cam(
@@ -118,7 +127,7 @@ def animate_cam(
     if plot:
         bodies += running(beneath(lift_diagram(cam, None, lang), bodies))
     about = f"{_about(cam, lang)} {_WORDS[lang]['turn'].format(seconds=seconds)}"
-    return moving(bodies, Clock(lasting(seconds), 0.0, 360.0, "°"), name or _title(cam, lang), about)
+    return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), name or _title(cam, lang), about)
 
 
 def _scale(cam: Cam) -> float:
@@ -149,25 +158,25 @@ def _short(value: float) -> str:
 
 def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     """Cam and follower at one angle, or at keys evenly through a turn."""
-    turn = even(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
+    turn = even_keys(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
     words, found = _WORDS[lang], cam.findings()
     middle = Point(0.0, 0.0)
     rows = [("dead", words["base"])]
-    disc: list[Shape] = [Lines((_line(_contour(cam), scale),), "area", closed=True)]
+    disc: list[Shape] = [Polylines((_line(_contour(cam), scale),), "area", closed=True)]
     if isinstance(cam.follower, Roller) and cam.follower.radius:
-        disc.append(Lines((_line(_complex(cam.pitch(_turn())), scale),), "centrode-moving", closed=True))
+        disc.append(Polylines((_line(_complex(cam.pitch(_turn())), scale),), "centrode-moving", closed=True))
         rows.append(("centrode-moving", words["pitch"]))
     if found.undercut:
-        disc.append(Lines(tuple(_line(part, scale) for part in _undercut(cam)), "drive"))
+        disc.append(Polylines(tuple(_line(part, scale) for part in _undercut(cam)), "drive"))
         rows.append(("drive", words["under"]))
     if scale * cam.base > _HOLE:
-        disc.append(Circle(Point(0.6 * scale * cam.base, 0.0), 3.0, "node"))
-    arrow = Arc(middle, 24.0, math.radians(-30), math.radians(-120), "drive")
+        disc.append(CircleShape(Point(0.6 * scale * cam.base, 0.0), 3.0, "node"))
+    arrow = ArcShape(middle, 24.0, math.radians(-30), math.radians(-120), "drive")
     fixed: list[Shape] = [
-        Circle(middle, scale * cam.base, "dead"),
+        CircleShape(middle, scale * cam.base, "dead"),
         arrow,
         arrow_head(arrow),
-        Circle(middle, 6.2, "joint"),
+        CircleShape(middle, 6.2, "joint"),
     ]
     guide = ground(cam, scale)
     shapes = [*disc, *guide, *follower_body(cam, scale, phi[:1]).shapes]
@@ -175,7 +184,7 @@ def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     right = Point(max(corner.x + size.x, _PIXELS) + 24.0, -_PIXELS)
     return [
         Body(tuple(disc), (turn,)),
-        Body((*fixed, *guide, *listed(rows, right))),
+        Body((*fixed, *guide, *key_list(rows, right))),
         follower_body(cam, scale, phi),
     ]
 
@@ -196,7 +205,7 @@ def _contour(cam: Cam) -> Complexes:
 def _line(points: Complexes, scale: float) -> tuple[Point, ...]:
     """In pixels, with fewer points."""
     good = points[np.isfinite(points)]
-    return tuple(thinned([Point(scale * z.real, -scale * z.imag) for z in good.tolist()], FINE))
+    return tuple(simplified([Point(scale * z.real, -scale * z.imag) for z in good.tolist()], FINE))
 
 
 def _undercut(cam: Cam) -> Iterator[Complexes]:
@@ -224,15 +233,15 @@ def _pressure(cam: Cam, scale: float, at: float) -> Iterator[Shape]:
         way = -1j * math.copysign(1.0, cam.follower.distance) * lever / abs(lever)
     start, foot = (Point(scale * z.real, -scale * z.imag) for z in (centre, touch))
     ends = [Point(z.real, -z.imag) for z in (way, way * cmath.exp(1j * alpha))]
-    yield Lines(((start, start.plus(ends[0], _ALPHA + 26.0)),), "dead")
-    yield Lines(((foot.plus(ends[1], -_ALPHA / 2), start.plus(ends[1], _ALPHA + 26.0)),), "measure")
-    yield Circle(foot, 3.2, "dot")
+    yield Polylines(((start, start.plus(ends[0], _ALPHA + 26.0)),), "dead")
+    yield Polylines(((foot.plus(ends[1], -_ALPHA / 2), start.plus(ends[1], _ALPHA + 26.0)),), "measure")
+    yield CircleShape(foot, 3.2, "dot")
     if abs(alpha) > 0.01:
-        yield Arc(start, _ALPHA, -cmath.phase(way), -alpha, "drive")
+        yield ArcShape(start, _ALPHA, -cmath.phase(way), -alpha, "drive")
     beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
     words = f"α = {math.degrees(alpha) + 0.0:.1f}°".replace("-", "−")
     anchor = "start" if beside.x >= 0 else "end"
-    yield Text(
+    yield TextShape(
         start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), words, "mark", anchor
     )
 

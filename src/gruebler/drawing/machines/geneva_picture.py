@@ -8,9 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.moving_picture import Body, Clock, MovingPicture, Shift, Turn, even, lasting, moving, still
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape
-from gruebler.drawing.canvas.simplification import FINE, thinned
+from gruebler.drawing.canvas.moving_picture import (
+    Body,
+    Clock,
+    MovingPicture,
+    Shift,
+    Turn,
+    always,
+    even_keys,
+    moving,
+    still_picture,
+)
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape
+from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.drawing.canvas.symbols import arrow_head
 from gruebler.drawing.machines.geneva_shape import GenevaShape
 from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagram
@@ -71,7 +81,7 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
         at=round(math.degrees(at), 4), wheel=math.degrees(float(moved.angle)) + 0.0, ratio=float(moved.ratio) + 0.0
     )
     told = [_about(geneva, lang), pose, *([words["rest"]] if moved.dwell else [])]
-    return still(bodies, name or words[geneva.internal].format(slots=geneva.slots), " ".join(told))
+    return still_picture(bodies, name or words[geneva.internal].format(slots=geneva.slots), " ".join(told))
 
 
 def animate_geneva(
@@ -87,7 +97,7 @@ def animate_geneva(
         bodies += running(beneath(ratio_panels(geneva, None, lang), bodies))
     about = f"{_about(geneva, lang)} {words['turn'].format(seconds=seconds)}"
     title = name or words[geneva.internal].format(slots=geneva.slots)
-    return moving(bodies, Clock(lasting(seconds), 0.0, 360.0, "°"), title, about)
+    return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), title, about)
 
 
 def ratio_panels(geneva: Geneva, at: float | None = None, lang: str = "en") -> Figure:
@@ -116,20 +126,24 @@ def _machine(geneva: Geneva, phi: Reals) -> list[Body]:
     contour = _pixels(shape.wheel(), scale)
     if geneva.internal:
         rim = shape.rim * np.exp(-1j * np.linspace(0, math.tau, 181))
-        wheel: tuple[Shape, ...] = (Lines((contour, _pixels(rim, scale)), "area", closed=True),)
+        wheel: tuple[Shape, ...] = (Polylines((contour, _pixels(rim, scale)), "area", closed=True),)
     else:
-        wheel = (Lines((contour,), "area", closed=True),)
+        wheel = (Polylines((contour,), "area", closed=True),)
     pins = [
         Point(scale * z.real, -scale * z.imag)
         for z in shape.crank * np.exp(2j * math.pi / geneva.pins * np.arange(geneva.pins))
     ]
     ends = [*pins, Point(-scale * shape.lock, 0.0)] if geneva.internal else pins
-    arms: list[Shape] = [Lines(tuple((middle, end) for end in ends), f"{kind}-rod") for kind in ("outline", "body")]
-    disc = Lines(tuple(_pixels(part, scale) for part in shape.locking()), "block", closed=True)
-    tips = [Circle(pin, scale * shape.pin, "joint") for pin in pins]
-    arrow = Arc(middle, 14.0, math.radians(-30), math.radians(-120), "drive")
-    fixed: list[Shape] = [Lines(((axis, middle),), "dead"), Circle(axis, 6.2, "joint"), Circle(middle, 6.2, "joint")]
-    turn = even(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
+    arms: list[Shape] = [Polylines(tuple((middle, end) for end in ends), f"{kind}-rod") for kind in ("outline", "body")]
+    disc = Polylines(tuple(_pixels(part, scale) for part in shape.locking()), "block", closed=True)
+    tips = [CircleShape(pin, scale * shape.pin, "joint") for pin in pins]
+    arrow = ArcShape(middle, 14.0, math.radians(-30), math.radians(-120), "drive")
+    fixed: list[Shape] = [
+        Polylines(((axis, middle),), "dead"),
+        CircleShape(axis, 6.2, "joint"),
+        CircleShape(middle, 6.2, "joint"),
+    ]
+    turn = even_keys(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
     steps = (Shift((axis,)), Turn(tuple(geneva.move(phi).angle.tolist())))
     return [
         Body(tuple(arms), (turn,)),
@@ -141,4 +155,4 @@ def _machine(geneva: Geneva, phi: Reals) -> list[Body]:
 
 def _pixels(points: Complexes, scale: float) -> tuple[Point, ...]:
     line = [Point(scale * z.real, -scale * z.imag) for z in points.tolist()]
-    return tuple(thinned(line, FINE))
+    return tuple(simplified(line, FINE))

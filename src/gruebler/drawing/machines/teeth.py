@@ -7,7 +7,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["toothed"]
+__all__ = ["toothed_outline"]
 
 Complexes = NDArray[np.complex128]
 
@@ -15,13 +15,13 @@ PRESSURE = math.radians(20)
 _PLAY = 0.03  # of half a tooth at the pitch circle: flanks do not touch in the picture
 
 
-def toothed(teeth: int, module: float = 1.0, *, internal: bool = False, phase: float = 0.0) -> Complexes:
+def toothed_outline(teeth: int, module: float = 1.0, *, internal: bool = False, phase: float = 0.0) -> Complexes:
     """The outline about 0, counter-clockwise, the middle of a tooth at the angle ``phase``.
 
     For an internal wheel the outline of its hole: "teeth" are then its spaces, and ``phase`` is the middle of a space.
     A tooth whose flanks meet below its tip ends in a point.
 
-    >>> wheel = toothed(24)
+    >>> wheel = toothed_outline(24)
     >>> round(float(abs(wheel).max()), 9), round(float(abs(wheel).min()), 9)
     (13.0, 10.75)
     """

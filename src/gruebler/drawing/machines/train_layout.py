@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 from gruebler.gears import Mesh, Train
 
-__all__ = ["Placed", "Stage", "Wheel", "stages"]
+__all__ = ["GearStage", "PlacedMesh", "StageWheel", "gear_stages"]
 
 FRAME = "frame"
 _APART = 1.7  # sums of radii: the distance of the axes of a belt
@@ -23,7 +23,7 @@ _PER_SIZE = {"rack by pitch": 1 / math.tau, "rack": 1.0, "winch": 1.0}  # radius
 _FLAT = ("gear", "friction", "belt", "chain", "crossed", "bevel")
 
 
-class Wheel(NamedTuple):
+class StageWheel(NamedTuple):
     """A wheel of a stage, at home."""
 
     link: str
@@ -42,7 +42,7 @@ class Wheel(NamedTuple):
         return self.size < 0
 
 
-class Placed(NamedTuple):
+class PlacedMesh(NamedTuple):
     """A mesh with the places of its axes."""
 
     mesh: Mesh
@@ -52,15 +52,15 @@ class Placed(NamedTuple):
 
 
 @dataclass
-class Stage:
+class GearStage:
     """Wheels whose axes one carrier holds; the carrier's own axis is 0."""
 
     carrier: str
     meshes: list[Mesh]
     copies: int = 1
     """How many equal planets there are."""
-    wheels: list[Wheel] = field(default_factory=list)
-    placed: list[Placed] = field(default_factory=list)
+    wheels: list[StageWheel] = field(default_factory=list)
+    placed: list[PlacedMesh] = field(default_factory=list)
     axes: dict[str, complex] = field(default_factory=dict)
     central: set[str] = field(default_factory=set)
 
@@ -70,11 +70,11 @@ class Stage:
         return self.meshes[0].kind == "bevel"
 
 
-def stages(train: Train, planets: Mapping[str, int]) -> list[Stage]:
+def gear_stages(train: Train, planets: Mapping[str, int]) -> list[GearStage]:
     """The stages of a train with all wheels placed, planets repeated so many times.
 
     >>> from gruebler.gears import read_train
-    >>> (one,) = stages(read_train("sun:24 planet:18 ring:-60 on arm").train, {"planet": 3})
+    >>> (one,) = gear_stages(read_train("sun:24 planet:18 ring:-60 on arm").train, {"planet": 3})
     >>> [(wheel.link, round(wheel.radius, 9), round(abs(wheel.at), 9)) for wheel in one.wheels][:3]
     [('sun', 12.0, 0.0), ('planet', 9.0, 21.0), ('planet', 9.0, 21.0)]
     """
@@ -87,9 +87,9 @@ def stages(train: Train, planets: Mapping[str, int]) -> list[Stage]:
     return found
 
 
-def _grouped(meshes: Iterable[Mesh]) -> Iterator[Stage]:
+def _grouped(meshes: Iterable[Mesh]) -> Iterator[GearStage]:
     """Meshes with the same carrier that hang together by their links."""
-    groups: list[Stage] = []
+    groups: list[GearStage] = []
     for mesh in dict.fromkeys(meshes):
         links = {mesh.a, mesh.b} - {FRAME}
         bevel = mesh.kind == "bevel"
@@ -100,14 +100,14 @@ def _grouped(meshes: Iterable[Mesh]) -> Iterator[Stage]:
             and group.is_bevel == bevel
             and any(links & {one.a, one.b} for one in group.meshes)
         ]
-        merged = Stage(mesh.carrier, [one for group in mine for one in group.meshes] + [mesh])
+        merged = GearStage(mesh.carrier, [one for group in mine for one in group.meshes] + [mesh])
         spot = groups.index(mine[0]) if mine else len(groups)
         groups = [group for group in groups if group not in mine]
         groups.insert(spot, merged)
     yield from groups
 
 
-def _central(stage: Stage, train: Train) -> set[str]:
+def _central(stage: GearStage, train: Train) -> set[str]:
     """The links whose axis is that of the moving carrier."""
     if stage.carrier == FRAME or stage.is_bevel:
         return set()
@@ -145,7 +145,7 @@ def _distance(mesh: Mesh) -> float:
 # --- axes ------------------------------------------------------------------------------------------
 
 
-def _place(stage: Stage) -> None:
+def _place(stage: GearStage) -> None:
     """All axes, one after another, each beside those it meshes with."""
     axes = stage.axes
     axes |= dict.fromkeys(sorted(stage.central) or [stage.meshes[0].a], 0j)
@@ -169,7 +169,7 @@ def _place(stage: Stage) -> None:
             axes[link] = _clear(stage, near, known, link)
 
 
-def _reach(stage: Stage) -> dict[str, float]:
+def _reach(stage: GearStage) -> dict[str, float]:
     """The greatest radius of each link."""
     found: dict[str, float] = {}
     for mesh in stage.meshes:
@@ -179,7 +179,7 @@ def _reach(stage: Stage) -> dict[str, float]:
     return found
 
 
-def _beside(stage: Stage, mesh: Mesh) -> complex:
+def _beside(stage: GearStage, mesh: Mesh) -> complex:
     """To the right of all others, its lowest point as low as that of the first: a rack may lie below both."""
     reach, radius = _reach(stage), abs(float(mesh.size_a))
     first = next(iter(stage.axes))
@@ -187,7 +187,7 @@ def _beside(stage: Stage, mesh: Mesh) -> complex:
     return complex(right + 1.5 * radius, stage.axes[first].imag - reach.get(first, 0.0) + radius)
 
 
-def _leads(stage: Stage, flat: Sequence[Mesh]) -> dict[str, float]:
+def _leads(stage: GearStage, flat: Sequence[Mesh]) -> dict[str, float]:
     """The directions of the planets that mesh with a central wheel: evenly, with room for their copies."""
     direct = dict.fromkeys(
         one for mesh in flat for one, other in ((mesh.a, mesh.b), (mesh.b, mesh.a)) if other in stage.central
@@ -211,7 +211,7 @@ def _around(circles: list[tuple[complex, float]], known: complex, lead: float, m
     return cmath.rect(hub, cmath.phase(centre) - turn)
 
 
-def _clear(stage: Stage, near: Mesh, known: str, link: str) -> complex:
+def _clear(stage: GearStage, near: Mesh, known: str, link: str) -> complex:
     """Beside the axis that is known, to the right if nothing is in the way."""
     reach = _reach(stage)
     start, d = stage.axes[known], _distance(near)
@@ -226,9 +226,9 @@ def _clear(stage: Stage, near: Mesh, known: str, link: str) -> complex:
 # --- wheels ----------------------------------------------------------------------------------------
 
 
-def _wheels(stage: Stage) -> None:
+def _wheels(stage: GearStage) -> None:
     """A wheel for every side of a mesh, each once, its teeth where those of its partner leave room."""
-    made: dict[tuple[str, float, complex], Wheel] = {}
+    made: dict[tuple[str, float, complex], StageWheel] = {}
     for mesh in stage.meshes:
         sides = _sides(mesh)
         for copy in range(stage.copies if stage.central else 1):
@@ -249,12 +249,12 @@ def _wheels(stage: Stage) -> None:
                     mate = known[1 - k] if len(sides) > 1 else None
                     phase = _phase(mate, size, at) if mate and mesh.kind == "gear" else 0.0
                     planet = bool(stage.central) and link not in stage.central
-                    known[k] = made[keys[k]] = Wheel(link, size, radius, at, phase, planet)
-            stage.placed.append(Placed(mesh, places[0], places[-1], (radii[0], radii[-1])))
+                    known[k] = made[keys[k]] = StageWheel(link, size, radius, at, phase, planet)
+            stage.placed.append(PlacedMesh(mesh, places[0], places[-1], (radii[0], radii[-1])))
     stage.wheels = list(made.values())
 
 
-def _phase(mate: Wheel, size: float, at: complex) -> float:
+def _phase(mate: StageWheel, size: float, at: complex) -> float:
     """The angle of a tooth, so that it stands in a space of its mate.
 
     External: the teeth counted from the line of centres sum to a half; internal: they are the same.

@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from gruebler.gears import GearError, Train, Unit, speeds
 
-__all__ = ["Course", "course_of"]
+__all__ = ["TrainMotion", "train_motion"]
 
 _MOST = 100  # turns of the fastest link
 _TRAVEL = 2  # radii that a rack or a load goes at most
@@ -21,7 +21,7 @@ _THREADS = 4  # turns of a screw
 
 
 @dataclass(frozen=True)
-class Course:
+class TrainMotion:
     """Rates of all links, and the time for which they are shown."""
 
     rates: dict[str, Fraction]
@@ -51,14 +51,14 @@ class Course:
         return abs(self.rates[self.drive] * self.time)
 
 
-def course_of(train: Train, drives: Mapping[str, object], seconds: float, most: int = _MOST) -> Course:
+def train_motion(train: Train, drives: Mapping[str, object], seconds: float, most: int = _MOST) -> TrainMotion:
     """The course of a train with given speeds, or with speeds chosen if none are given.
 
     ``seconds`` are for a turn of the fastest link, or, if links slide, for there and back; the fastest link makes at
     most so many turns.
 
     >>> from gruebler.gears import read_train
-    >>> course = course_of(read_train("sun:24 planet:18 ring:-60 on arm").train, {"sun": 7, "ring": 0}, 2.0)
+    >>> course = train_motion(read_train("sun:24 planet:18 ring:-60 on arm").train, {"sun": 7, "ring": 0}, 2.0)
     >>> course.cycle, course.seconds, {link: course.turns(link) for link in ("sun", "arm")}
     (Fraction(3, 1), 42.0, {'sun': 21.0, 'arm': 6.0})
     """
@@ -90,7 +90,7 @@ def course_of(train: Train, drives: Mapping[str, object], seconds: float, most: 
         time = cycle if cycle <= longest else max(turn, longest // turn * turn)
         takes = float(time * fastest) * seconds
     per_radian = frozenset(link for link in rates if units[link] == Unit.PER_RADIAN)
-    return Course(rates, per_radian, slides, drive, cycle, time, takes, () if drives else tuple(given))
+    return TrainMotion(rates, per_radian, slides, drive, cycle, time, takes, () if drives else tuple(given))
 
 
 def _there(train: Train, rates: Mapping[str, Fraction], fastest: Fraction) -> Fraction:

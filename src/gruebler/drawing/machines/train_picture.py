@@ -10,15 +10,24 @@ from fractions import Fraction
 from typing import Any, TypedDict
 
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.moving_picture import Body, Clock, MovingPicture, Shift, at_time, lasting, moving, still
-from gruebler.drawing.canvas.shapes import Point, Shape, Text, bounds
-from gruebler.drawing.machines.train_layout import Stage, stages
-from gruebler.drawing.machines.train_motion import Course, course_of
-from gruebler.drawing.machines.train_shapes import Paint, stage_bodies
+from gruebler.drawing.canvas.moving_picture import (
+    Body,
+    Clock,
+    MovingPicture,
+    Shift,
+    always,
+    at_time,
+    moving,
+    still_picture,
+)
+from gruebler.drawing.canvas.shapes import Point, Shape, TextShape, bounds
+from gruebler.drawing.machines.train_layout import GearStage, gear_stages
+from gruebler.drawing.machines.train_motion import TrainMotion, train_motion
+from gruebler.drawing.machines.train_shapes import PaintOptions, stage_bodies
 from gruebler.gears import Train
-from gruebler.gears.messages import number
+from gruebler.gears.messages import fraction_text
 
-__all__ = ["Options", "animate_train", "draw_train"]
+__all__ = ["TrainPictureOptions", "animate_train", "draw_train"]
 
 _SIZE = Point(640.0, 360.0)
 _LARGEST = 9.0  # pixels to a unit of pitch diameter 2, so that few teeth do not fill the picture
@@ -51,7 +60,7 @@ _WORDS = {
 }
 
 
-class Options(TypedDict, total=False):
+class TrainPictureOptions(TypedDict, total=False):
     """What pictures and moving pictures of a train are told alike."""
 
     planets: Mapping[str, int]
@@ -82,8 +91,8 @@ def draw_train(
     >>> figure.title, len(figure.svg()) < 12_000
     ('Gear train', True)
     """
-    shown = stages(train, planets or {})
-    return still(_bodies(shown, None, teeth), name or _WORDS[lang]["title"], _about(train, shown, lang))
+    shown = gear_stages(train, planets or {})
+    return still_picture(_bodies(shown, None, teeth), name or _WORDS[lang]["title"], _about(train, shown, lang))
 
 
 def animate_train(
@@ -118,8 +127,8 @@ def animate_train(
     >>> animate_train(train, {"sun": 7, "ring": 0}).page.description.partition("everything ")[2]
     'repeats: sun 21 turn(s), planet -14 turn(s), arm 6 turn(s), ring 0 turn(s).'
     """
-    shown = stages(train, planets or {})
-    course = course_of(train, drives or {}, lasting(seconds), most)
+    shown = gear_stages(train, planets or {})
+    course = train_motion(train, drives or {}, always(seconds), most)
     words = _WORDS[lang]
     told = [_about(train, shown, lang), _told(course, words)]
     if course.chosen:
@@ -128,38 +137,40 @@ def animate_train(
     return moving(_bodies(shown, course, teeth), clock, name or words["title"], " ".join(told))
 
 
-def _about(train: Train, shown: list[Stage], lang: str) -> str:
+def _about(train: Train, shown: list[GearStage], lang: str) -> str:
     words = _WORDS[lang]
     bevel = [words["bevel"]] if any(stage.is_bevel for stage in shown) else []
     return " ".join([words["about"].format(links=len(train.links)), *bevel])
 
 
-def _told(course: Course, words: dict[str, Any]) -> str:
+def _told(course: TrainMotion, words: dict[str, Any]) -> str:
     def turns(time: Fraction) -> str:
         return ", ".join(
             words["way"].format(link=link)
             if link in course.slides
-            else words["turns"].format(link=link, turns=number(rate * time))
+            else words["turns"].format(link=link, turns=fraction_text(rate * time))
             for link, rate in course.rates.items()
         )
 
     if course.slides:
         return str(words["fro"].format(turns=turns(course.time)))
     if course.time != course.cycle:
-        whole = words["turns"].format(link=course.drive, turns=number(abs(course.rates[course.drive]) * course.cycle))
+        whole = words["turns"].format(
+            link=course.drive, turns=fraction_text(abs(course.rates[course.drive]) * course.cycle)
+        )
         return str(words["cut"].format(whole=whole, turns=turns(course.time)))
     return str(words["cycle"].format(turns=turns(course.time)))
 
 
-def _bodies(shown: list[Stage], course: Course | None, teeth: bool) -> list[Body]:
+def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool) -> list[Body]:
     """All stages side by side, each with the list of its links beneath."""
-    plain = [stage_bodies(stage, Paint(1.0, False), None) for stage in shown]
+    plain = [stage_bodies(stage, PaintOptions(1.0, False), None) for stage in shown]
     sizes = [bounds(at_time(part, 0.0), 0.0)[1] for part in plain]
     wide, high = sum(size.x for size in sizes), max(size.y for size in sizes)
     scale = min(_SIZE.x / wide, _SIZE.y / high, _LARGEST)
     left, all_bodies = 0.0, []
     for stage in shown:
-        made = stage_bodies(stage, Paint(scale, teeth), course)
+        made = stage_bodies(stage, PaintOptions(scale, teeth), course)
         corner, size = bounds(at_time(made, 0.0), 0.0)
         shift = Point(left - corner.x, -(corner.y + size.y / 2))
         texts = _listed(stage, Point(left, size.y / 2 + 22.0))
@@ -170,7 +181,7 @@ def _bodies(shown: list[Stage], course: Course | None, teeth: bool) -> list[Body
     return all_bodies
 
 
-def _listed(stage: Stage, at: Point) -> list[Shape]:
+def _listed(stage: GearStage, at: Point) -> list[Shape]:
     """The links of a stage with what tells their sizes."""
     sizes: dict[str, list[str]] = {}
     for wheel in stage.wheels:
@@ -189,4 +200,4 @@ def _listed(stage: Stage, at: Point) -> list[Shape]:
         if link not in sizes and link != "frame"
     ]
     rows += list(dict.fromkeys(others))
-    return [Text(at.plus(Point(0.0, _ROW * k)), words, "value", "start") for k, words in enumerate(rows)]
+    return [TextShape(at.plus(Point(0.0, _ROW * k)), words, "value", "start") for k, words in enumerate(rows)]

@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn
-from gruebler.drawing.canvas.shapes import Circle, Lines, Point, Shape, Text, text_width
+from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.symbols import ticks
-from gruebler.drawing.machines.teeth import toothed
-from gruebler.drawing.machines.train_layout import FRAME, Placed, Stage, Wheel
-from gruebler.drawing.machines.train_motion import Course
+from gruebler.drawing.machines.teeth import toothed_outline
+from gruebler.drawing.machines.train_layout import FRAME, GearStage, PlacedMesh, StageWheel
+from gruebler.drawing.machines.train_motion import TrainMotion
 
-__all__ = ["Paint", "stage_bodies"]
+__all__ = ["PaintOptions", "stage_bodies"]
 
 Complexes = NDArray[np.complex128]
 Steps = tuple[Shift | Turn, ...]
@@ -32,7 +32,7 @@ _NUT = Point(15.0, 17.0)
 _BELTS = ("belt", "chain", "crossed")
 
 
-class Paint(NamedTuple):
+class PaintOptions(NamedTuple):
     """Pixels to a unit, and whether wheels have teeth."""
 
     scale: float
@@ -50,7 +50,7 @@ class Paint(NamedTuple):
 class _Moves:
     """Steps of the links of a stage; without a course nothing moves."""
 
-    def __init__(self, stage: Stage, course: Course | None) -> None:
+    def __init__(self, stage: GearStage, course: TrainMotion | None) -> None:
         self.stage, self.course = stage, course
 
     def turn(self, link: str, against: str = FRAME, sign: int = 1) -> Turn:
@@ -73,7 +73,7 @@ class _Moves:
             return (0.0, whole)
         return tuple(whole * math.sin(math.pi * k / _KEYS) ** 2 for k in range(_KEYS + 1))
 
-    def on_carrier(self, paint: Paint) -> Steps:
+    def on_carrier(self, paint: PaintOptions) -> Steps:
         """How everything that the carrier holds moves."""
         carrier = self.stage.carrier
         if carrier == FRAME or self.stage.is_bevel:
@@ -82,7 +82,7 @@ class _Moves:
             return (self.slide(carrier, paint.scale, Point(1.0, 0.0)),)
         return (self.turn(carrier),)
 
-    def of_wheel(self, wheel: Wheel, paint: Paint) -> Steps:
+    def of_wheel(self, wheel: StageWheel, paint: PaintOptions) -> Steps:
         """A wheel about its axis, which may go round."""
         carrier, shift = self.stage.carrier, Shift((paint.place(wheel.at),))
         if self.stage.is_bevel:
@@ -97,7 +97,7 @@ class _Moves:
         return shift, self.turn(wheel.link)
 
 
-def stage_bodies(stage: Stage, paint: Paint, course: Course | None) -> list[Body]:
+def stage_bodies(stage: GearStage, paint: PaintOptions, course: TrainMotion | None) -> list[Body]:
     """All bodies of a stage in the order in which they are painted, its first axis or hub at the origin."""
     moves = _Moves(stage, course)
     order = sorted(stage.wheels, key=lambda wheel: (not _hollow(stage, wheel), -wheel.radius))
@@ -108,14 +108,14 @@ def stage_bodies(stage: Stage, paint: Paint, course: Course | None) -> list[Body
     return [*made, *_names(stage, moves, paint)]
 
 
-def _hollow(stage: Stage, wheel: Wheel) -> bool:
+def _hollow(stage: GearStage, wheel: StageWheel) -> bool:
     return wheel.internal and not stage.is_bevel
 
 
 # --- wheels ----------------------------------------------------------------------------------------
 
 
-def _wheel(stage: Stage, wheel: Wheel, paint: Paint) -> Iterator[Shape]:
+def _wheel(stage: GearStage, wheel: StageWheel, paint: PaintOptions) -> Iterator[Shape]:
     """A disc or ring with its pitch circle, teeth where they are wanted, and marks that show how it turns."""
     radius = paint.scale * wheel.radius
     style = "block-frame" if wheel.link == FRAME else "area"
@@ -125,20 +125,22 @@ def _wheel(stage: Stage, wheel: Wheel, paint: Paint) -> Iterator[Shape]:
     module = 2 * wheel.radius / abs(wheel.size)
     middle = Point(0.0, 0.0)
     if toothy:
-        rim = paint.line(toothed(round(abs(wheel.size)), module, internal=_hollow(stage, wheel), phase=wheel.phase))
+        rim = paint.line(
+            toothed_outline(round(abs(wheel.size)), module, internal=_hollow(stage, wheel), phase=wheel.phase)
+        )
     if _hollow(stage, wheel):
         inner = rim if toothy else _circle(radius)
         outer = _circle(radius + (1.25 * module * paint.scale if toothy else 0.0) + _RIM)
-        yield Lines((outer, inner[::-1]), style, closed=True)
-        yield Circle(Point(outer[0].x - _RIM / 2, 0.0), 2.6, "node")
+        yield Polylines((outer, inner[::-1]), style, closed=True)
+        yield CircleShape(Point(outer[0].x - _RIM / 2, 0.0), 2.6, "node")
     else:
-        yield Lines((rim,), style, closed=True) if toothy else Circle(middle, radius, style)
+        yield Polylines((rim,), style, closed=True) if toothy else CircleShape(middle, radius, style)
         arm = 0.8 * radius
-        yield Lines(((Point(-arm, 0), Point(arm, 0)), (Point(0, -arm), Point(0, arm))), "hatch")
+        yield Polylines(((Point(-arm, 0), Point(arm, 0)), (Point(0, -arm), Point(0, arm))), "hatch")
         if radius > 16:
-            yield Circle(Point(0.62 * radius, 0.0), min(4.0, radius / 8), "node")
+            yield CircleShape(Point(0.62 * radius, 0.0), min(4.0, radius / 8), "node")
     if toothy:
-        yield Circle(middle, radius, "dead")
+        yield CircleShape(middle, radius, "dead")
 
 
 def _circle(radius: float) -> tuple[Point, ...]:
@@ -146,25 +148,25 @@ def _circle(radius: float) -> tuple[Point, ...]:
     return tuple(Point(radius * math.cos(t), -radius * math.sin(t)) for t in np.linspace(0, math.tau, count + 1)[:-1])
 
 
-def _carrier(stage: Stage, moves: _Moves, paint: Paint) -> list[Body]:
+def _carrier(stage: GearStage, moves: _Moves, paint: PaintOptions) -> list[Body]:
     """Bars from the hub to the planets."""
     hub = Point(0.0, 0.0)
     ends = dict.fromkeys(paint.place(wheel.at) for wheel in stage.wheels if wheel.planet)
     if not ends:
         return []
     bars = tuple((hub, end) for end in ends)
-    return [Body((Lines(bars, "outline-rod"), Lines(bars, "body-rod")), moves.on_carrier(paint))]
+    return [Body((Polylines(bars, "outline-rod"), Polylines(bars, "body-rod")), moves.on_carrier(paint))]
 
 
-def _pins(stage: Stage, moves: _Moves, paint: Paint) -> list[Body]:
+def _pins(stage: GearStage, moves: _Moves, paint: PaintOptions) -> list[Body]:
     """A circle on every axis."""
     held = dict.fromkeys(wheel.at for wheel in stage.wheels if wheel.planet or not stage.central)
     steps = moves.on_carrier(paint)
-    made = [Body(tuple(Circle(paint.place(at), _PIN, "joint") for at in held), steps)] if held else []
-    return [*made, Body((Circle(Point(0.0, 0.0), _PIN, "joint"),))] if stage.central else made
+    made = [Body(tuple(CircleShape(paint.place(at), _PIN, "joint") for at in held), steps)] if held else []
+    return [*made, Body((CircleShape(Point(0.0, 0.0), _PIN, "joint"),))] if stage.central else made
 
 
-def _names(stage: Stage, moves: _Moves, paint: Paint) -> Iterator[Body]:
+def _names(stage: GearStage, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
     """Names of links in their wheels where there is room; they stay level."""
     taken: dict[complex, float] = {}
     named: set[tuple[str, complex]] = set()
@@ -182,18 +184,18 @@ def _names(stage: Stage, moves: _Moves, paint: Paint) -> Iterator[Body]:
             carried = moves.on_carrier(paint)
             back = (Turn(tuple(-angle for angle in step.angles)) for step in carried if isinstance(step, Turn))
             steps = (*carried, *steps, *back)
-        yield Body((Text(Point(0.0, down), wheel.link, "name"),), steps)
+        yield Body((TextShape(Point(0.0, down), wheel.link, "name"),), steps)
 
 
 # --- what has no teeth -----------------------------------------------------------------------------
 
 
-def _links(placed: Placed, moves: _Moves, paint: Paint) -> Iterator[Body]:
+def _links(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
     """Belt, rack, rope or screw of a mesh."""
     kind = placed.mesh.kind
     if kind in _BELTS:
         line = paint.line(_belt(placed, kind == "crossed"))
-        yield Body((Lines((line,), "rail" if kind == "chain" else "edge", closed=True),), moves.on_carrier(paint))
+        yield Body((Polylines((line,), "rail" if kind == "chain" else "edge", closed=True),), moves.on_carrier(paint))
     elif kind.startswith("rack"):
         yield _rack(placed, moves, paint)
     elif kind == "winch":
@@ -202,7 +204,7 @@ def _links(placed: Placed, moves: _Moves, paint: Paint) -> Iterator[Body]:
         yield from _screw(placed, moves)
 
 
-def _belt(placed: Placed, crossed: bool) -> Complexes:
+def _belt(placed: PlacedMesh, crossed: bool) -> Complexes:
     """The closed line around two wheels, along their common tangents."""
     (ra, rb), way = placed.radii, placed.b - placed.a
     towards, d = cmath.phase(way), abs(way)
@@ -215,7 +217,7 @@ def _belt(placed: Placed, crossed: bool) -> Complexes:
     return out
 
 
-def _rack(placed: Placed, moves: _Moves, paint: Paint) -> Body:
+def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
     """A bar along x below the wheel, above it for a negative radius."""
     mesh, scale = placed.mesh, paint.scale
     radius = placed.radii[0]
@@ -225,26 +227,26 @@ def _rack(placed: Placed, moves: _Moves, paint: Paint) -> Body:
     half = max(1.6 * scale * radius, 40.0)
     left, right = at.x - half - way, at.x + half + way
     box = (Point(left, at.y), Point(right, at.y), Point(right, at.y + side * _BAR), Point(left, at.y + side * _BAR))
-    pieces: list[Shape] = [Lines((box,), "block", closed=True)]
+    pieces: list[Shape] = [Polylines((box,), "block", closed=True)]
     pieces.append(ticks(Point(left, at.y + side * 4), Point(right, at.y + side * 4), Point(0.0, side * 0.8)))
     return Body(tuple(pieces), (moves.slide(mesh.b, scale, Point(1.0, 0.0)),))
 
 
-def _rope(placed: Placed, moves: _Moves, paint: Paint) -> Iterator[Body]:
+def _rope(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
     """A rope that hangs from the right of a drum, with its load; what is below the load is hidden."""
     mesh, scale = placed.mesh, paint.scale
     radius = placed.radii[0]
     top = paint.place(placed.a + radius)
     way = scale * moves.course.way(mesh.b) if moves.course else 0.0
     low = top.plus(Point(0.0, scale * radius + 30.0 + abs(way)))
-    yield Body((Lines(((top, low.plus(Point(0.0, max(-way, 0.0)))),), "edge"),))
+    yield Body((Polylines(((top, low.plus(Point(0.0, max(-way, 0.0)))),), "edge"),))
     hidden = _box(low.plus(Point(0.0, _LOAD.y / 2 + abs(way))), 4.0, _LOAD.y / 2 + abs(way))
     load = _box(low.plus(Point(0.0, _LOAD.y)), _LOAD.x, _LOAD.y)
-    shapes = (Lines((hidden,), "ground", closed=True), Lines((load,), "block", closed=True))
+    shapes = (Polylines((hidden,), "ground", closed=True), Polylines((load,), "block", closed=True))
     yield Body(shapes, (moves.slide(mesh.b, scale, Point(0.0, -1.0)),))
 
 
-def _screw(placed: Placed, moves: _Moves) -> Iterator[Body]:
+def _screw(placed: PlacedMesh, moves: _Moves) -> Iterator[Body]:
     """A spindle from the side with its nut; a turn moves the nut by a thread that is drawn, not to scale."""
     mesh, lead = placed.mesh, 14.0
     middle = Point(0.0, 0.0)
@@ -252,9 +254,9 @@ def _screw(placed: Placed, moves: _Moves) -> Iterator[Body]:
         (Point(x, _SCREW.y), Point(x + math.copysign(lead / 2, float(mesh.size_a)), -_SCREW.y))
         for x in np.arange(-_SCREW.x + lead / 2, _SCREW.x - lead / 2, lead).tolist()
     )
-    yield Body((Lines((_box(middle, _SCREW.x, _SCREW.y),), "block", closed=True), Lines(threads, "hatch")))
+    yield Body((Polylines((_box(middle, _SCREW.x, _SCREW.y),), "block", closed=True), Polylines(threads, "hatch")))
     per = lead / abs(float(mesh.size_a))
-    yield Body((Lines((_box(middle, *_NUT),), "block", closed=True),), (moves.slide(mesh.b, per, Point(1.0, 0.0)),))
+    yield Body((Polylines((_box(middle, *_NUT),), "block", closed=True),), (moves.slide(mesh.b, per, Point(1.0, 0.0)),))
 
 
 def _box(at: Point, half: float, high: float) -> tuple[Point, ...]:

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import Body, Shift, at_time
-from gruebler.drawing.canvas.panels import Curve, Mark, Panel, plotted
-from gruebler.drawing.canvas.shapes import Lines, Point, Shape, bounds, moved
+from gruebler.drawing.canvas.panels import AxisMarker, Curve, Panel, draw_panels
+from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, bounds, moved_shape
 from gruebler.drawing.canvas.styles import LINES
 
 __all__ = ["beneath", "running", "turn_diagram"]
@@ -32,30 +32,30 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
         at: an angle in radians that is marked.
         title: of the figure.
     """
-    marks: tuple[Mark, ...] = ()
+    marks: tuple[AxisMarker, ...] = ()
     if at is not None:
         degrees = round(math.degrees(at % math.tau), 2)
-        marks = (Mark(degrees, f"{degrees:g}°"),)
+        marks = (AxisMarker(degrees, f"{degrees:g}°"),)
     panels = []
     for k, (words, y) in enumerate(rows):
         axis = Axis(words, decimals(float(y.min()), float(y.max()), few=4))
         shown = tuple(mark._replace(words=mark.words if k == 0 else "") for mark in marks)
         curves = (Curve(np.degrees(x), y, "", LINES[0]),)
         panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
-    return plotted(panels, title, "")
+    return draw_panels(panels, title, "")
 
 
 def beneath(diagram: Figure, bodies: Sequence[Body]) -> list[Shape]:
     """The shapes of a diagram below bodies, at the left of what stands still."""
     reach = [shape for k in range(8) for shape in at_time(bodies, k / 8)]
     corner, size = bounds(reach, 0.0)
-    return [moved(shape, Point(corner.x, corner.y + size.y + _GAP)) for shape in diagram.shapes]
+    return [moved_shape(shape, Point(corner.x, corner.y + size.y + _GAP)) for shape in diagram.shapes]
 
 
 def running(diagram: list[Shape]) -> list[Body]:
     """The diagram and a cursor that goes evenly through all of its panels."""
-    frames = [shape.parts[0] for shape in diagram if isinstance(shape, Lines) and shape.style == "axis"]
+    frames = [shape.parts[0] for shape in diagram if isinstance(shape, Polylines) and shape.style == "axis"]
     corner, right = frames[0][1], frames[0][2]
     lines = tuple((Point(0.0, frame[0].y), Point(0.0, frame[1].y)) for frame in frames)
     run = Shift((Point(corner.x, 0.0), Point(right.x, 0.0)))
-    return [Body(tuple(diagram)), Body((Lines(lines, "drive"),), (run,))]
+    return [Body(tuple(diagram)), Body((Polylines(lines, "drive"),), (run,))]

@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations, pairwise
 
-__all__ = ["Bodies"]
+__all__ = ["LayoutBodies"]
 
 
 @dataclass(frozen=True, slots=True)
-class Bodies:
+class LayoutBodies:
     """Points 0, 1, ... with colours, and bodies as the points they hold.
 
     The first ``given`` points are those asked for; free ends and elbows follow.
@@ -28,10 +28,10 @@ class Bodies:
     """For each body the points in the order in which it is drawn, if it is a bar or a string with elbows."""
 
     @classmethod
-    def of(cls, colours: Sequence[int], bodies: Sequence[Sequence[int]]) -> Bodies:
+    def of(cls, colours: Sequence[int], bodies: Sequence[Sequence[int]]) -> LayoutBodies:
         """Add free ends and elbows where they are needed.
 
-        >>> Bodies.of([0, 0], [[0, 1], [0, 1], [1]]).paths
+        >>> LayoutBodies.of([0, 0], [[0, 1], [0, 1], [1]]).paths
         ((0, 1), (0, 2, 1), (1, 3))
         """
         points = list(colours)

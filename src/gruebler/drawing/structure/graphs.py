@@ -12,15 +12,15 @@ import numpy as np
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Space
 from gruebler.drawing.canvas.figure import Figure, figure_of
-from gruebler.drawing.canvas.free_space import complexes, from_segment, inside
-from gruebler.drawing.canvas.labels import labelled, legend, short_names
-from gruebler.drawing.canvas.shapes import Arc, Circle, Lines, Point, Shape, Text
+from gruebler.drawing.canvas.free_space import complexes, from_segment, is_inside
+from gruebler.drawing.canvas.labels import labels_or_numbers, legend, short_names
+from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.symbols import arrow_head
-from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.layout import lay_out
 from gruebler.drawing.structure.messages import describe, title
-from gruebler.drawing.structure.orientation import turned
-from gruebler.drawing.structure.picture import chain_of, letters, mean_scale, paint, place
+from gruebler.drawing.structure.orientation import upright
+from gruebler.drawing.structure.picture import chain_of, letters, mean_scale, paint, place_joints
 from gruebler.isomorphism import canonical_order
 from gruebler.mechanism import Mechanism
 
@@ -40,9 +40,9 @@ class _Placed:
 
 
 def _placed(colours: Sequence[int], bodies: Sequence[Sequence[int]]) -> _Placed:
-    layout = lay_out(Bodies.of(colours, bodies))
+    layout = lay_out(LayoutBodies.of(colours, bodies))
     scale = mean_scale(layout)
-    points = [Point(scale * x, -scale * y) for x, y in turned(layout, None).tolist()]
+    points = [Point(scale * x, -scale * y) for x, y in upright(layout, None).tolist()]
     paths = [tuple(points[p] for p in outline) for outline in layout.outlines]
     curved = [path if len(body) > 2 else _smooth(path) for body, path in zip(bodies, paths, strict=True)]
     return _Placed(tuple(points[: len(colours)]), tuple(curved))
@@ -84,17 +84,17 @@ def draw_graph(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") ->
     shapes: list[Shape] = []
     for joint, path in zip(joints, drawn.paths, strict=True):
         closed = len(joint.links) > 2
-        shapes.append(Lines((path,), "area" if closed else "edge", closed))
+        shapes.append(Polylines((path,), "area" if closed else "edge", closed))
         if joint.pair.name != "revolute" or chain.space is not Space.PLANAR:
             a, b = path[len(path) // 2 - 1], path[len(path) // 2]
             middle = a.plus(b.minus(a), 0.5).plus(b.minus(a).unit.across, 9.0)
-            shapes.append(Text(middle, letters(joint.pair), "note"))
+            shapes.append(TextShape(middle, letters(joint.pair), "note"))
     names = short_names(chain.links)
     for link in chain.links:
         at = drawn.points[rank[link]]
         if isinstance(thing, Mechanism) and link == thing.frame:
-            shapes.append(Circle(at, _NODE + 3.5, "node"))
-        shapes += [Circle(at, _NODE, "node"), Text(at, names[link], "letter")]
+            shapes.append(CircleShape(at, _NODE + 3.5, "node"))
+        shapes += [CircleShape(at, _NODE, "node"), TextShape(at, names[link], "letter")]
     listed = {link: number for link, number in names.items() if link != number}
     shapes += legend(listed, drawn.points) if listed else ()
     return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
@@ -109,10 +109,12 @@ def draw_contracted(thing: Chain | Mechanism, *, lang: str = "en", name: str = "
     chain = chain_of(thing)
     nodes, strings = _strings(chain)
     drawn = _placed([int(v >= chain.n) for v in nodes], [(a, b) for a, b, _ in strings])
-    shapes: list[Shape] = [Lines((path,), "edge") for path in drawn.paths]
+    shapes: list[Shape] = [Polylines((path,), "edge") for path in drawn.paths]
     for (_, _, binary), path in zip(strings, drawn.paths, strict=True):
-        shapes += [Circle(_along(path, (k + 1) / (binary + 1)), _SMALL, "dot") for k in range(binary)]
-    shapes += [Circle(at, _BIG, "node" if v >= chain.n else "block") for v, at in zip(nodes, drawn.points, strict=True)]
+        shapes += [CircleShape(_along(path, (k + 1) / (binary + 1)), _SMALL, "dot") for k in range(binary)]
+    shapes += [
+        CircleShape(at, _BIG, "node" if v >= chain.n else "block") for v, at in zip(nodes, drawn.points, strict=True)
+    ]
     return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
 
 
@@ -156,25 +158,25 @@ def draw_loops(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") ->
 
     Where links cross or share two joints, faces are no loops; a shortest basis is told in words below the picture.
     """
-    placed = place(thing)
+    placed = place_joints(thing)
     shapes = paint(placed)
     if len(placed.faces) != placed.chain.loops or any(len(set(face)) < 3 for face in placed.faces):
         walks = [", ".join(loop) for loop in _shortest_loops(placed.chain)]
-        shapes = labelled(placed.outlines, {link: d > 2 for link, d in placed.chain.degrees.items()}, shapes)
+        shapes = labels_or_numbers(placed.outlines, {link: d > 2 for link, d in placed.chain.degrees.items()}, shapes)
         shapes += legend({walk: f"{k}:" for k, walk in enumerate(walks, 1)}, _corners(shapes))
         return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
     corners = [[placed.joints[k] for k in face] for face in placed.faces]
     for number, loop in enumerate(sorted(corners, key=lambda loop: _middle(loop)[::-1]), 1):
         at, room = _roomiest(loop)
-        arc = Arc(at, max(7.0, min(_LOOP, room - 11.0)), math.radians(-60), math.radians(300), "drive")
-        shapes += [arc, arrow_head(arc), Text(at, str(number), "mark")]
+        arc = ArcShape(at, max(7.0, min(_LOOP, room - 11.0)), math.radians(-60), math.radians(300), "drive")
+        shapes += [arc, arrow_head(arc), TextShape(at, str(number), "mark")]
     return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
 
 
 def _corners(shapes: Sequence[Shape]) -> list[Point]:
     """Points that no shape but long lines and texts goes beyond."""
-    return [point for s in shapes if isinstance(s, Lines) for part in s.parts for point in part] + [
-        s.at for s in shapes if isinstance(s, Text)
+    return [point for s in shapes if isinstance(s, Polylines) for part in s.parts for point in part] + [
+        s.at for s in shapes if isinstance(s, TextShape)
     ]
 
 
@@ -206,11 +208,11 @@ def _roomiest(loop: Sequence[Point]) -> tuple[Point, float]:
     parts = (np.arange(_GRID) + 0.5) / _GRID
     x, y = np.meshgrid(left + (right - left) * parts, top + (bottom - top) * parts, indexing="ij")
     rim, grid = complexes(loop), (x + 1j * y).ravel()
-    good = grid[inside(grid, rim)] if len(loop) > 2 else grid[:0]
+    good = grid[is_inside(grid, rim)] if len(loop) > 2 else grid[:0]
     if not len(good):
         good = complexes([_middle(loop)])
     room = np.min(from_segment(good[:, None], rim[None, :], np.roll(rim, -1)[None, :]), axis=1).round(3)
     most = float(room.max())
     best = [Point(float(z.real), float(z.imag)) for z in good[room >= most - 1.0]]
     at = _middle(best)
-    return (at, most) if inside(complexes([at]), rim)[0] else (max(best), most)
+    return (at, most) if is_inside(complexes([at]), rim)[0] else (max(best), most)

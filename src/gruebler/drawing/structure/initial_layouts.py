@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from gruebler.drawing.structure.embedding import Rotation, faces
 
-__all__ = ["Start", "starts", "tutte"]
+__all__ = ["InitialLayout", "initial_layouts", "tutte"]
 
 Walk = tuple[int, ...]
 _SPARSE = 400  # vertices: from here on most of the matrix is zeros
 
 
 @dataclass(frozen=True, slots=True)
-class Start:
+class InitialLayout:
     """An embedding whose outer face is chosen, with the symmetries that keep both."""
 
     rotation: Rotation
@@ -33,21 +33,21 @@ class Start:
     """Equal for starts that differ only in names or in which side is up."""
 
 
-def starts(rotations: Iterable[Rotation], colours: Sequence[int]) -> list[Start]:
+def initial_layouts(rotations: Iterable[Rotation], colours: Sequence[int]) -> list[InitialLayout]:
     """Every start once, those with symmetry first, then those with a long outer face."""
-    found: dict[tuple[int, ...], Start] = {}
+    found: dict[tuple[int, ...], InitialLayout] = {}
     for rotation in rotations:
         walks = [tuple(u for u, _ in walk) for walk in faces(rotation)]
         for k, outer in enumerate(walks):
             code, ways = _least_code(rotation, colours, outer)
             if code not in found:
                 inner = tuple(walks[:k] + walks[k + 1 :])
-                found[code] = Start(rotation, outer, inner, *_symmetries(ways, len(outer)), code)
+                found[code] = InitialLayout(rotation, outer, inner, *_symmetries(ways, len(outer)), code)
     return sorted(found.values(), key=lambda start: (len(start.images) == 1, -len(start.outer), start.code))
 
 
 @dataclass(frozen=True, slots=True)
-class _Way:
+class _MapReading:
     """One reading of a map: where on the outer walk it begins, in which direction, and the vertices as they come."""
 
     begin: int
@@ -55,7 +55,7 @@ class _Way:
     order: tuple[int, ...]
 
 
-def _least_code(rotation: Rotation, colours: Sequence[int], outer: Walk) -> tuple[tuple[int, ...], list[_Way]]:
+def _least_code(rotation: Rotation, colours: Sequence[int], outer: Walk) -> tuple[tuple[int, ...], list[_MapReading]]:
     """The least code of the map over all readings of its outer walk, and the readings that give it."""
     near = [(len(rotation[v]), colours[v]) for v in outer]
     readings = [(near[k:] + near[:k], k, 1) for k in range(len(outer))]
@@ -64,14 +64,14 @@ def _least_code(rotation: Rotation, colours: Sequence[int], outer: Walk) -> tupl
     readings += [(near[last - k :] + near[: last - k], k, -1) for k in range(len(outer))]
     least = min(reading[0] for reading in readings)
     best: tuple[int, ...] | None = None
-    ways: list[_Way] = []
+    ways: list[_MapReading] = []
     for signature, begin, sign in readings:
         if signature == least:
             code, order = _read(rotation, colours, outer, begin, sign)
             if best is None or code < best:
                 best, ways = code, []
             if code == best:
-                ways.append(_Way(begin, sign, order))
+                ways.append(_MapReading(begin, sign, order))
     assert best is not None  # some reading is the least
     return best, ways
 
@@ -98,7 +98,7 @@ def _read(
     return tuple(code), tuple(order)
 
 
-def _symmetries(ways: list[_Way], length: int) -> tuple[tuple[tuple[int, ...], ...], NDArray[np.float64]]:
+def _symmetries(ways: list[_MapReading], length: int) -> tuple[tuple[tuple[int, ...], ...], NDArray[np.float64]]:
     """The maps from the first reading to the others; corner i of the outer walk stands at the angle -2 pi i/length."""
     base = ways[0]
     images, turns = [], []
@@ -114,7 +114,7 @@ def _symmetries(ways: list[_Way], length: int) -> tuple[tuple[tuple[int, ...], .
     return tuple(images), np.array(turns)
 
 
-def tutte(start: Start, hubs: range) -> NDArray[np.float64]:
+def tutte(start: InitialLayout, hubs: range) -> NDArray[np.float64]:
     """A drawing of the vertices of the start without crossings, with its symmetry: float64[vertices, 2].
 
     Every vertex stands in the middle of its neighbours (Tutte 1963). The graph is first made three-connected: between

@@ -9,10 +9,10 @@ from itertools import islice, pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.embedding import Rotation, an_embedding, embeddings
-from gruebler.drawing.structure.initial_layouts import Start, starts, tutte
-from gruebler.drawing.structure.planarisation import Crossed, planarised
+from gruebler.drawing.structure.initial_layouts import InitialLayout, initial_layouts, tutte
+from gruebler.drawing.structure.planarisation import PlanarisedGraph, planarised_graph
 
 __all__ = ["Layout", "lay_out"]
 
@@ -61,12 +61,12 @@ class _Task:
     watched: NDArray[np.int64]
 
 
-def lay_out(bodies: Bodies) -> Layout:
+def lay_out(bodies: LayoutBodies) -> Layout:
     """The layout of bodies: no crossing if there can be none, even clearance, symmetry where an embedding has it.
 
     The same for the same numbering. Cost: some 10 ms for 13 points, a second for 60.
 
-    >>> lay_out(Bodies.of([0, 0, 0], [[0, 1], [1, 2], [2, 0]])).crossings
+    >>> lay_out(LayoutBodies.of([0, 0, 0], [[0, 1], [1, 2], [2, 0]])).crossings
     ()
     """
     if bodies.size < 3:
@@ -74,16 +74,16 @@ def lay_out(bodies: Bodies) -> Layout:
     graph = _graph(bodies)
     found: list[_Run] = []
     most = _STARTS // len(graph)
-    for crossed in planarised(graph, bodies.bars)[:_CROSSED]:
+    for crossed in planarised_graph(graph, bodies.bars)[:_CROSSED]:
         colours = [*bodies.point_colours, *(_HUB for _ in bodies.polygons)]
         colours += [_CROSSING] * (len(crossed.graph) - len(colours))
-        begins = starts(_rotations(crossed), colours)
+        begins = initial_layouts(_rotations(crossed), colours)
         found += [_Run(bodies, crossed, start) for start in begins]
     first = sorted(((run.relaxed(), run) for run in found[: max(8, most)]), key=lambda pair: pair[0].rank)
     return min((run.polished(layout) for layout, run in first[:_FINALISTS]), key=lambda layout: layout.rank)
 
 
-def _graph(bodies: Bodies) -> list[list[int]]:
+def _graph(bodies: LayoutBodies) -> list[list[int]]:
     """The points, joined by bars, then a hub for each polygon, joined to its points."""
     graph: list[list[int]] = [[] for _ in range(bodies.size)]
     for p, q in bodies.bars:
@@ -96,7 +96,7 @@ def _graph(bodies: Bodies) -> list[list[int]]:
     return graph
 
 
-def _rotations(crossed: Crossed) -> Iterable[Rotation]:
+def _rotations(crossed: PlanarisedGraph) -> Iterable[Rotation]:
     most = max(4, _EMBEDDINGS // len(crossed.graph))
     found = list(islice(filter(crossed.is_crossing, embeddings(crossed.graph)), most))
     return found or [an_embedding(crossed.graph)]
@@ -106,9 +106,9 @@ def _rotations(crossed: Crossed) -> Iterable[Rotation]:
 class _Run:
     """One start and what becomes of it."""
 
-    bodies: Bodies
-    crossed: Crossed
-    start: Start
+    bodies: LayoutBodies
+    crossed: PlanarisedGraph
+    start: InitialLayout
 
     def relaxed(self) -> Layout:
         """Without crossings, if the start has none, and fairly even."""
@@ -219,7 +219,7 @@ def _covered(points: NDArray[np.float64], outlines: tuple[tuple[int, ...], ...])
     return number
 
 
-def _line(bodies: Bodies) -> Layout:
+def _line(bodies: LayoutBodies) -> Layout:
     points = np.array([[k / max(1, bodies.size - 1), 0.0] for k in range(bodies.size)])
     alone = (tuple(range(bodies.size)),)
     return Layout(points, bodies.paths, (), 0, 1.0, np.eye(2)[None], alone, ())

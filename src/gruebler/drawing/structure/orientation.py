@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from gruebler.drawing.structure.layout import Layout
 
-__all__ = ["turned"]
+__all__ = ["upright"]
 
 
-def turned(layout: Layout, frame: int | None) -> NDArray[np.float64]:
+def upright(layout: Layout, frame: int | None) -> NDArray[np.float64]:
     """The points of the layout turned, float64[points, 2], y upward.
 
     Candidates are the turns that make an axis of symmetry upright or an edge of the outline level. With a frame that

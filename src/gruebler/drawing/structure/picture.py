@@ -19,8 +19,8 @@ from gruebler.chain.pairs import Alphabet, Pair, Space
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.shapes import Point, Shape
 from gruebler.drawing.canvas.symbols import (
+    JointMember,
     JointSign,
-    Member,
     bar,
     joint_sign,
     polygon,
@@ -28,21 +28,21 @@ from gruebler.drawing.canvas.symbols import (
     turning_drive,
     widest_gap,
 )
-from gruebler.drawing.structure.bodies import Bodies
+from gruebler.drawing.structure.bodies import LayoutBodies
 from gruebler.drawing.structure.layout import Layout, lay_out
 from gruebler.drawing.structure.messages import describe, title
-from gruebler.drawing.structure.orientation import turned
+from gruebler.drawing.structure.orientation import upright
 from gruebler.isomorphism import canonical_order
 from gruebler.mechanism import Mechanism
 
-__all__ = ["Placed", "chain_of", "draw", "letters", "mean_scale", "paint", "place"]
+__all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
 _NARROW = 30.0  # pixels between a joint and a foreign link, at least, as long as the picture does not become huge
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class PlacedChain:
     """A chain with places for its joints, in pixels; what draws links, joints and drives needs no more."""
 
     chain: Chain
@@ -78,14 +78,14 @@ def draw(
     >>> len(picture.svg()) < 5000
     True
     """
-    from gruebler.drawing.canvas.labels import labelled
+    from gruebler.drawing.canvas.labels import labels_or_numbers
 
-    placed = place(thing)
+    placed = place_joints(thing)
     shapes = paint(placed)
     if labels:
         degrees = chain_of(thing).degrees
         outlines = {link: placed.outlines[link] for link in degrees}
-        shapes = labelled(outlines, {link: degrees[link] > 2 for link in degrees}, shapes, names)
+        shapes = labels_or_numbers(outlines, {link: degrees[link] > 2 for link in degrees}, shapes, names)
     return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
 
 
@@ -94,7 +94,7 @@ def chain_of(thing: Chain | Mechanism) -> Chain:
     return thing if isinstance(thing, Chain) else thing.chain
 
 
-def place(thing: Chain | Mechanism) -> Placed:
+def place_joints(thing: Chain | Mechanism) -> PlacedChain:
     """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure."""
     frame, drives = (None, ()) if isinstance(thing, Chain) else (thing.frame, thing.drives)
     chain, number = _ordered(chain_of(thing), frame, {drive.joint for drive in drives})
@@ -104,9 +104,9 @@ def place(thing: Chain | Mechanism) -> Placed:
     )
     scale = mean_scale(layout)
     low = None if frame is None else plain.index(frame)
-    points = [Point(scale * x, -scale * y) for x, y in turned(layout, low).tolist()]
+    points = [Point(scale * x, -scale * y) for x, y in upright(layout, low).tolist()]
     back = {p: k for k, p in where.items()}
-    return Placed(
+    return PlacedChain(
         chain,
         tuple(points[where[k]] for k in range(len(chain.joints))),
         {link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
@@ -131,7 +131,7 @@ def _layout_of(rows: tuple[tuple[str, tuple[int, ...]], ...], links: int) -> Lay
     kinds = list(dict.fromkeys(kind for kind, _ in rows))
     colours = [kinds.index(kind) for kind, _ in rows]
     held = [[p for p, (_, members) in enumerate(rows) if link in members] for link in range(links)]
-    return lay_out(Bodies.of(colours, held))
+    return lay_out(LayoutBodies.of(colours, held))
 
 
 def mean_scale(layout: Layout) -> float:
@@ -141,7 +141,7 @@ def mean_scale(layout: Layout) -> float:
     return min(max(usual, _NARROW / max(layout.clearance, 1e-9)), 1.8 * usual)
 
 
-def paint(placed: Placed) -> list[Shape]:
+def paint(placed: PlacedChain) -> list[Shape]:
     """Links, joints and drives, in the order of painting."""
     signs = [_sign(placed, number) for number in range(len(placed.chain.joints))]
     shapes = [shape for sign, _ in signs for shape in sign.below]
@@ -158,7 +158,7 @@ def paint(placed: Placed) -> list[Shape]:
     return shapes
 
 
-def _link(placed: Placed, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:
+def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:
     """The body of a link, its corners moved to where it takes hold of its joints."""
     moved = {placed.joints[n]: holds[link, n] for n, j in enumerate(placed.chain.joints) if link in j.links}
     corners = [moved.get(corner, corner) for corner in placed.outlines[link]]
@@ -166,7 +166,7 @@ def _link(placed: Placed, link: str, holds: dict[tuple[str, int], Point]) -> lis
     return shape(corners, is_frame=link == placed.frame, halo=link in placed.crossing)
 
 
-def towards(placed: Placed, link: str, number: int) -> Point:
+def towards(placed: PlacedChain, link: str, number: int) -> Point:
     """The direction from a joint to where the link lies."""
     at = placed.joints[number]
     corners = placed.outlines[link]
@@ -177,17 +177,17 @@ def towards(placed: Placed, link: str, number: int) -> Point:
     return middle.minus(at)
 
 
-def _sign(placed: Placed, number: int) -> tuple[JointSign, list[str]]:
+def _sign(placed: PlacedChain, number: int) -> tuple[JointSign, list[str]]:
     """The sign of a joint and its links in the order of the sign: the frame first, then the larger ones."""
     joint = placed.chain.joints[number]
     links = sorted(joint.links, key=lambda link: _precedence(placed, link))
-    members = [Member(towards(placed, link, number), link == placed.frame) for link in links]
+    members = [JointMember(towards(placed, link, number), link == placed.frame) for link in links]
     flat = placed.chain.space is Space.PLANAR
     letter = "" if flat else letters(joint.pair)
     return joint_sign(joint.pair.name, placed.joints[number], members, letter=letter), links
 
 
-def _precedence(placed: Placed, link: str) -> tuple[bool, int, int]:
+def _precedence(placed: PlacedChain, link: str) -> tuple[bool, int, int]:
     return link != placed.frame, -placed.chain.degrees[link], placed.chain.index(link)
 
 
@@ -196,7 +196,7 @@ def letters(pair: Pair) -> str:
     return pair.symbols.get(Alphabet.INTERNATIONAL) or pair.symbols[Alphabet.GERMAN]
 
 
-def _drive(placed: Placed, number: int, direction: str, sign: JointSign) -> list[Shape]:
+def _drive(placed: PlacedChain, number: int, direction: str, sign: JointSign) -> list[Shape]:
     at = placed.joints[number]
     directions = [towards(placed, link, number) for link in placed.chain.joints[number].links]
     if direction.startswith("T"):

@@ -12,7 +12,7 @@ from typing import Any
 
 from gruebler.drawing.structure.embedding import is_planar
 
-__all__ = ["Crossed", "planarised"]
+__all__ = ["PlanarisedGraph", "planarised_graph"]
 
 Edge = tuple[int, int]
 _SEARCHED = 2  # crossings; for more the search takes long
@@ -21,7 +21,7 @@ _COST = 5  # of crossing a spoke, where crossing a bar costs 1: a bar over a pol
 
 
 @dataclass(frozen=True, slots=True)
-class Crossed:
+class PlanarisedGraph:
     """A planar graph in which the vertices from ``first`` on stand for crossings; the strand through each edge."""
 
     graph: tuple[tuple[int, ...], ...]
@@ -38,10 +38,10 @@ class Crossed:
         return all({rotation[v][0], rotation[v][2]} in pairs for v, pairs in through.items())
 
 
-def planarised(graph: list[list[int]], bars: list[Edge]) -> list[Crossed]:
+def planarised_graph(graph: list[list[int]], bars: list[Edge]) -> list[PlanarisedGraph]:
     """All ways with the fewest crossings of bars, or one way that crosses whatever it must."""
     if is_planar(graph):
-        return [Crossed(tuple(map(tuple, graph)), len(graph), ())]
+        return [PlanarisedGraph(tuple(map(tuple, graph)), len(graph), ())]
     pairs = [(e, f) for e, f in combinations(bars, 2) if not set(e) & set(f)]
     led = _inserted(graph, bars)
     for number in range(1, min(_SEARCHED, len(led.graph) - led.first) + 1):
@@ -53,7 +53,7 @@ def planarised(graph: list[list[int]], bars: list[Edge]) -> list[Crossed]:
     return [led]
 
 
-def _with_crossings(graph: list[list[int]], crossings: tuple[tuple[Edge, Edge], ...]) -> Crossed | None:
+def _with_crossings(graph: list[list[int]], crossings: tuple[tuple[Edge, Edge], ...]) -> PlanarisedGraph | None:
     """Each crossing a vertex on both edges; None if an edge is crossed twice (the order would be open)."""
     edges = [e for pair in crossings for e in pair]
     if len(set(edges)) < len(edges):
@@ -68,10 +68,10 @@ def _with_crossings(graph: list[list[int]], crossings: tuple[tuple[Edge, Edge], 
             out[v][out[v].index(u)] = middle
             out[middle] += [u, v]
             strands.append((u, middle, v))
-    return Crossed(tuple(map(tuple, out)), len(graph), tuple(strands))
+    return PlanarisedGraph(tuple(map(tuple, out)), len(graph), tuple(strands))
 
 
-def _inserted(graph: list[list[int]], bars: list[Edge]) -> Crossed:
+def _inserted(graph: list[list[int]], bars: list[Edge]) -> PlanarisedGraph:
     """A planar part of the graph, and every other edge led through its faces over as few edges as possible."""
     import networkx as nx
 
@@ -89,7 +89,7 @@ def _inserted(graph: list[list[int]], bars: list[Edge]) -> Crossed:
     for u, v in left:
         _lead(net, u, v, easy)
     strands = _strands(net)
-    return Crossed(tuple(tuple(sorted(net[v])) for v in range(len(net))), len(graph), strands)
+    return PlanarisedGraph(tuple(tuple(sorted(net[v])) for v in range(len(net))), len(graph), strands)
 
 
 def _lead(net: Any, u: int, v: int, easy: set[frozenset[int]]) -> None:
