@@ -101,7 +101,9 @@ def run() -> list[Row]:
         Row(f"four-bar, {ROWS:,} poses: Taylor series to order 6", seconds(lambda: taylor_series(simple, 6), 3)),
         Row("coupler curve: polygon, length, area", seconds(lambda: _drawn(coupler_curve(four_bar, "K")))),
         Row("coupler curve: all events on it", seconds(lambda: _events(coupler_curve(four_bar, "K")))),
-        Row("coupler curve as 10,000 points at equal steps of the crank", seconds(lambda: curve.trail.at(path, 0))),
+        Row(
+            "coupler curve as 10,000 points at equal steps of the crank", seconds(lambda: curve.point_path.at(path, 0))
+        ),
     ]
 
 

@@ -72,7 +72,7 @@ def leg(text: str) -> Linkage:
     places = [A0, p["c"], B0, p["upper"], p["lower"], p["left"], p["knee"], p["foot"]]
     mechanism = Mechanism.parse(text)
     joints = {k: places[k] for k in range(len(mechanism.chain.joints))}
-    return Linkage.drawn(mechanism, joints, {"foot": ("ghi", *p["foot"])} if "ghi" in text else {})
+    return Linkage.from_drawing(mechanism, joints, {"foot": ("ghi", *p["foot"])} if "ghi" in text else {})
 
 
 def theirs(name: str) -> tuple[Callable[[], object], Callable[[], object]] | None:
@@ -121,7 +121,7 @@ def run() -> list[Row]:
     rows += judged("Jansen's leg", "leg", leg(LEG))
     rows += judged("Jansen's leg of 12 bars", "leg", leg(LEG_OF_BARS))
     places = {0: (0, 0), 1: (0.5, 0.3), 2: (2, 2), 3: (5, 0), 4: (4, 2.2), 5: (2, 5.5), 6: (3, 3.5)}
-    six = Linkage.drawn(Mechanism.parse(CLASS_III), places)
+    six = Linkage.from_drawing(Mechanism.parse(CLASS_III), places)
     way = np.radians(np.linspace(31, 95, ROWS))
     for order, text in ((0, "position"), (2, "with rates")):
         rows.append(Row(f"class III, {text}", nanoseconds(lambda order=order: move(six, way, order=order), runs=5)))

@@ -15,7 +15,7 @@ def shares(title: str, mechanisms: Iterable[Mechanism]) -> list[Realisation]:
     all_found = [realise(mechanism) for mechanism in mechanisms]
     took = time.perf_counter() - start
     moving = [found for found in all_found if found.found]
-    closure = max((move(found.linkage, found.path()).closure for found in moving), default=0.0)
+    closure = max((move(found.linkage, found.path()).closure_error for found in moving), default=0.0)
     count = max(1, len(all_found))
     print(
         f"{title:52}{len(all_found):>11}{len(moving) / count:>7.0%}"

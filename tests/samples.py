@@ -10,7 +10,7 @@ _THREE_LEGS = "R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=
 
 def class_iii(*places: tuple[float, float]) -> Linkage:
     """A three-legged group on a crank, drawn."""
-    return Linkage.drawn(Mechanism.parse(_THREE_LEGS), dict(enumerate(places)))
+    return Linkage.from_drawing(Mechanism.parse(_THREE_LEGS), dict(enumerate(places)))
 
 
 def parallel_legs(high: float = 3.0, error: float = 0.0) -> Linkage:
@@ -23,7 +23,7 @@ def parallel_legs(high: float = 3.0, error: float = 0.0) -> Linkage:
 
 CLASS_III = class_iii((0, 0), (0.5, 0.3), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5))
 """A six-bar that ends inside, at 97.5252475 degrees."""
-CYLINDER = Linkage.drawn(
+CYLINDER = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)"),
     {"R(0-1)": (0, 0), "R(4-2)": (3, 2), "P(1-2)": (0, 0, math.atan2(2, 3)), "R(0-4)": (4, 0)},
 )

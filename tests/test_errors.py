@@ -28,7 +28,7 @@ def test_the_ends_of_a_long_message_are_kept():
     assert str(error).startswith("file.toml: unknown key 'kkk")
     assert str(error).endswith("kkk'; did you mean 'unit'?")
     assert "(10,003 characters)" in str(error)
-    assert len(error.said("de")) < 320
+    assert len(error.in_language("de")) < 320
 
 
 def test_long_input_is_quoted_in_short():

@@ -28,10 +28,10 @@ class GrueblerError(ValueError):
         super().__init__(shortened(text))
         self.de = None if de is None else shortened(de)
 
-    def said(self, lang: str) -> str:
+    def in_language(self, lang: str) -> str:
         """The sentence in a language, in English where there is no other.
 
-        >>> LinkageError("it cannot move", "es lässt sich nicht bewegen").said("de")
+        >>> LinkageError("it cannot move", "es lässt sich nicht bewegen").in_language("de")
         'es lässt sich nicht bewegen'
         """
         return self.de if lang == "de" and self.de is not None else str(self)

@@ -15,7 +15,7 @@ class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     en: str
     de: str
 
-    def said(self, lang: str) -> str:
+    def in_language(self, lang: str) -> str:
         """The text in one language."""
         return self.de if lang == "de" else self.en
 

@@ -112,7 +112,7 @@ def work() -> None:
     gr.move(FourBar(20, 20, 20, 20).linkage(), np.radians([64.0, 104, 144, 184, 144, 104, 64]))
     rotatability(parallel_legs())
     for text, places in SLIDING:
-        gr.move(Linkage.drawn(Mechanism.parse(text), dict(enumerate(places))), gr.degrees(0, 20, 2), **steady)
+        gr.move(Linkage.from_drawing(Mechanism.parse(text), dict(enumerate(places))), gr.degrees(0, 20, 2), **steady)
     for name in ("cam", "cam_roller", "geneva", "belt", "friction_forced", "winch_plane"):
         gr.move(entry(name).linkage(), gr.degrees(0, 30, 5), **steady)
         circuit(entry(name).linkage())

@@ -194,7 +194,7 @@ def test_outputs_at_the_limits() -> None:
     for upper, sign in ((False, -1), (True, 1)):  # overlapping below, stretched above
         drive = course.span.high if upper else course.span.low
         line = 40 * np.exp(1j * drive) - 70
-        value = course.end(output.track, upper)
+        value = course.end(output.values, upper)
         assert abs(np.exp(1j * value) - sign * line / abs(line)) < 1e-8
 
 
@@ -298,7 +298,7 @@ def test_extremes_of_velocity_and_acceleration() -> None:
 def test_zeros_after_a_full_turn_rise_too(start: float) -> None:
     """The rocker of a parallelogram turns with its crank: it rises through every multiple of a full turn."""
     size = FourBar(25, 70, 25, 70)
-    linkage = size.linkage().with_home(move(size.linkage(), [start]).home())
+    linkage = size.linkage().with_reference_pose(move(size.linkage(), [start]).pose())
     found = crossings(drive_cycle(linkage), find_output(linkage), 0)
     assert [(one.kind, round(one.value, 9)) for one in found] == [("rising", 1.0)]
 
@@ -318,7 +318,7 @@ def test_what_has_no_course() -> None:
     five = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
     drawn = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (3, 4), "R(3-4)": (6, 2), "R(0-4)": (6, 0)}
     with pytest.raises(LinkageError, match="one drive"):
-        drive_cycle(Linkage.drawn(five, drawn))
+        drive_cycle(Linkage.from_drawing(five, drawn))
     with pytest.raises(LinkageError, match="cannot be assembled"):
         drive_cycle(FourBar(1, 1, 1, 9).linkage())
     with pytest.raises(LinkageError, match="did you mean 'rocker'"):

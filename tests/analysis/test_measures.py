@@ -103,10 +103,10 @@ def test_transfer_functions_of_slider_cranks() -> None:
     assert transfer_function(course, output, at, 2)[0] == pytest.approx(-11.433459655269419, rel=1e-8)
     assert transmission_angle(course.at(at))[0] == pytest.approx(72.9890596257168 * DEGREE, rel=1e-8)
     half = drive_cycle(SliderCrank(20, 50).linkage()).at(np.array([78.46304096718453 * DEGREE]))
-    assert half.slide("P(frame-slider)")[0] == pytest.approx(50, rel=1e-8)
+    assert half.displacement("P(frame-slider)")[0] == pytest.approx(50, rel=1e-8)
     assert transmission_angle(half)[0] == pytest.approx(66.92608193436902 * DEGREE, rel=1e-8)
     third = drive_cycle(SliderCrank(2, 5).linkage()).at(np.array([math.pi / 2]))
-    assert third.slide("P(frame-slider)")[0] == pytest.approx(4.58257569495584, rel=1e-8)
+    assert third.displacement("P(frame-slider)")[0] == pytest.approx(4.58257569495584, rel=1e-8)
 
 
 def test_uniform_and_still_outputs() -> None:
@@ -207,7 +207,7 @@ def test_other_wrong_calls() -> None:
         measures(FourBar(1, 2, 3, 40).linkage())
     with pytest.raises(LinkageError, match="one drive"):
         measures(
-            Linkage.drawn(
+            Linkage.from_drawing(
                 Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)"),
                 {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (3, 4), "R(3-4)": (6, 2), "R(0-4)": (6, 0)},
             )

@@ -205,7 +205,7 @@ def moved(id, path=None, rows=73, **options):
 def test_every_machine_with_dimensions_moves(record):
     motion = moved(record.id)
     assert motion.complete, motion.message()
-    assert motion.closure < 1e-12
+    assert motion.closure_error < 1e-12
     output = motion.linkage.outputs[0] if motion.linkage.outputs else record.chain().links[-1]
     k = motion.linkage.mechanism.chain.index(output)
     assert (

@@ -20,13 +20,13 @@ def test_the_collection_sheet_001():
     assert (found.output_links, found.output_links_at_frame) == (1, 0)
     assert (found.links, found.links_by_joints) == (4, ((2, 4),))
     assert (found.joints, found.joints_by_pair) == (4, ((pair("revolute"), 4),))
-    assert found.said("de") == (
+    assert found.described("de") == (
         ("Antriebsgelenke", "1, davon 1 am Gestell"),
         ("Abtriebsglieder", "1, davon 0 am Gestell"),
         ("Glieder", "4, davon 4 binär"),
         ("Gelenke", "4, davon 4 Drehgelenke (D)"),
     )
-    assert found.said("en")[2] == ("Links", "4, of these 4 binary")
+    assert found.described("en")[2] == ("Links", "4, of these 4 binary")
 
 
 def test_multiple_joints_and_drives_away_from_the_frame():
@@ -45,7 +45,7 @@ def test_the_whole_catalog_has_features():
         found = access_features(Mechanism(chain, record.frame or chain.links[0], record.drives), record.outputs)
         assert found.links == chain.n
         for lang in ("en", "de"):
-            assert all(value for _, value in found.said(lang))
+            assert all(value for _, value in found.described(lang))
 
 
 @given(strategies.chains())

@@ -32,7 +32,7 @@ def test_it_moves(id):
     path = np.column_stack([np.interp(times, range(len(corners)), drive) for drive in zip(*corners, strict=True)])
     motion = move(linkage, path * scale)
     assert motion.complete, motion.message()
-    assert motion.closure < 1e-12
+    assert motion.closure_error < 1e-12
     frame = linkage.mechanism.chain.index(linkage.mechanism.frame)
     travel = abs(motion.places[0] - motion.places[0, 0]).max(0) + abs(motion.turns - motion.turns[0]).max(0)
     assert (np.delete(travel, frame) > 0.1).all()  # every link
@@ -47,7 +47,7 @@ def test_the_drafting_head_never_turns():
 def test_the_lever_adds():
     """The beam is 80 to either side of slide 1: near home slide 3 goes 2 s1 - s2."""
     motion = move(entry("diff_lever").linkage(), [(60.0, 20.0), (60.01, 20.0), (60.0, 20.01)])
-    ways = motion.slide("P(frame-slider3)") - motion.slide("P(frame-slider3)")[0]
+    ways = motion.displacement("P(frame-slider3)") - motion.displacement("P(frame-slider3)")[0]
     assert abs(ways) == pytest.approx([0, 0.02, 0.01], abs=1e-5)
     assert ways[1] * ways[2] < 0
 

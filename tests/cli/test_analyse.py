@@ -225,7 +225,7 @@ def test_several_drives_with_speeds(capsys, tmp_path):
 
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
     write_linkage(
-        tmp_path / "five.toml", Linkage.drawn(mechanism, {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)})
+        tmp_path / "five.toml", Linkage.from_drawing(mechanism, {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)})
     )
     five = [str(tmp_path / "five.toml"), "--at", "90", "--at", "90", "--output", "2", "--point", "R(2-3)"]
     _, found = table(capsys, *five, "--speed", "60", "--speed", "60")

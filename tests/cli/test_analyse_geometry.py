@@ -69,7 +69,7 @@ def test_a_straight_path_has_no_centre(capsys):
 def test_several_drives(capsys, tmp_path):
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
     places = {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)}
-    write_linkage(tmp_path / "five.toml", Linkage.drawn(mechanism, places))
+    write_linkage(tmp_path / "five.toml", Linkage.from_drawing(mechanism, places))
     status, _, err = run(capsys, str(tmp_path / "five.toml"), "--at", "90", "--at", "90", "--poles")
     assert status == 2
     assert "--poles and --curvature are those of linkages with one drive" in err

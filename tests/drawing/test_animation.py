@@ -108,7 +108,7 @@ def test_a_time_is_positive(seconds):
 
 
 def test_several_drives_are_refused():
-    five = Linkage.drawn(
+    five = Linkage.from_drawing(
         Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); drive=R(0-1); drive=R(0-4)"),
         {"R(0-1)": (0, 0), "R(1-2)": (-1, 2), "R(2-3)": (2, 4), "R(3-4)": (5, 2), "R(0-4)": (4, 0)},
     )
@@ -133,7 +133,7 @@ def test_a_path_of_several_drives():
     text = animated_svg(linkage, drives=path, curves=["R(3-4)"])
     assert "to and fro" in text
     shown = scene(linkage, drives=path)
-    assert shown.stage.path.drives[[0, -1]] == pytest.approx(path)
+    assert shown.posed.path.drives[[0, -1]] == pytest.approx(path)
     assert '"low": 0.0, "high": 90.0' in animated_page(linkage, drives=path)
     assert '"unit": " %"' in animated_page(linkage, drives=path[::-1])
     with pytest.raises(LinkageError, match="one drive only"):

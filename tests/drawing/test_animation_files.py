@@ -115,8 +115,8 @@ def test_the_script_tells_the_drive_of_the_pose_that_is_seen(linkage, between, s
         check=True,
     )
     seen, (clock, text, paused, button), again = json.loads(done.stdout)
-    drives = scenery.stage.path.drives[:, 0]
-    turning = scenery.stage.course.turning_drive
+    drives = scenery.posed.path.drives[:, 0]
+    turning = scenery.posed.cycle.turning_drive
     wanted = np.degrees(drives) if turning else drives
     assert [float(word.split()[0].rstrip("°")) for word in seen] == pytest.approx(
         [wanted[rows[k]] for k in chosen], abs=0.051

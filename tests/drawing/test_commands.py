@@ -123,7 +123,7 @@ def test_pictures_of_a_printed_gallery_stay_legible():
 def test_refusals_in_german():
     with pytest.raises(GrueblerError) as refused:
         gallery.run(Namespace(output=Path("x.html"), **(GALLERY | {"links": 5})))
-    assert refused.value.said("de").startswith("solche Ketten mit 5 Gliedern")
+    assert refused.value.in_language("de").startswith("solche Ketten mit 5 Gliedern")
     with pytest.raises(GrueblerError) as refused:
         draw.run(Namespace(chain="four-bar:60,30,40,50", pose="171", **DRAW))
-    assert "der Antrieb geht in dieser Einbaulage" in refused.value.said("de")
+    assert "der Antrieb geht in dieser Einbaulage" in refused.value.in_language("de")

@@ -134,7 +134,7 @@ def test_pins_within_a_body_and_cylinders_have_dimensions():
     assert "40 mm" in [text.words for text in texts(figure, "value")]
     corners = {"R(0-1)": (0, 0), "R(1-2)": (3, 4), "R(2-3)": (9, 4), "R(0-3)": (9, 0)}
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
-    triangle = Linkage.drawn(mechanism, corners).with_points({"A": ("2", 3.0, 6.0), "B": ("2", 3.0, 1.0)})
+    triangle = Linkage.from_drawing(mechanism, corners).with_points({"A": ("2", 3.0, 6.0), "B": ("2", 3.0, 1.0)})
     values = [text.words for text in texts(draw_linkage(triangle, show=["dimensions"]), "value")]
     assert {"3.162 mm"} <= set(values)  # from B, within 0, 6 and A, to the nearest corner
 

@@ -271,7 +271,7 @@ def test_a_bearing_that_a_body_would_hide_stands_before_it():
 
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(2-4) R(4-5) R(0-5); frame=0; drive=R(0-1)")
     places = {0: (0, 0), 1: (2, 1), 2: (9, 6), 3: (12, 0), 4: (10, -6), 5: (12, -9), 6: (7, 0)}
-    found = body_parts(posed_linkage(Linkage.drawn(mechanism, places)))
+    found = body_parts(posed_linkage(Linkage.from_drawing(mechanism, places)))
     layers = [part.layer for part in found if part.link == "0" and part.layer in (FRAME, BODIES)]
     assert layers == [FRAME, BODIES]
 

@@ -32,7 +32,7 @@ from tests.samples import CLASS_III, CYLINDER
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70)
 WITH_POINT = CRANK_ROCKER.linkage({"K": (35, 20)})
-FIVE_BAR = Linkage.drawn(
+FIVE_BAR = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); drive=R(0-1); drive=R(0-4)"),
     {"R(0-1)": (0, 0), "R(1-2)": (-1, 2), "R(2-3)": (2, 4), "R(3-4)": (5, 2), "R(0-4)": (4, 0)},
 )
@@ -285,13 +285,13 @@ def test_no_linkage():
 def test_no_drive():
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3)")
     places = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)}
-    drawn = Linkage.drawn(mechanism, places)
+    drawn = Linkage.from_drawing(mechanism, places)
     figure = draw_linkage(drawn, show=["dimensions"])
     assert "at home; nothing is driven" in figure.description
     assert sorted(word for word in words(figure)) == ["2 mm", "4 mm", "6 mm", "6.325 mm"]
     assert not styles(figure, "drive")
     with pytest.raises(LinkageError, match="no joint is driven"):
-        draw_linkage(drawn.with_home(None))
+        draw_linkage(drawn.with_reference_pose(None))
     with pytest.raises(LinkageError, match="one drive only"):
         draw_linkage(drawn, show=["velocities"])
 

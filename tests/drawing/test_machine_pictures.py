@@ -308,7 +308,7 @@ def test_every_kind_of_train_is_drawn_and_moves(text, teeth):
 def test_what_slides_goes_to_and_fro_as_far_as_its_wheel_turns():
     reading = read_train("rack pinion:18 slide; pinion=1")
     course = train_motion(reading.train, reading.drives, 4.0)
-    assert course.way("slide") == pytest.approx(18 * math.tau * course.turns("pinion"))
+    assert course.displacement("slide") == pytest.approx(18 * math.tau * course.turns("pinion"))
     shown = animate_train(reading.train, reading.drives)
     assert not shown.clock.round
     (rack,) = [

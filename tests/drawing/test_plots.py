@@ -224,7 +224,7 @@ def test_rounding_is_no_acceleration():
     assert np.ptp([p.y for p in lines(figure, "line-1")[2]]) == 0
 
 
-FIVE_BAR = Linkage.drawn(
+FIVE_BAR = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); drive=R(0-1); drive=R(0-4)"),
     {"R(0-1)": (0, 0), "R(1-2)": (-1, 2), "R(2-3)": (2, 4), "R(3-4)": (5, 2), "R(0-4)": (4, 0)},
 )

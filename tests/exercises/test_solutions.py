@@ -72,7 +72,7 @@ def test_the_way_is_told_in_both_languages(task):
     for step in solution.parts:
         for text in (getattr(step, "text", None), getattr(step, "title", None)):
             assert text is None or (text.en.strip() and text.de.strip())
-    assert task.task.said("de") in task_text(task, "de", solution)
+    assert task.task.in_language("de") in task_text(task, "de", solution)
 
 
 def test_exercises_of_the_documents():

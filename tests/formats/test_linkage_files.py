@@ -61,7 +61,9 @@ def _drawings(draw):
     outputs = draw(st.sets(st.sampled_from(mechanism.chain.links)))
     points = {'K, odd "name"\\': (draw(st.sampled_from(mechanism.chain.links)), *draw(place))}
     try:
-        return Linkage.drawn(mechanism, places, points, unit=draw(st.sampled_from(["mm", "in", "µm"])), outputs=outputs)
+        return Linkage.from_drawing(
+            mechanism, places, points, unit=draw(st.sampled_from(["mm", "in", "µm"])), outputs=outputs
+        )
     except LinkageError:
         return None  # places that coincide
 
@@ -81,7 +83,7 @@ def test_files_round_trip_and_keep_the_order_of_links(tmp_path):
     from gruebler.chain import Chain
 
     chain = Chain(HEXAGON.chain.joints, links=["h", "4", "3", "2", "1", "0"])
-    linkage = Linkage.drawn(
+    linkage = Linkage.from_drawing(
         Mechanism(chain, "0", HEXAGON.drives),
         {
             "R(0-1)": (0, 0),
@@ -132,8 +134,8 @@ def test_doors_on_other_names_lie_as_the_closed_form_says(door, lengths, text, b
     (way, sizes), joints = next(iter(door.items())), text.split()
     linkage = linkage_from_json({"unit": "mm", "joints": text, "drives": [joints[0]], way: {**sizes, "branch": branch}})
     pose = lengths.motion(1.0, branch=branch)
-    assert linkage.home is not None
-    named = linkage.home
+    assert linkage.reference_pose is not None
+    named = linkage.reference_pose
     crank = linkage.mechanism.drives[0].between[1]
     assert named[crank].angle == 1.0
     for joint in joints:  # every joint is closed in the home position
@@ -169,10 +171,10 @@ def test_a_drawing():
     }
     made = linkage_from_json(document)
     assert math.isclose(made.length("door", "R(lever-door)", "G(wall-door)"), 77 * math.sqrt(2))
-    assert made.home is not None
-    assert math.isclose(made.home["lever"].angle, -math.pi / 4)
+    assert made.reference_pose is not None
+    assert math.isclose(made.reference_pose["lever"].angle, -math.pi / 4)
     edge = made.points["edge"]
-    assert made.home["door"].put(edge.x, edge.y) == pytest.approx((0, -154))
+    assert made.reference_pose["door"].put(edge.x, edge.y) == pytest.approx((0, -154))
 
 
 # --- what does not fit ------------------------------------------------------------------------------

@@ -59,9 +59,9 @@ def test_inverted_slider_crank_guides_pass_b0_at_their_offset(linkage, branch):
     motion = linkage.motion(DENSE, branch=branch)
     a, foot, ok = as_complex(motion.A.value), as_complex(motion.B.value), motion.assembled
     unit = np.exp(1j * motion.coupler.value)
-    assert np.allclose((foot - a)[ok], (motion.slide.value * unit)[ok], atol=1e-9)
+    assert np.allclose((foot - a)[ok], (motion.displacement.value * unit)[ok], atol=1e-9)
     assert np.allclose((linkage.d - foot)[ok] / unit[ok], 1j * linkage.e, atol=1e-9)
-    assert (motion.slide.value[ok] * branch >= 0).all()
+    assert (motion.displacement.value[ok] * branch >= 0).all()
     assert np.allclose(np.exp(1j * motion.output.value)[ok], -unit[ok], atol=1e-12)
 
 
@@ -103,10 +103,10 @@ def test_rates_are_derivatives(linkage, phi, omega, alpha, jerk, branch, point):
     assume(motion.complete)
     assume(motion.transmission_angle.min() > 0.25)
     if isinstance(linkage, InvertedSliderCrank):
-        assume(np.abs(motion.slide.value).min() > 0.2)
+        assume(np.abs(motion.displacement.value).min() > 0.2)
     tracks = [motion.coupler, motion.output, motion.A, motion.B, motion.point(*point)]
     if isinstance(linkage, InvertedSliderCrank):
-        tracks.append(motion.slide)
+        tracks.append(motion.displacement)
     turning = {id(motion.coupler), id(motion.output)}
     for track in tracks:
         for order in range(3):

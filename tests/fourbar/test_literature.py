@@ -253,7 +253,7 @@ def test_exercise_17_conchoid_linkage():
     table = np.array(CONCHOID)
     motion = linkage.motion(np.radians(table[:, 0]))
     assert motion.point(90).value == pytest.approx(table[:, 1:3], abs=1e-6)
-    assert motion.slide.value == pytest.approx(table[:, 3], abs=1e-6)
+    assert motion.displacement.value == pytest.approx(table[:, 3], abs=1e-6)
     assert np.degrees(motion.coupler.value) == pytest.approx(table[:, 4], abs=1e-6)
     centres = linkage.dead_centres
     assert (deg(linkage.swing), deg(centres.outer.phi)) == near((73.73979529168804, 53.13010235415599))

@@ -9,7 +9,7 @@ from gruebler.kinematics import move
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-SIX_BAR = Linkage.drawn(
+SIX_BAR = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)"),
     {
         "R(0-1)": (0, 0),
@@ -22,7 +22,7 @@ SIX_BAR = Linkage.drawn(
     },
     {"K": ("h", 1.0, 4.0)},
 )
-CYLINDER = Linkage.drawn(
+CYLINDER = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)"),
     {"R(0-1)": (0, 0), "R(4-2)": (3, 2), "P(1-2)": (0, 0, atan2(2, 3)), "R(0-4)": (4, 0)},
     {"K": ("4", 2.0, 3.0)},

@@ -78,7 +78,7 @@ def meyer_zur_capellen(lam, phi0):
         "R(coupler-rocker)": (-joint.real, joint.imag),
         "R(frame-rocker)": (-pivot.real, pivot.imag),
     }
-    linkage = Linkage.drawn(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"K": ("coupler", 0.0, 1.0)})
+    linkage = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"K": ("coupler", 0.0, 1.0)})
     return move(linkage, np.angle(joint - pivot))
 
 

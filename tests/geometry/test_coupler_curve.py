@@ -73,7 +73,7 @@ def test_watt_touches_with_five_points():
         "R(coupler-rocker)": (0, -15),
         "R(frame-rocker)": (60, -15),
     }
-    watt = Linkage.drawn(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"F": ("coupler", 0.0, 0.0)})
+    watt = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"F": ("coupler", 0.0, 0.0)})
     found = coupler_curve(watt, "F")
     (middle,) = [one for one in found.inflections if abs(one.at) < 1e-6]
     assert (middle.points, middle.flat) == (5, False)
@@ -83,20 +83,20 @@ def test_watt_touches_with_five_points():
 
 def test_polygon_keeps_its_tolerance(curve):
     """Oracle: dense points of the path, each against the side that belongs to its parameter."""
-    trail, samples = curve.trail, curve._samples
+    trail, samples = curve.point_path, curve._samples
     s = np.linspace(trail.start, trail.end, 5001)[:-1]
     z = trail.at(s, 0)[0]
     side = np.searchsorted(samples.parameters, s, side="right") - 1
     p, q = samples.points[side], samples.points[side + 1]
     part = np.clip((np.conj(q - p) * (z - p)).real / np.maximum(abs(q - p) ** 2, 1e-300), 0, 1)
     assert abs(p + part * (q - p) - z).max() <= 1.2 * curve.tolerance
-    finer = coupler_curve(curve.trail.course.linkage, curve.trail.place, tolerance=curve.tolerance / 16)
+    finer = coupler_curve(curve.point_path.cycle.linkage, curve.point_path.place, tolerance=curve.tolerance / 16)
     assert 1.8 < len(finer.points) / len(curve.points) < 6  # as the root of the tolerance, but for the first 64
 
 
 def test_length_and_area_are_those_of_dense_polygons(curve):
-    s = np.linspace(curve.trail.start, curve.trail.end, 40001)
-    z = curve.trail.at(s, 0)[0]
+    s = np.linspace(curve.point_path.start, curve.point_path.end, 40001)
+    z = curve.point_path.at(s, 0)[0]
     steps = np.abs(np.diff(z))
     assert curve.length == pytest.approx(steps.sum(), rel=1e-6)
     assert curve.length_error < 1e-8 * curve.length
@@ -109,8 +109,8 @@ def test_length_and_area_are_those_of_dense_polygons(curve):
 
 def test_events_by_samples(curve):
     """Oracle: turning angles of a dense polygon change sign in inflections; coordinates turn back in turning points."""
-    s = np.linspace(curve.trail.grid[0], curve.trail.grid[-1], 20001)
-    z = curve.trail.at(s, 0)[0]
+    s = np.linspace(curve.point_path.grid[0], curve.point_path.grid[-1], 20001)
+    z = curve.point_path.at(s, 0)[0]
     if curve.closed:
         z = np.concatenate([z, z[1:3]])
     bends = np.sign((np.conj(np.diff(z[:-1])) * np.diff(z[1:])).imag)
@@ -123,12 +123,12 @@ def test_events_by_samples(curve):
 
 def test_inflections_and_vertices_are_what_they_say(curve):
     for one in curve.inflections:
-        _, v, a, _ = curve.trail.at(np.array([one.parameter]))[:, 0]
+        _, v, a, _ = curve.point_path.at(np.array([one.parameter]))[:, 0]
         assert abs((np.conj(v) * a).imag) < 1e-9 * abs(v) * max(abs(a), abs(v))
         assert math.isclose(math.remainder(np.angle(v) - one.direction, 2 * math.pi), 0, abs_tol=1e-9)
     h = 1e-3
     for one in curve.vertices:
-        _, v, a, _ = curve.trail.at(one.parameter + h * np.array([-1, 0, 1]))
+        _, v, a, _ = curve.point_path.at(one.parameter + h * np.array([-1, 0, 1]))
         bends = (np.conj(v) * a).imag / abs(v) ** 3
         assert bends[1] == pytest.approx(one.curvature, rel=1e-9)
         assert (np.argmax if one.kind == "maximum" else np.argmin)(bends) == 1
@@ -172,12 +172,12 @@ def test_double_points_of_a_four_bar(lengths, u, v):
     for one in found.double_points:
         assert abs(abs(one.at - centre) - abs(centre)) < 1e-7 * (abs(centre) + 10)
         assert abs(sextic.gradient(one.at)) < 1e-7 * 20**5
-        ends = found.trail.course.at(np.array(one.drives), 0).complex_point("K")
+        ends = found.point_path.cycle.at(np.array(one.drives), 0).complex_point("K")
         assert abs(ends - one.at).max() < 1e-9
         assert not one.touching or one.angle < 1e-4
     if all(one.angle > 0.05 for one in found.double_points):
-        s = np.linspace(found.trail.start, found.trail.end, 1201)
-        assert len(found.double_points) == crosses(found.trail.at(s, 0)[0], found.closed)
+        s = np.linspace(found.point_path.start, found.point_path.end, 1201)
+        assert len(found.double_points) == crosses(found.point_path.at(s, 0)[0], found.closed)
 
 
 def symmetric(off):
@@ -215,7 +215,7 @@ def test_a_cusp_on_the_moving_centrode(name, phi):
     assert near[0].drive == pytest.approx(phi, abs=1e-10)
     assert not near[0].flat
     assert abs(near[0].at - seen.pole[0]) < 1e-9 * linkage.size
-    ahead = found.trail.at(np.array([near[0].parameter + 1e-4]), 1)[1, 0]
+    ahead = found.point_path.at(np.array([near[0].parameter + 1e-4]), 1)[1, 0]
     assert abs(math.remainder(np.angle(ahead) - near[0].direction, 2 * math.pi)) < 1e-2
     assert all(abs(one.drive - phi) > 1e-3 for one in (*found.inflections, *found.vertices))
     aside = coupler_curve(linkage, LinkPoint("coupler", arm.real + 1e-3, arm.imag + 2e-3))
@@ -251,7 +251,7 @@ def test_a_coupler_that_goes_back():
 
 def test_turning_points_are_the_bounding_box():
     found = coupler_curve(CRANK_ROCKER, "K")
-    z = found.trail.at(np.linspace(0, 2 * math.pi, 3600), 0)[0]
+    z = found.point_path.at(np.linspace(0, 2 * math.pi, 3600), 0)[0]
     for direction in (0.0, math.pi / 2, 2.0):
         ends = [(one.at * np.exp(-1j * direction)).real for one in found.turning_points(direction)]
         seen = (z * np.exp(-1j * direction)).real
@@ -293,7 +293,7 @@ def test_wrong_calls():
 def test_a_far_point_is_sampled_by_its_own_path():
     """The polygon's tolerance goes with the path where that is larger than the linkage."""
     near, far = (coupler_curve(CRANK_ROCKER, LinkPoint("coupler", x, 40.0)) for x in (45.0, 1e10))
-    assert near.tolerance == pytest.approx(1e-4 * near.trail.size)
+    assert near.tolerance == pytest.approx(1e-4 * near.point_path.size)
     assert len(far.points) < 10 * len(near.points)
     assert far.length == pytest.approx(np.hypot(*np.diff([far.points.real, far.points.imag], axis=1)).sum(), rel=1e-3)
     with pytest.raises(LinkageError, match="tolerance must lie between"):

@@ -114,7 +114,7 @@ def test_meyer_zur_capellen(lam, phi0):
     if lam == 5 / 6:
         assert abs(length - 5.103103630798287) < 1e-12
         assert abs(2 * pivot.real - 4.714045207910317) < 1e-12
-    linkage = Linkage.drawn(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"K": ("coupler", 0.0, 1.0)})
+    linkage = Linkage.from_drawing(FourBar(1, 1, 1, 1).linkage().mechanism, drawn, {"K": ("coupler", 0.0, 1.0)})
     motion = move(linkage, np.angle(joint - pivot), speed=1, order=3)
     circle, path = inflection_circle(motion, "coupler"), path_curvature(motion, "K")
     assert abs(circle.pole[0]) < 1e-12

@@ -154,7 +154,7 @@ def test_what_cannot_be():
 def test_watt_guide_of_the_documents():
     """000/003, exercise 18: rockers 60, coupler 30; within 0.25 to either side F goes from -22.2532 to 22.2545."""
     right, left = (60.0, -15.0), (-60.0, 15.0)
-    watt = Linkage.drawn(
+    watt = Linkage.from_drawing(
         Mechanism.parse("R(frame-one) R(one-rod) R(rod-other) R(frame-other); drive=R(frame-one)"),
         {0: left, 1: (0, 15), 2: (0, -15), 3: right},
         {"F": ("rod", 0.0, 0.0)},

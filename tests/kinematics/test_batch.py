@@ -57,9 +57,9 @@ def test_many_designs_move_as_each_alone(name: str, branch: str | None) -> None:
 def test_designs_with_a_larger_group_and_with_a_cylinder() -> None:
     places = [(0, 0), (0.5, 0.3), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5)]
     drawings = [dict(enumerate((x + RANDOM.uniform(-0.1, 0.1), y) for x, y in places)) for _ in range(3)]
-    check(designs([Linkage.drawn(CLASS_III, drawing) for drawing in drawings]), path=degrees(31, 80, 1))
+    check(designs([Linkage.from_drawing(CLASS_III, drawing) for drawing in drawings]), path=degrees(31, 80, 1))
     lift = [
-        Linkage.drawn(
+        Linkage.from_drawing(
             CYLINDER, {"R(0-1)": (0, 0), "R(4-2)": (3, y), "P(1-2)": (0, 0, np.arctan2(y, 3)), "R(0-4)": (4, 0)}
         )
         for y in (1.8, 2.0, 2.2)

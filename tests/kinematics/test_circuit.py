@@ -26,7 +26,7 @@ lengths = st.floats(0.2, 2.0)
 
 
 def class_three():
-    return Linkage.drawn(
+    return Linkage.from_drawing(
         Mechanism.parse(SIX),
         {
             "R(0-1)": (0, 0),
@@ -42,7 +42,7 @@ def class_three():
 
 def cylinder():
     places = {"R(0-1)": (0, 0), "R(4-2)": (3, 2), "P(1-2)": (0, 0, atan2(2, 3)), "R(0-4)": (4, 0)}
-    return Linkage.drawn(Mechanism.parse(CYLINDER), places)
+    return Linkage.from_drawing(Mechanism.parse(CYLINDER), places)
 
 
 def three_cranks(third):
@@ -50,7 +50,7 @@ def three_cranks(third):
     x, y = third
     places = {"R(0-1)": (0, 0), "R(1-2)": (1, 1.5), "R(2-3)": (6, 1.5), "R(3-0)": (5, 0)}
     places |= {"R(2-4)": (x + 1, y + 1.5), "R(4-0)": (x, y)}
-    return Linkage.drawn(Mechanism.parse(CRANKS), places)
+    return Linkage.from_drawing(Mechanism.parse(CRANKS), places)
 
 
 def placed(linkage, home):
@@ -58,7 +58,7 @@ def placed(linkage, home):
     elements = {link: {} for link in linkage.mechanism.chain.links}
     for (number, link), element in linkage.elements.items():
         elements[link][number] = element
-    return Linkage(linkage.mechanism, elements, home=home)
+    return Linkage(linkage.mechanism, elements, reference_pose=home)
 
 
 def check_laws(made):
@@ -68,7 +68,7 @@ def check_laws(made):
     poses = made.at(arcs)
     system = made.system
     for row in range(len(arcs)):
-        x = np.array([v for link in system.bodies for v in poses.home(row)[link]])
+        x = np.array([v for link in system.bodies for v in poses.pose(row)[link]])
         x[0::3] /= system.lower.size
         x[1::3] /= system.lower.size
         residual, matrix = system.linearised(x)
@@ -85,12 +85,12 @@ def check_laws(made):
 
 def check_against_move(made, tolerance=1e-9):
     """On every stretch the drive is monotone and `move` finds the same positions."""
-    for stretch in made.stretches:
+    for stretch in made.monotone_pieces:
         middle = (stretch.start + stretch.end) / 2
         arcs = middle + np.linspace(0, 0.9, 8) * (stretch.end - middle)
         poses = made.at(arcs)
         assert (np.diff(poses.drive()) > 0).all() or (np.diff(poses.drive()) < 0).all()
-        motion = move(placed(made.linkage, poses.home(0)), poses.drive())
+        motion = move(placed(made.linkage, poses.pose(0)), poses.drive())
         assert motion.complete
         for link in made.linkage.mechanism.chain.links:
             assert np.abs(np.exp(1j * motion.angle(link)) - np.exp(1j * poses.angle(link))).max() < tolerance
@@ -226,7 +226,7 @@ def test_a_third_crank_that_does_not_fit_holds_the_linkage(end, words):
         "R(4-0)": (2, 1),
     }
     with pytest.raises(LinkageError, match=words):
-        circuit(Linkage.drawn(Mechanism.parse(CRANKS), places))
+        circuit(Linkage.from_drawing(Mechanism.parse(CRANKS), places))
 
 
 # --- rivals --------------------------------------------------------------------------------------------
@@ -259,7 +259,7 @@ def test_eight_links_with_random_dimensions(chain, seed):
     frame = chain.links[rng.integers(8)]
     drive = int(rng.choice([k for k, joint in enumerate(chain.joints) if frame in joint.links]))
     places = {k: tuple(rng.uniform(0, 4, 2)) for k in range(len(chain.joints))}
-    check_laws(circuit(Linkage.drawn(Mechanism(chain, frame, [drive]), places)))
+    check_laws(circuit(Linkage.from_drawing(Mechanism(chain, frame, [drive]), places)))
 
 
 @pytest.mark.parametrize("number", range(len(EIGHT)))
@@ -268,7 +268,7 @@ def test_every_eight_link_chain_against_move(number):
     frame = chain.links[rng.integers(8)]
     drive = int(rng.choice([k for k, joint in enumerate(chain.joints) if frame in joint.links]))
     places = {k: tuple(rng.uniform(0, 4, 2)) for k in range(len(chain.joints))}
-    made = circuit(Linkage.drawn(Mechanism(chain, frame, [drive]), places))
+    made = circuit(Linkage.from_drawing(Mechanism(chain, frame, [drive]), places))
     check_laws(made)
     check_against_move(made, 1e-8)
 
@@ -278,7 +278,7 @@ def test_every_eight_link_chain_against_move(number):
 
 def test_a_pin_in_a_slot_and_a_double_slide():
     slotted = Mechanism.parse("R(0-1) G(1-2) R(0-2); frame=0; drive=R(0-1)")
-    drawn = Linkage.drawn(slotted, {"R(0-1)": (0, 0), "G(1-2)": (1, 0, 0.3, "2"), "R(0-2)": (3, -1)})
+    drawn = Linkage.from_drawing(slotted, {"R(0-1)": (0, 0), "G(1-2)": (1, 0, 0.3, "2"), "R(0-2)": (3, -1)})
     rows = {(row.joint, row.freedom): row for row in rotatability(drawn)}
     assert rows["R(0-1)", "turn"].full
     assert not rows["R(0-2)", "turn"].full
@@ -355,9 +355,9 @@ def test_what_has_no_circuit():
     five = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0); frame=0; drive=R(0-1)")
     corners = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (2, 3), "R(3-4)": (4, 2), "R(4-0)": (4, 0)}
     with pytest.raises(LinkageError, match="one freedom, but this one has 2"):
-        circuit(Linkage.drawn(five, corners))
+        circuit(Linkage.from_drawing(five, corners))
     with pytest.raises(LinkageError, match="expected a linkage"):
         circuit("R(0-1)")
     stiff = Mechanism.parse("R(0-1) R(1-2) R(2-0); frame=0")
     with pytest.raises(LinkageError, match="cannot move"):
-        circuit(Linkage.drawn(stiff, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-0)": (2, 3)}))
+        circuit(Linkage.from_drawing(stiff, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-0)": (2, 3)}))

@@ -22,7 +22,7 @@ def parallelograms(count, shrink=0.8, angle=1.0):
         }.items():
             text.append(joint)
             places[joint] = (at.real, at.imag)
-    return Linkage.drawn(Mechanism.parse(" ".join(text) + "; frame=0; drive=R(0-w0)"), places)
+    return Linkage.from_drawing(Mechanism.parse(" ".join(text) + "; frame=0; drive=R(0-w0)"), places)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 4])

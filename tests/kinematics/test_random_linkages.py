@@ -43,7 +43,7 @@ def drawings(draw: st.DrawFn) -> Drawing:
             places[k] = (x, y, angle)
         else:
             places[k] = (x, y, angle, joint.links[0])
-    linkage = Linkage.drawn(mechanism, places, {"K": (mechanism.chain.links[-1], 1.0, 2.0)})
+    linkage = Linkage.from_drawing(mechanism, places, {"K": (mechanism.chain.links[-1], 1.0, 2.0)})
     return Drawing(linkage, places, _away(linkage, rng))
 
 
@@ -57,7 +57,7 @@ def _away(linkage: Linkage, rng: np.random.Generator) -> np.ndarray:
 def followed(drawing: Drawing) -> Motion:
     """The motion on the rows that are well away from limits and change points."""
     motion = move(drawing.linkage, drawing.path, speed=1.0)
-    assert motion.closure < 1e-12
+    assert motion.closure_error < 1e-12
     wild = np.flatnonzero(~(np.abs(motion.rates[0]).max(axis=1) < 1 / WELL))
     rows = (int(wild[0]) if len(wild) else len(motion)) - 1
     assume(rows > 5)
@@ -102,7 +102,7 @@ def test_scaled_turned_and_mirrored_drawings_move_as_such(
     k = moved(1 + 2j)
     linkage = drawing.linkage
     links = linkage.mechanism.chain.links
-    other = Linkage.drawn(linkage.mechanism, places, {"K": (links[-1], k.real, k.imag)})
+    other = Linkage.from_drawing(linkage.mechanism, places, {"K": (links[-1], k.real, k.imag)})
     start = np.asarray(pose_at_reference(cached_plan(other), np.zeros(motion.drives.shape[1])).drives)
     way = motion.drives - motion.drives[0]
     found = move(other, start + (-way if mirrored else way), speed=-1.0 if mirrored else 1.0)
@@ -116,10 +116,10 @@ def test_scaled_turned_and_mirrored_drawings_move_as_such(
 def test_a_pose_that_is_fed_back_closes_and_goes_on_alike(drawing: Drawing, row: int) -> None:
     motion = followed(drawing)
     row %= len(motion)
-    again = drawing.linkage.with_home(motion.home(row))
+    again = drawing.linkage.with_reference_pose(motion.pose(row))
     onward = move(again, motion.drives[row:], speed=1.0)
     assert onward.complete, onward.message()
-    assert onward.closure < 1e-12
+    assert onward.closure_error < 1e-12
     assert near(onward.turns, motion.turns[row:])
     assert near(onward.rates[0], motion.rates[0, row:], 1e-6)
 

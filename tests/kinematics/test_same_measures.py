@@ -42,16 +42,16 @@ def laid(linkage: Linkage, turn: float, shift: complex) -> Linkage:
         return e._replace(x=z.real, y=z.imag, angle=e.angle + turn)
 
     home = None
-    if linkage.home is not None:
+    if linkage.reference_pose is not None:
         places = {
             link: complex(p.x, p.y) * by + own(linkage.mechanism.frame) - rect(1, p.angle) * own(link)
-            for link, p in linkage.home.items()
+            for link, p in linkage.reference_pose.items()
         }
-        home = {link: (z.real, z.imag, linkage.home[link].angle) for link, z in places.items()}
+        home = {link: (z.real, z.imag, linkage.reference_pose[link].angle) for link, z in places.items()}
     elements: dict[str, dict[str | int, object]] = {link: {} for link in links}
     for (number, link), e in linkage.elements.items():
         elements[link][number] = element(link, e)
-    return Linkage(linkage.mechanism, elements, unit=linkage.unit, home=home, outputs=linkage.outputs)
+    return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=home, outputs=linkage.outputs)
 
 
 def facts(found: Measures, *, mirrored: bool = False, plain: bool = False) -> dict[str, object]:
@@ -154,7 +154,7 @@ def random_linkage(seed: int) -> Linkage:
         k: (*rng.uniform(0, 4, 2), rng.uniform(-3, 3))[: 2 if joint.pair.name == "revolute" else 3]
         for k, joint in enumerate(mechanism.chain.joints)
     }
-    return Linkage.drawn(mechanism, places)
+    return Linkage.from_drawing(mechanism, places)
 
 
 def well_placed(seed: int) -> Linkage | None:

@@ -14,7 +14,7 @@ from gruebler.mechanism import Mechanism
 
 def pair(first, second, kind="G", distance=50.0):
     mechanism = Mechanism.parse(f"R(f-a) R(f-b) {kind}(a-b); frame=f; drive=R(f-a)")
-    return Linkage.drawn(
+    return Linkage.from_drawing(
         mechanism, {"R(f-a)": (0, 0), "R(f-b)": (distance, 0), f"{kind}(a-b)": {"a": first, "b": second}}
     )
 
@@ -116,9 +116,9 @@ def test_refusals_of_files(wheel, said):
 def test_a_wheel_is_not_driven_and_a_missing_side_is_named():
     mechanism = Mechanism.parse("R(f-a) R(f-b) G(a-b); frame=f")
     with pytest.raises(LinkageError, match="the element of 'b' is missing"):
-        Linkage.drawn(mechanism, {"R(f-a)": (0, 0), "R(f-b)": (50, 0), "G(a-b)": {"a": Wheel(0, 0, 20)}})
+        Linkage.from_drawing(mechanism, {"R(f-a)": (0, 0), "R(f-b)": (50, 0), "G(a-b)": {"a": Wheel(0, 0, 20)}})
     with pytest.raises(LinkageError, match="wheels are given for each"):
-        Linkage.drawn(mechanism, {"R(f-a)": (0, 0), "R(f-b)": (50, 0), "G(a-b)": (20, 0)})
+        Linkage.from_drawing(mechanism, {"R(f-a)": (0, 0), "R(f-b)": (50, 0), "G(a-b)": (20, 0)})
 
 
 def test_arms_and_what_repeats():
@@ -127,7 +127,7 @@ def test_arms_and_what_repeats():
     for planet, x in (("p", 38), ("q", -38)):
         places[f"G(s-{planet})"] = {"s": Wheel(0, 0, 20), planet: Wheel(x, 0, 18)}
         places[f"G({planet}-r)"] = {"r": Wheel(0, 0, -56), planet: Wheel(x, 0, 18)}
-    linkage = Linkage.drawn(Mechanism.parse(f"{text}; frame=f"), places)
+    linkage = Linkage.from_drawing(Mechanism.parse(f"{text}; frame=f"), places)
     held = carriers(linkage.mechanism, linkage.elements)
     assert {arm.link for arm in held.values()} == {"c"}
     assert redundant_wheels(linkage.mechanism, linkage.elements) == {8}

@@ -72,7 +72,7 @@ def test_one_part_free_while_another_is_driven_twice():
 def test_roles_of_the_seeds_machines():
     piston = entries()["compressor"]
     found = roles(Mechanism(piston.chain(), piston.frame, piston.drives))
-    assert [r.said("de") for r in found.values()] == ["Gestell", "Kurbel", "Koppel", "Schieber"]
+    assert [r.in_language("de") for r in found.values()] == ["Gestell", "Kurbel", "Koppel", "Schieber"]
     gears = entries()["geartrain"]
     found = roles(Mechanism(gears.chain(), gears.frame, gears.drives))
     assert list(found.values()) == [Role.FRAME, Role.CRANK, Role.ROLLER]

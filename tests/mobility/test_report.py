@@ -120,5 +120,5 @@ def test_a_chain_of_very_many_links_is_refused_with_its_size_unless_it_is_wanted
     monkeypatch.setattr(rank, "_MOST_ROWS", 39)
     with pytest.raises(TooLargeError, match="40 equations") as refused:
         mobility_report(ring)
-    assert "40 Gleichungen" in refused.value.said("de")
+    assert "40 Gleichungen" in refused.value.in_language("de")
     assert mobility_report(ring, large=True).generic == 17

@@ -35,7 +35,7 @@ def test_what_it_writes_moves(capsys, tmp_path, name):
     found = realise(Mechanism.parse(f"{FOUR}; drive=R(3-0)"), seed=3, budget=200)
     motion = move(read_linkage(tmp_path / name), found.path())
     assert motion.complete
-    assert motion.closure < 1e-12
+    assert motion.closure_error < 1e-12
 
 
 def test_json(capsys):

@@ -41,7 +41,7 @@ def check(found):
     assert found.found, found.message()
     motion = move(found.linkage, found.path(721), order=1)
     assert motion.complete, motion.message()
-    assert motion.closure < 1e-12
+    assert motion.closure_error < 1e-12
     least = np.abs(motion.roots).min(initial=1.0)
     assert least > 0.02
     if found.full:
@@ -102,7 +102,7 @@ def test_sizes_are_sensible():
     assert found.linkage.size == pytest.approx(100, rel=0.05)
     angles = [np.degrees(e.angle) for e in found.linkage.elements.values() if isinstance(e, Line)]
     assert np.allclose(angles, np.round(angles, 2))
-    home = np.degrees(found.linkage.home["1"].angle)
+    home = np.degrees(found.linkage.reference_pose["1"].angle)
     assert home == pytest.approx(round(home), abs=1e-6)
 
 
@@ -150,8 +150,8 @@ def test_a_spent_budget_is_said():
         (FOUR, {"seed": -1}, "seed"),
         (FOUR, {"seed": 1.5}, "seed"),
         (FOUR, {"budget": 0}, "budget"),
-        (FOUR, {"wanted": 0}, "wanted"),
-        (FOUR, {"wanted": float("nan")}, "wanted"),
+        (FOUR, {"target_quality": 0}, "target_quality"),
+        (FOUR, {"target_quality": float("nan")}, "target_quality"),
     ],
 )
 def test_wrong_calls(text, options, message):

@@ -58,14 +58,14 @@ def test_a_small_crank_turns_fully(text, seed):
 def test_a_dyads_measure_is_the_sine_of_its_transmission_angle():
     """Oracle: the angle at the inner joint."""
     quad = Mechanism.parse(MECHANISMS[0])
-    linkage = Linkage.drawn(quad, {0: (0, 0), 1: (0, 25), 2: (70, 60), 3: (70, 0)})
+    linkage = Linkage.from_drawing(quad, {0: (0, 0), 1: (0, 25), 2: (70, 60), 3: (70, 0)})
     motion = move(linkage, np.linspace(np.pi / 2, 5, 50))
     a, b, c = (motion.complex_point(name) for name in ("R(1-2)", "R(2-3)", "R(3-0)"))
     assert np.allclose(measures(motion), np.abs(np.sin(np.angle((a - b) / (c - b)))))
 
 
 def test_a_larger_groups_measure_vanishes_where_its_motion_ends():
-    linkage = Linkage.drawn(Mechanism.parse(CLASS_THREE), DRAWN)
+    linkage = Linkage.from_drawing(Mechanism.parse(CLASS_THREE), DRAWN)
     motion = move(linkage, np.linspace(np.arctan2(0.3, 0.5), 2, 400))
     assert motion.stop.reason == "singular"
     near = move(linkage, [np.arctan2(0.3, 0.5), motion.stop.drives[0] - 1e-8])
@@ -80,10 +80,10 @@ def test_the_measure_knows_no_unit_and_no_direction(factor, angle):
     moved = {name: ((x + 1j * y) * turn) for name, (x, y) in DRAWN.items()}
     mechanism = Mechanism.parse(CLASS_THREE)
     values = [
-        measures(move(linkage, [linkage.home["1"].angle]))
+        measures(move(linkage, [linkage.reference_pose["1"].angle]))
         for linkage in (
-            Linkage.drawn(mechanism, DRAWN),
-            Linkage.drawn(mechanism, {name: (z.real, z.imag) for name, z in moved.items()}),
+            Linkage.from_drawing(mechanism, DRAWN),
+            Linkage.from_drawing(mechanism, {name: (z.real, z.imag) for name, z in moved.items()}),
         )
     ]
     assert np.allclose(*values)

@@ -74,7 +74,7 @@ def test_a_stretched_triangle_is_shaky():
 def test_a_rounded_home_of_a_stretched_linkage():
     """A drawing that is off by 1e-7 is settled to the position there is."""
     home = {"0": (0, 0, 0), "1": (0, 0, 1e-7), "2": (1, 1e-7, -5e-8)}
-    stretched = triangle(1, 2, 3).with_home(home)
+    stretched = triangle(1, 2, 3).with_reference_pose(home)
     assert freedoms(stretched).instant.mobility == 1
 
 
@@ -105,7 +105,7 @@ def test_several_drives_are_followed_together():
     """Three parallel cranks and an arm on their rod: constraints that repeat others are no obstacle for two drives."""
     text = "R(0-1) R(0-2) R(0-3) R(1-p) R(2-p) R(3-p) R(p-arm); frame=0; drive=R(0-1); drive=R(p-arm)"
     places = [(0, 0), (3, 0), (6, 0), (0.6, 0.8), (3.6, 0.8), (6.6, 0.8), (8, 2)]
-    drawn = Linkage.drawn(Mechanism.parse(text), dict(enumerate(places)))
+    drawn = Linkage.from_drawing(Mechanism.parse(text), dict(enumerate(places)))
     for at in ((atan2(0.8, 0.6), 0.0), (0.4, -1.1), (-0.7, 3.0)):
         found = freedoms(drawn, at=at)
         assert (found.instant.mobility, found.mobility) == (2, 2)
@@ -133,7 +133,7 @@ def test_a_small_gap_is_a_gap(gap):
     """Bars of 1 and 1 between pins that are a little more than 2 apart: no rounding, in no unit."""
     home = {"0": (0, 0, 0), "1": (0, 0, 0), "2": (1, 0, 0)}
     for scale in (1, 1e-6, 1e6):
-        for linkage in (triangle(1, 1, 2 + gap), triangle(1, 1, 2 + gap).with_home(home)):
+        for linkage in (triangle(1, 1, 2 + gap), triangle(1, 1, 2 + gap).with_reference_pose(home)):
             with pytest.raises(LinkageError, match=r"closed|assembled"):
                 freedoms(linkage.scaled(scale))
-    assert freedoms(triangle(1, 1, 2).with_home(home)).mobility == 0
+    assert freedoms(triangle(1, 1, 2).with_reference_pose(home)).mobility == 0

@@ -138,7 +138,7 @@ def test_a_linkage_with_redundant_cranks_and_sizes_alone():
     text = "R(0-1) R(0-2) R(0-3) R(1-p) R(2-p) R(3-p); drive=R(0-1)"
     heads = [(3.0 * k + cos(0.7), sin(0.7)) for k in range(3)]
     names = ["R(0-1)", "R(0-2)", "R(0-3)", "R(1-p)", "R(2-p)", "R(3-p)"]
-    drawn = Linkage.drawn(Mechanism.parse(text), dict(zip(names, [(0, 0), (3, 0), (6, 0), *heads], strict=True)))
+    drawn = Linkage.from_drawing(Mechanism.parse(text), dict(zip(names, [(0, 0), (3, 0), (6, 0), *heads], strict=True)))
     for at in (None, 0.2, 2.0, -1.0):
         found = freedoms(drawn, at=at)
         assert (found.instant.mobility, found.mobility, found.instant.rank) == (1, 1, 11)
@@ -146,7 +146,9 @@ def test_a_linkage_with_redundant_cranks_and_sizes_alone():
     homeless = Linkage(drawn.mechanism, elements)
     assert freedoms(homeless).mobility == 1
     elements["3"][5] = (1.01, 0.0)  # the third crank 1 % longer, its pin on the rod spaced like the axles
-    wrong = Linkage(drawn.mechanism, elements, home={link: tuple(p) for link, p in drawn.home.items()})
+    wrong = Linkage(
+        drawn.mechanism, elements, reference_pose={link: tuple(p) for link, p in drawn.reference_pose.items()}
+    )
     with pytest.raises(LinkageError, match=r"they are open by [0-9.e-]+ of the linkage's size"):
         freedoms(wrong)
     assert freedoms(Linkage(drawn.mechanism, elements)).mobility == 0  # only where it is rigid

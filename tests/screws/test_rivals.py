@@ -72,14 +72,14 @@ def cranks(third):
     feet = [(0.0, 0.0), (3.0, 0.0), third]
     names = ["R(0-1)", "R(0-2)", "R(0-3)", "R(1-p)", "R(2-p)", "R(3-p)"]
     heads = [(x + cos(0.7), y + sin(0.7)) for x, y in feet]
-    return Linkage.drawn(Mechanism.parse(text), dict(zip(names, [*feet, *heads], strict=True)))
+    return Linkage.from_drawing(Mechanism.parse(text), dict(zip(names, [*feet, *heads], strict=True)))
 
 
 def test_circuits_of_cranks():
     moving = cranks((6.0, 1.0))
     assert freedoms(moving).mobility == 1
     assert circuit(moving).closed
-    home = {name: tuple(place) for name, place in moving.home.items()}
+    home = {name: tuple(place) for name, place in moving.reference_pose.items()}
     elements = {link: {n: tuple(e) for (n, owner), e in moving.elements.items() if owner == link} for link in "0123p"}
     foot, head = elements["0"][2], elements["3"][5]
     stretched = 1.01 * head[0]  # the crank 1 % longer, its axle so far back that it lies parallel to the others
@@ -87,7 +87,7 @@ def test_circuits_of_cranks():
     back = 0.01 * head[0]
     elements["0"][2] = (foot[0] - back * cos(0.7), foot[1] - back * sin(0.7))
     home["3"] = (*elements["0"][2], home["3"][2])
-    shaky = Linkage(moving.mechanism, elements, home=home)
+    shaky = Linkage(moving.mechanism, elements, reference_pose=home)
     found = freedoms(shaky)
     assert (found.instant.mobility, found.mobility) == (1, 0)
     stuck = circuit(shaky)  # it creeps as far as its tolerance lets it

@@ -37,7 +37,7 @@ def test_rivals(e):
     assert np.allclose(general.side, np.abs(closed.side))
     assert np.allclose(general.friction, closed.friction)
     assert np.allclose(np.hypot(*held.force("R(coupler-slider)").T), closed.coupler)
-    assert np.allclose(general.effort, closed.friction * np.abs(move(size.linkage(), phi, speed=1).slide(3, 1)))
+    assert np.allclose(general.effort, closed.friction * np.abs(move(size.linkage(), phi, speed=1).displacement(3, 1)))
     assert np.sign(held.force("P(frame-slider)")[:, 1]).tolist() == np.sign(closed.side).tolist()
 
 

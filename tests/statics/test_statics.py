@@ -15,12 +15,12 @@ from gruebler.statics import Loads, statics
 from tests.geometry.linkages import MOVING
 
 numbers = st.floats(-100, 100)
-FIVE_BAR = Linkage.drawn(
+FIVE_BAR = Linkage.from_drawing(
     Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)"),
     {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)},
     {"K": ("2", 2.0, 4.0)},
 )
-FORKED = Linkage.drawn(  # one pin for the crank and two rods: a V engine
+FORKED = Linkage.from_drawing(  # one pin for the crank and two rods: a V engine
     Mechanism.parse("R(0-1) R(1-2-3) R(2-4) R(3-5) P(0-4) P(0-5); frame=0; drive=R(0-1)"),
     {0: (0, 0), 1: (0, 2), 2: (-3, 6), 3: (3, 6), 4: (-3, 6, np.pi / 2), 5: (3, 6, np.pi / 2)},
 )
@@ -61,7 +61,7 @@ def test_free_bodies(name):
     motion, one, _ = moved(name)
     linkage, chain = motion.linkage, motion.linkage.mechanism.chain
     held = statics(motion, Loads({"K": (3, -8)}, {one: 40}))
-    place = linkage.named("K")[-1]
+    place = linkage.points_named("K")[-1]
     about = 0.3 - 1.7j
     for link in chain.links:
         if link == linkage.mechanism.frame:

@@ -50,7 +50,7 @@ def comes_back(found, linkage, phi):
     """Whether a design has the crank length of the linkage and begins at its crank angle."""
     a = linkage.a
     for design in (*found.designs, *found.rejected):
-        home = design.linkage.home["crank"].angle
+        home = design.linkage.reference_pose["crank"].angle
         length = design.linkage.length("crank", 0, 1)
         if abs(length - a) < 1e-4 * a and abs(np.exp(1j * home) - np.exp(1j * phi[0])) < 1e-4:
             return True
@@ -86,8 +86,8 @@ def test_three_pairs_against_freudensteins_equation():
     found = synthesise_function(FunctionTask(tuple(phi), tuple(psi)))
     linkage = (*found.designs, *found.rejected)[0].linkage
     a, b, c, d = (linkage.length(*row) for row in _ROWS)
-    sign_a = 1 if abs(np.exp(1j * linkage.home["crank"].angle) - np.exp(1j * phi[0])) < 1e-6 else -1
-    frame = linkage.home["rocker"].angle
+    sign_a = 1 if abs(np.exp(1j * linkage.reference_pose["crank"].angle) - np.exp(1j * phi[0])) < 1e-6 else -1
+    frame = linkage.reference_pose["rocker"].angle
     sign_c = 1 if np.real(np.exp(1j * (frame - psi[0]))) > 0 else -1
     # Rockers are drawn from the coupler's pin to the frame: their x axis points backwards.
     a, c = sign_a * a, -sign_c * c
@@ -123,7 +123,7 @@ def test_the_minimax_optimum_alternates():
         if design.form != "RR" or not design.verdict.one_branch:
             continue
         a, b, c, d = (linkage.length(*row) for row in _ROWS)
-        home = linkage.home
+        home = linkage.reference_pose
         start = home["crank"].angle - law.inputs(chebyshev_spacing(1, 2, 5))[0]
         rocker = home["rocker"].angle + np.pi - law.outputs(chebyshev_spacing(1, 2, 5))[0]
         for branch in (1, -1):

@@ -120,13 +120,13 @@ class DriveCycle(Brief):
         order_of = np.argsort(drives, kind="stable")
         first = self.start.drives[0]
         path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
-        found, rows = _run(self.plan, path, order, self.start)
-        if not found.complete:
+        motion, rows = _run(self.plan, path, order, self.start)
+        if not motion.complete:
             raise LinkageError(
-                f"the branch is lost within its range. {found.message()}",
-                f"die Einbaulage geht innerhalb des Bereichs verloren. {found.message('de')}",
+                f"the branch is lost within its range. {motion.message()}",
+                f"die Einbaulage geht innerhalb des Bereichs verloren. {motion.message('de')}",
             )
-        return _rows(found, rows[1 + np.argsort(order_of, kind="stable")])
+        return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
     def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
         """The value of a function of the poses at an end of the range, where poses themselves are ill-conditioned.
@@ -164,8 +164,8 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
     span = _span(plan, start)
     for stop in span.stops:
         if stop is not None and stop.reason == "open":
-            found = replace(start, stop=stop)
-            raise LinkageError(found.message(), found.message("de"))
+            motion = replace(start, stop=stop)
+            raise LinkageError(motion.message(), motion.message("de"))
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
@@ -174,8 +174,8 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
             f"the drive cannot move: all that can be assembled is one position, drive = {at}",
             f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
         )
-    course = DriveCycle(plan, start, span, np.array([span.low, span.high]))
-    return replace(course, grid=_grid(course))
+    cycle = DriveCycle(plan, start, span, np.array([span.low, span.high]))
+    return replace(cycle, grid=_grid(cycle))
 
 
 @dataclass(frozen=True, repr=False)
@@ -203,12 +203,12 @@ class PathCycle(DriveCycle):
         """The poses at parts of the path, in any order; rates by the part."""
         order_of = np.argsort(drives, kind="stable")
         parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
-        found = move(
+        motion = move(
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
-        if not found.complete:
-            raise LinkageError(found.message(), found.message("de"))
-        return _rows(found, 1 + np.argsort(order_of, kind="stable"))
+        if not motion.complete:
+            raise LinkageError(motion.message(), motion.message("de"))
+        return _rows(motion, 1 + np.argsort(order_of, kind="stable"))
 
 
 def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCycle:
@@ -227,8 +227,8 @@ def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | 
     start = move(plan, ends[:1], branch=branch)
     if not start.complete:
         raise LinkageError(start.message(), start.message("de"))
-    course = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
-    return replace(course, grid=_grid(course))
+    cycle = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
+    return replace(cycle, grid=_grid(cycle))
 
 
 def _turns(plan: Plan) -> bool:
@@ -284,7 +284,7 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
 
 
 def _candidates(plan: Plan) -> Iterator[float]:
-    if plan.lower.home is not None:
+    if plan.lower.reference_pose is not None:
         yield float(pose_at_reference(plan, np.zeros(1)).drives[0])
     step, count = (pi / 36, 36) if _turns(plan) else (plan.lower.size / 40, 120)
     yield 0.0
@@ -316,9 +316,9 @@ def _same(plan: Plan, motion: Motion, row: int) -> bool:
     return bool(max(places, np.abs(motion.turns[row] - motion.turns[0]).max()) < _BACK)
 
 
-def _grid(course: DriveCycle) -> Reals:
+def _grid(cycle: DriveCycle) -> Reals:
     """Places in the span between which the rates are near to their cubics."""
-    span = course.span
+    span = cycle.span
     if span.full:
         first = span.low + _OFFSET * 2 * pi / _CELLS
         s = first + np.linspace(0, span.width, _CELLS * span.turns + 1)
@@ -328,11 +328,11 @@ def _grid(course: DriveCycle) -> Reals:
     def drive(s: Reals) -> Reals:
         return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
 
-    least = _STILL / (1 if course.turning_drive else course.plan.lower.size)
+    least = _STILL / (1 if cycle.turning_drive else cycle.plan.lower.size)
     suspect = np.ones(len(s) - 1, bool)
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
-        rates = course.at(drive(np.concatenate([s, middles])), 2).rates
+        rates = cycle.at(drive(np.concatenate([s, middles])), 2).rates
         speed, change, between = rates[0, : len(s)], rates[1, : len(s)], rates[0, len(s) :]
         usual = np.quantile(np.abs(speed), 0.9, axis=0)
         width = np.diff(drive(s))[:, None]
@@ -354,13 +354,13 @@ def _grid(course: DriveCycle) -> Reals:
 _SAME = 1e-9  # of the range: joints of two laws that are nearer are one
 
 
-def _law_joints(course: DriveCycle) -> tuple[float, ...]:
+def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
     """Drive values at which derivatives may jump, in rising order; of full turns in the period from the grid on."""
-    laws = [c for group in course.plan.conditions for c in group if c.law.joints]
+    laws = [c for group in cycle.plan.conditions for c in group if c.law.joints]
     if not laws:
         return ()
-    grid = course.grid
-    motion = course.at(grid, 0)
+    grid = cycle.grid
+    motion = cycle.at(grid, 0)
     found: list[float] = []
     for condition in laws:
         seen = _direction(motion, condition)
@@ -371,10 +371,10 @@ def _law_joints(course: DriveCycle) -> tuple[float, ...]:
             low, high = grid[cells], grid[cells + 1]
 
             def off(drives: Reals, condition: Condition = condition, angle: float = angle) -> Reals:
-                return np.asarray((_direction(course.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
+                return np.asarray((_direction(cycle.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
 
             found += bracketed_root(off, low, high).tolist() if len(cells) else []
-    return _merged(sorted(found), _SAME * course.span.width, course.span.period)
+    return _merged(sorted(found), _SAME * cycle.span.width, cycle.span.period)
 
 
 def _merged(places: list[float], near: float, period: float) -> tuple[float, ...]:

@@ -112,62 +112,62 @@ class GroupChangePoint(NamedTuple):
     """Whether more than two curves of positions meet there, or two that touch one another."""
 
 
-def transfer_function(course: DriveCycle, output: Output, drives: Reals, order: int = 0) -> Reals:
+def transfer_function(cycle: DriveCycle, output: Output, drives: Reals, order: int = 0) -> Reals:
     """The transfer function of order 0 to 3 at drive values: psi, psi', psi'', psi''' in radians or lengths; (n,)."""
-    return output.track(course.at(np.asarray(drives, np.float64), max(order, 1)), order)
+    return output.values(cycle.at(np.asarray(drives, np.float64), max(order, 1)), order)
 
 
-def natural_speed(course: DriveCycle, output: Output) -> float:
+def natural_speed(cycle: DriveCycle, output: Output) -> float:
     """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
-    size = course.plan.lower.size
-    return (1.0 if output.turning else size) / (1.0 if course.turning_drive else size)
+    size = cycle.plan.lower.size
+    return (1.0 if output.turning else size) / (1.0 if cycle.turning_drive else size)
 
 
-def crossings(course: DriveCycle, output: Output, order: int) -> tuple[Crossing, ...]:
+def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, ...]:
     """The zeros of a transfer function: of order 0; 1, the output's extremes; 2, those of its velocity; 3, of psi''.
 
     Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
     """
-    least = (_EVEN if order > 1 else _STILL) * natural_speed(course, output)
-    if not course.turning_drive:
-        least /= course.plan.lower.size ** max(order - 1, 0)
+    least = (_EVEN if order > 1 else _STILL) * natural_speed(cycle, output)
+    if not cycle.turning_drive:
+        least /= cycle.plan.lower.size ** max(order - 1, 0)
 
     def jet(drives: Reals) -> Reals:
-        motion = course.at(drives)
-        rows = [output.track(motion, k) for k in range(order, 4)]
+        motion = cycle.at(drives)
+        rows = [output.values(motion, k) for k in range(order, 4)]
         if order == 0 and output.turning:
             half = rows[0] / 2
             sine, cosine = np.sin(half), np.cos(half)
             rows = [2 * sine, rows[1] * cosine, rows[2] * cosine - rows[1] ** 2 * sine / 2]
         return np.stack(rows[:3])
 
-    samples = course.samples(order)
+    samples = cycle.samples(order)
     if order == 0:  # the sine of half an angle does not repeat after an odd number of turns
         samples = samples._replace(period=None)
-    found = _inside(course, find_zeros(jet, samples, least))
-    if order == 0 and output.turning and found:  # that sine falls where the angle rises through an odd multiple
-        turned = np.round(transfer_function(course, output, np.array([zero.at for zero in found])) / (2 * pi)) % 2 == 1
-        found = tuple(zero._replace(rises=zero.rises != odd) for zero, odd in zip(found, turned.tolist(), strict=True))
-    before = _before(course, output, found, order)
+    zeros = _inside(cycle, find_zeros(jet, samples, least))
+    if order == 0 and output.turning and zeros:  # that sine falls where the angle rises through an odd multiple
+        turned = np.round(transfer_function(cycle, output, np.array([zero.at for zero in zeros])) / (2 * pi)) % 2 == 1
+        zeros = tuple(zero._replace(rises=zero.rises != odd) for zero, odd in zip(zeros, turned.tolist(), strict=True))
+    before = _before(cycle, output, zeros, order)
     words = ("falling", "rising", "touching") if order == 0 else ("maximum", "minimum", "flat")
     return tuple(
-        Crossing(course.span.wrapped(zero.at), order, float(value), words[2 if zero.multiplicity == 2 else zero.rises])
-        for zero, value in zip(found, before, strict=True)
+        Crossing(cycle.span.wrapped(zero.at), order, float(value), words[2 if zero.multiplicity == 2 else zero.rises])
+        for zero, value in zip(zeros, before, strict=True)
     )
 
 
-def _before(course: DriveCycle, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
+def _before(cycle: DriveCycle, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
     if not found:
         return np.empty(0)
-    return transfer_function(course, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
+    return transfer_function(cycle, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
 
 
-def _inside(course: DriveCycle, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+def _inside(cycle: DriveCycle, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
     """The zeros in the order in which they are reported."""
-    return tuple(sorted(found, key=lambda zero: course.span.wrapped(zero.at)))
+    return tuple(sorted(found, key=lambda zero: cycle.span.wrapped(zero.at)))
 
 
-def dead_centres(course: DriveCycle, output: Output) -> tuple[OutputDeadCentre, ...]:
+def dead_centres(cycle: DriveCycle, output: Output) -> tuple[OutputDeadCentre, ...]:
     """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
 
     A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
@@ -176,80 +176,80 @@ def dead_centres(course: DriveCycle, output: Output) -> tuple[OutputDeadCentre, 
     one. Dwells at the largest or smallest output are inner and outer in the same sense. Error of the drive
     value: some 1e-15 by the curvature psi'', relative to its usual size; of multiple zeros some 1e-12.
     """
-    return stops(course, output)[0]
+    return stops(cycle, output)[0]
 
 
-def dwells(course: DriveCycle, output: Output) -> tuple[Dwell, ...]:
+def dwells(cycle: DriveCycle, output: Output) -> tuple[Dwell, ...]:
     """The stretches on which the output rests; none of an output that never moves.
 
     An output can only begin or end to rest where a cam or Geneva drive passes to the next piece of its law: between
     these places the motion is analytic. Error of begin and end: some 1e-14 of a turn.
     """
-    return stops(course, output)[1]
+    return stops(cycle, output)[1]
 
 
-def stops(course: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ...], tuple[Dwell, ...]]:
+def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ...], tuple[Dwell, ...]]:
     """`dead_centres` and `dwells`."""
 
     def jet(drives: Reals) -> Reals:
-        motion = course.at(drives)
-        return np.stack([output.track(motion, k) for k in (1, 2, 3)])
+        motion = cycle.at(drives)
+        return np.stack([output.values(motion, k) for k in (1, 2, 3)])
 
-    least, samples = _STILL * natural_speed(course, output), course.samples(1)
-    found = _inside(course, find_zeros(jet, samples, least))
-    resting = vanishing(jet, samples, least) if course.joints else ()
-    values = transfer_function(course, output, np.array([zero.at for zero in found])) if found else np.empty(0)
+    least, samples = _STILL * natural_speed(cycle, output), cycle.samples(1)
+    zeros = _inside(cycle, find_zeros(jet, samples, least))
+    resting = vanishing(jet, samples, least) if cycle.joints else ()
+    values = transfer_function(cycle, output, np.array([zero.at for zero in zeros])) if zeros else np.empty(0)
     centres = [
         OutputDeadCentre(
-            course.span.wrapped(zero.at),
+            cycle.span.wrapped(zero.at),
             float(value),
             "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
             zero.multiplicity > 1,
             "",
         )
-        for zero, value in zip(found, values, strict=True)
+        for zero, value in zip(zeros, values, strict=True)
     ]
-    rests = sorted(_dwell(course, output, begin, end) for begin, end in resting)
-    sides = _sides(course, output, [*centres, *rests])
+    rests = sorted(_dwell(cycle, output, begin, end) for begin, end in resting)
+    sides = _sides(cycle, output, [*centres, *rests])
     return (
-        tuple(one._replace(side=side) for one, side in zip(centres, sides, strict=False)),
-        tuple(one._replace(side=side) for one, side in zip(rests, sides[len(centres) :], strict=True)),
+        tuple(dead_centre._replace(side=side) for dead_centre, side in zip(centres, sides, strict=False)),
+        tuple(dwell._replace(side=side) for dwell, side in zip(rests, sides[len(centres) :], strict=True)),
     )
 
 
-def _dwell(course: DriveCycle, output: Output, begin: float, end: float) -> Dwell:
+def _dwell(cycle: DriveCycle, output: Output, begin: float, end: float) -> Dwell:
     """The rest of the output between two joints of laws."""
-    span, joints = course.span, np.array(course.joints)
+    span, joints = cycle.span, np.array(cycle.joints)
     if span.full:
         first = span.wrapped(begin)
         begin, end = first, first + end - begin
         joints = np.concatenate([joints + k * span.period for k in (-2, -1, 0, 1, 2)])
     else:
-        begin, end = (span.low if begin == course.grid[0] else begin), (span.high if end == course.grid[-1] else end)
+        begin, end = (span.low if begin == cycle.grid[0] else begin), (span.high if end == cycle.grid[-1] else end)
         joints = np.concatenate([[span.low], joints, [span.high]])
     near = _NEAR * span.width
-    before = _way(course, output, begin, joints[joints < begin - near].max(initial=-np.inf))
-    after = _way(course, output, end, joints[joints > end + near].min(initial=np.inf))
+    before = _way(cycle, output, begin, joints[joints < begin - near].max(initial=-np.inf))
+    after = _way(cycle, output, end, joints[joints > end + near].min(initial=np.inf))
     kinds = {(1, -1): "maximum", (1, 0): "maximum", (0, -1): "maximum", (-1, 1): "minimum", (-1, 0): "minimum"}
     kind = "flat" if before == after else kinds.get((before, after), "minimum")
-    value = float(transfer_function(course, output, np.array([(begin + end) / 2]))[0])
+    value = float(transfer_function(cycle, output, np.array([(begin + end) / 2]))[0])
     return Dwell(begin, end, value, kind, "")
 
 
-def _way(course: DriveCycle, output: Output, edge: float, joint: float) -> int:
+def _way(cycle: DriveCycle, output: Output, edge: float, joint: float) -> int:
     """In which direction the output moves beside a dwell, on the way to the next joint: 1, -1; 0 if there is none."""
     if not np.isfinite(joint):
         return 0
-    rates = transfer_function(course, output, np.asarray(edge + (joint - edge) * _ASIDE), 1)
+    rates = transfer_function(cycle, output, np.asarray(edge + (joint - edge) * _ASIDE), 1)
     return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
 
 
-def _sides(course: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre | Dwell]) -> list[str]:
+def _sides(cycle: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre | Dwell]) -> list[str]:
     """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
     sides = [""] * len(stops)
     turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
     kinds = {stops[k].kind for k in turning}
-    if len(kinds) < 2 or _goes_round(course, output):
+    if len(kinds) < 2 or _goes_round(cycle, output):
         return sides
     outputs = [stops[k].output for k in turning]
     high, low = max(outputs), min(outputs)
@@ -259,8 +259,8 @@ def _sides(course: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre 
         return min((k for k in turning if abs(stops[k].output - value) <= near), key=lambda k: stops[k].drive)
 
     top, bottom = first(high), first(low)
-    far = _distances(course, output, np.array([stops[top].drive, stops[bottom].drive]))
-    if far is None or abs(far[0] - far[1]) < _EQUAL * course.plan.lower.size:
+    far = _distances(cycle, output, np.array([stops[top].drive, stops[bottom].drive]))
+    if far is None or abs(far[0] - far[1]) < _EQUAL * cycle.plan.lower.size:
         top_is_outer = not output.turning
     else:
         top_is_outer = bool(far[0] > far[1])
@@ -268,42 +268,42 @@ def _sides(course: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre 
     return sides
 
 
-def _goes_round(course: DriveCycle, output: Output) -> bool:
-    return bool(course.span.full and output.turning and output_turns(course, output))
+def _goes_round(cycle: DriveCycle, output: Output) -> bool:
+    return bool(cycle.span.full and output.turning and output_turns(cycle, output))
 
 
-def output_turns(course: DriveCycle, output: Output) -> int:
+def output_turns(cycle: DriveCycle, output: Output) -> int:
     """How many full turns an angle makes while everything repeats."""
-    if not (course.span.full and output.turning):
+    if not (cycle.span.full and output.turning):
         return 0
-    track = output.track(course.at(np.array([course.grid[0], course.grid[0] + course.span.width]), 0))
+    track = output.values(cycle.at(np.array([cycle.grid[0], cycle.grid[0] + cycle.span.width]), 0))
     return round(float(track[1] - track[0]) / (2 * pi))
 
 
-def drive_pivot(course: DriveCycle) -> complex | None:
+def drive_pivot(cycle: DriveCycle) -> complex | None:
     """Where a turning drive has its axis in the frame; None for any other drive."""
-    lower = course.plan.lower
+    lower = cycle.plan.lower
     first, _ = lower.reference(0)
-    if first != lower.mechanism.frame or not course.turning_drive:
+    if first != lower.mechanism.frame or not cycle.turning_drive:
         return None
     e = lower.elements[lower.mechanism.drives[0].joint, first]
     return complex(e.x, e.y)
 
 
-def _distances(course: DriveCycle, output: Output, drives: Reals) -> Reals | None:
+def _distances(cycle: DriveCycle, output: Output, drives: Reals) -> Reals | None:
     """How far the point that drives the output lies from the pivot of the drive."""
-    pivot, place = drive_pivot(course), _driving_point(course, output)
+    pivot, place = drive_pivot(cycle), _driving_point(cycle, output)
     if pivot is None or place is None:
         return None
-    motion = course.at(drives, 0)
-    k = course.plan.lower.mechanism.chain.index(place[0])
+    motion = cycle.at(drives, 0)
+    k = cycle.plan.lower.mechanism.chain.index(place[0])
     point = motion.places[0, :, k] + motion.turns[:, k] * place[1]
     return np.asarray(np.abs(point - pivot))
 
 
-def _driving_point(course: DriveCycle, output: Output) -> tuple[str, complex] | None:
+def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | None:
     """The one pin by which the rest of its group takes hold of the output link."""
-    plan = course.plan
+    plan = cycle.plan
     for group in plan.decomposition.groups:
         mine = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
         if not mine:
@@ -319,7 +319,7 @@ def _driving_point(course: DriveCycle, output: Output) -> tuple[str, complex] | 
     return None
 
 
-def change_points(course: DriveCycle) -> tuple[GroupChangePoint, ...]:
+def change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
     """Where the motion goes through a position in which two assembly modes of a group meet.
 
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
@@ -327,79 +327,82 @@ def change_points(course: DriveCycle) -> tuple[GroupChangePoint, ...]:
     larger groups are the places where another curve meets the `circuit`. Where several groups have one at once, more
     than two curves meet. Raises `LinkageError` if there are larger groups whose circuit cannot be followed.
     """
-    larger = _of_larger_groups(course) if course.plan.larger else ()
-    return _meetings(course, [*larger, *dyad_change_points(course)])
+    larger = _of_larger_groups(cycle) if cycle.plan.higher_groups else ()
+    return _meetings(cycle, [*larger, *dyad_change_points(cycle)])
 
 
-def _meetings(course: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[GroupChangePoint, ...]:
+def _meetings(cycle: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[GroupChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
-    near = _TOGETHER * (1 if course.turning_drive else course.plan.lower.size)
+    near = _TOGETHER * (1 if cycle.turning_drive else cycle.plan.lower.size)
 
     def gap(one: GroupChangePoint, other: GroupChangePoint) -> float:
         way = abs(one.drive - other.drive)
-        return min(way, abs(course.span.period - way))
+        return min(way, abs(cycle.span.period - way))
 
     ordered = sorted(found)
     return tuple(
-        one._replace(several=one.several or any(other is not one and gap(one, other) < near for other in ordered))
-        for one in ordered
+        change_point._replace(
+            several=change_point.several
+            or any(other is not change_point and gap(change_point, other) < near for other in ordered)
+        )
+        for change_point in ordered
     )
 
 
-def dyad_change_points(course: DriveCycle) -> tuple[GroupChangePoint, ...]:
+def dyad_change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
     """Those of dyads alone."""
     found = []
-    roots = course.at(course.grid, 0).roots
-    for dyad in (dyad for dyad in course.plan.dyads if dyad.branching):
+    roots = cycle.at(cycle.grid, 0).roots
+    for dyad in (dyad for dyad in cycle.plan.dyads if dyad.branching):
         mine = roots[:, dyad.number]
         for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
-            found.append(_change_point(course, dyad, course.grid[cell : cell + 2]))
-    if course.plan.released and found:  # one of the independent part may be none of the linkage
-        found = [point for point in found if not _is_regular(course.at(np.array([point.drive]), 0), 0)]
-    return _meetings(course, found)
+            found.append(_change_point(cycle, dyad, cycle.grid[cell : cell + 2]))
+    if cycle.plan.released and found:  # one of the independent part may be none of the linkage
+        found = [point for point in found if not _is_regular(cycle.at(np.array([point.drive]), 0), 0)]
+    return _meetings(cycle, found)
 
 
-def _of_larger_groups(course: DriveCycle) -> Iterator[GroupChangePoint]:
-    made = circuit(course.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]))
+def _of_larger_groups(cycle: DriveCycle) -> Iterator[GroupChangePoint]:
+    made = circuit(cycle.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]))
     for change in made.change_points:
-        groups = list(_singular(course, made, change.pose))
-        for turn in range(course.span.turns) if course.span.full else range(-1, 2) if course.turning_drive else (0,):
-            drive = float(change.drive % (2 * pi) + 2 * pi * turn if course.turning_drive else change.drive)
-            if course.span.low <= drive <= course.span.high or course.span.full:
-                here = course.at(np.array([drive]), 0)
-                away = [here.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
+        groups = list(_singular(cycle, made, change.pose))
+        for turn in range(cycle.span.turns) if cycle.span.full else range(-1, 2) if cycle.turning_drive else (0,):
+            drive = float(change.drive % (2 * pi) + 2 * pi * turn if cycle.turning_drive else change.drive)
+            if cycle.span.low <= drive <= cycle.span.high or cycle.span.full:
+                motion = cycle.at(np.array([drive]), 0)
+                away = [motion.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
                 if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
                     for group in groups:
-                        yield GroupChangePoint(course.span.wrapped(drive), group.links, group.form(), change.several)
+                        yield GroupChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
 
 
-def _singular(course: DriveCycle, made: Circuit, pose: Poses) -> Iterator[SolvedGroup]:
+def _singular(cycle: DriveCycle, circuit: Circuit, pose: Poses) -> Iterator[SolvedGroup]:
     """The larger groups that can move there while everything before them stands."""
-    plan, bodies, size = course.plan, list(made.system.bodies), course.plan.lower.size
+    plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.plan.lower.size
     rows = [
         (z.real / size, z.imag / size, angle[0])
         for z, angle in ((pose.places[0, 0, pose._link(link)], pose.angle(link)) for link in bodies)
     ]
-    _, matrix = made.system.linearised(np.array(rows).ravel())
+    _, matrix = circuit.system.linearised(np.array(rows).ravel())
     _, values, vectors = np.linalg.svd(matrix)
     lost = int((values[: matrix.shape[1] - 1] < _LOST * values[0]).sum())
-    ways = vectors[-1 - max(lost, 1) :].reshape(-1, len(bodies) + len(made.system.arms), 3)
+    ways = vectors[-1 - max(lost, 1) :].reshape(-1, len(bodies) + len(circuit.system.arms), 3)
     placed: list[int] = []
     known = 1  # the motion of the circuit itself
     for number, group in enumerate(plan.decomposition.groups):
         placed += [bodies.index(link) for link in group.links if link in bodies]
         rank = int((np.linalg.svd(ways[:, placed].reshape(len(ways), -1))[1] > _THERE).sum()) if placed else 0
-        if rank > known and any(part.group == number for part in plan.larger):
+        if rank > known and any(part.group == number for part in plan.higher_groups):
             yield group
         known = max(known, rank)
 
 
-def _change_point(course: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoint:
-    span = course.span
-    step = _STEP * (1 if course.turning_drive else course.plan.lower.size)
+def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoint:
+    span = cycle.span
+    step = _STEP * (1 if cycle.turning_drive else cycle.plan.lower.size)
 
     def root(drives: Reals) -> Reals:
-        return course.at(drives, 0).roots[:, dyad.number]
+        return cycle.at(drives, 0).roots[:, dyad.number]
 
     at = float(bracketed_root(root, cell[:1], cell[1:])[0])
     for _ in range(2):
@@ -411,7 +414,7 @@ def _change_point(course: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoi
         if not near:
             break
         at += room * float(min(near, key=abs))
-    group = course.plan.decomposition.groups[dyad.group]
+    group = cycle.plan.decomposition.groups[dyad.group]
     return GroupChangePoint(span.wrapped(at), group.links, group.form())
 
 

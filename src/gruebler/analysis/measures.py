@@ -242,30 +242,30 @@ def measures(
     """
     looked_at = find_output(linkage, output)
     speed = _speed(speed_rpm)
-    course = drive_cycle(linkage, branch)
-    if speed is not None and not course.turning_drive:
+    cycle = drive_cycle(linkage, branch)
+    if speed is not None and not cycle.turning_drive:
         raise LinkageError("a speed in turns a minute is that of a turning drive; this linkage has a sliding one")
-    span = course.span
+    span = cycle.span
     ends = None
     if not span.full:
-        low, high = (course.end(looked_at.track, upper) for upper in (False, True))
+        low, high = (cycle.end(looked_at.values, upper) for upper in (False, True))
         ends = low, high
-    centres, rests = stops(course, looked_at)
-    turns = output_turns(course, looked_at)
+    centres, rests = stops(cycle, looked_at)
+    turns = output_turns(cycle, looked_at)
     try:
-        changes, unknown = change_points(course), {"en": "", "de": ""}
+        changes, unknown = change_points(cycle), {"en": "", "de": ""}
     except LinkageError as why:
-        changes, unknown = dyad_change_points(course), {lang: why.said(lang) for lang in ("en", "de")}
+        changes, unknown = dyad_change_points(cycle), {lang: why.in_language(lang) for lang in ("en", "de")}
     try:
-        transmission, notes = measure_transmission(course, looked_at), {"en": "", "de": ""}
+        transmission, notes = measure_transmission(cycle, looked_at), {"en": "", "de": ""}
     except NoTransmissionAngleError as why:
-        transmission, notes = None, {lang: why.said(lang) for lang in ("en", "de")}
+        transmission, notes = None, {lang: why.in_language(lang) for lang in ("en", "de")}
     return Measures(
         linkage,
         looked_at,
-        course.start.branch,
-        float(course.start.drives[0, 0]),
-        course.turning_drive,
+        cycle.start.branch,
+        float(cycle.start.drives[0, 0]),
+        cycle.turning_drive,
         span,
         ends,
         centres,
@@ -273,10 +273,10 @@ def measures(
         turns,
         None
         if turns
-        else _travel(course, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
+        else _travel(cycle, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
         changes,
         unknown,
-        _transfer(course, looked_at),
+        _transfer(cycle, looked_at),
         transmission,
         notes,
         speed,
@@ -291,21 +291,21 @@ def _speed(rpm: float | None) -> float | None:
     return float(rpm)
 
 
-def _travel(course: DriveCycle, output: Output, values: list[float]) -> float:
+def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:
     """The difference of the largest and the smallest output among its stops and ends."""
     if not values:  # it goes nowhere, or its motion has no end: what the grid shows
-        track = transfer_function(course, output, course.grid)
-        least = _STILL * (1.0 if output.turning else course.plan.lower.size)
+        track = transfer_function(cycle, output, cycle.grid)
+        least = _STILL * (1.0 if output.turning else cycle.plan.lower.size)
         return float(np.ptp(track)) if np.ptp(track) > least else 0.0
     return max(values) - min(values)
 
 
-def _transfer(course: DriveCycle, output: Output) -> Transfer:
-    track = transfer_function(course, output, course.grid, 1)
-    still, uniform = _kind(course, output)
+def _transfer(cycle: DriveCycle, output: Output) -> Transfer:
+    track = transfer_function(cycle, output, cycle.grid, 1)
+    still, uniform = _kind(cycle, output)
     usual = float(np.median(track))
-    velocity = () if still or uniform else crossings(course, output, 2)
-    acceleration = () if still or uniform else crossings(course, output, 3)
+    velocity = () if still or uniform else crossings(cycle, output, 2)
+    acceleration = () if still or uniform else crossings(cycle, output, 3)
     values = [*track.tolist(), *(crossing.value for crossing in velocity)]
     return Transfer(
         still,
@@ -313,17 +313,17 @@ def _transfer(course: DriveCycle, output: Output) -> Transfer:
         1 / usual if uniform else None,
         usual if uniform else max(values),
         usual if uniform else min(values),
-        () if still else crossings(course, output, 0),
+        () if still else crossings(cycle, output, 0),
         velocity,
         acceleration,
     )
 
 
-def _kind(course: DriveCycle, output: Output) -> tuple[bool, bool]:
+def _kind(cycle: DriveCycle, output: Output) -> tuple[bool, bool]:
     """Whether the output never moves, and whether psi' is constant: on each piece on which the motion is analytic."""
-    parts = sample_function(lambda drives: transfer_function(course, output, drives, 1)[None], course.samples(1))
+    parts = sample_function(lambda drives: transfer_function(cycle, output, drives, 1)[None], cycle.samples(1))
     usual = float(np.median(np.concatenate([part[0] for part in parts])))
-    scale = _STILL * natural_speed(course, output)
+    scale = _STILL * natural_speed(cycle, output)
     still = all(float(np.quantile(np.abs(part[0]), 0.9)) <= scale for part in parts)
     varies = max(float(np.quantile(np.abs(part[0] - usual), 0.9)) for part in parts)
     return still, not still and varies <= _UNIFORM * abs(usual)

@@ -103,85 +103,91 @@ _TEXTS = {
 }
 
 
-def explain_measures(found: Measures, lang: str) -> Iterator[str]:
+def explain_measures(measures: Measures, lang: str) -> Iterator[str]:
     """See `Measures.explain`."""
     column = 1 if lang == "de" else 0
 
     def say(key: str, **values: Any) -> str:
         return _TEXTS[key][column].format(**values)
 
-    yield from _drive_lines(found, say)
-    name = found.output.name
-    if found.transfer.still:
-        yield say("not turning" if found.output.turning else "still", name=name)
-    elif found.transfer.uniform:
-        yield say("uniform", name=name, ratio=found.transfer.ratio)
-    elif found.output_turns:
-        yield say("goes round", name=name, turns=abs(found.output_turns))
-    elif found.travel is not None:
-        key = "swing" if found.output.turning else "stroke"
-        yield say(key, name=name, travel=_output(found, found.travel))
-    yield from _stop_lines(found, say)
-    for point in found.change_points:
-        line = say("change", form=point.form, links=", ".join(point.links), at=_drive(found, point.drive))
+    yield from _drive_lines(measures, say)
+    name = measures.output.name
+    if measures.transfer.still:
+        yield say("not turning" if measures.output.turning else "still", name=name)
+    elif measures.transfer.uniform:
+        yield say("uniform", name=name, ratio=measures.transfer.ratio)
+    elif measures.output_turns:
+        yield say("goes round", name=name, turns=abs(measures.output_turns))
+    elif measures.travel is not None:
+        key = "swing" if measures.output.turning else "stroke"
+        yield say(key, name=name, travel=_output(measures, measures.travel))
+    yield from _stop_lines(measures, say)
+    for point in measures.change_points:
+        line = say("change", form=point.form, links=", ".join(point.links), at=_drive(measures, point.drive))
         yield f"{line} {say('several')}" if point.several else line
-    if found.change_points_notes[lang]:
-        yield say("unknown changes", why=found.change_points_notes[lang])
-    if found.transmission is None:
-        note = found.transmission_notes[lang]
+    if measures.change_points_notes[lang]:
+        yield say("unknown changes", why=measures.change_points_notes[lang])
+    if measures.transmission is None:
+        note = measures.transmission_notes[lang]
         yield note[:1].upper() + note[1:] + "."
         return
-    worst, best = found.transmission.smallest, found.transmission.largest
+    worst, best = measures.transmission.smallest, measures.transmission.largest
     yield say(
         "mu" if best.mu - worst.mu > _CONSTANT else "constant",
         small=_angle(worst.mu),
-        at=_drive(found, worst.drive),
+        at=_drive(measures, worst.drive),
         links=", ".join(worst.links),
         large=_angle(best.mu),
         alpha=_angle(worst.deviation),
     )
-    yield say("good" if found.transmission.good else "poor")
+    yield say("good" if measures.transmission.good else "poor")
 
 
-def _stop_lines(found: Measures, say: Any) -> Iterator[str]:
+def _stop_lines(measures: Measures, say: Any) -> Iterator[str]:
     """Dead centres, dwells, and the ways between them."""
-    for centre in found.dead_centres:
+    for centre in measures.dead_centres:
         key = "flat" if centre.kind == "flat" else centre.side
-        yield say(key, at=_drive(found, centre.drive), output=_output(found, centre.output))
-    for dwell in found.dwells:
-        begin, end, duration = (_drive(found, value) for value in (dwell.begin, _end(found, dwell), dwell.duration))
+        yield say(key, at=_drive(measures, centre.drive), output=_output(measures, centre.output))
+    for dwell in measures.dwells:
+        begin, end, duration = (
+            _drive(measures, value) for value in (dwell.begin, _end(measures, dwell), dwell.duration)
+        )
         key = f"dwell {dwell.side}".strip()
-        yield say(key, begin=begin, end=end, duration=duration, output=_output(found, dwell.output))
-    if found.dwells:
-        yield say("dwells", share=100 * found.dwell_share)
-    if found.phi_forward is not None and found.phi_back is not None:
-        forward, back = (_drive(found, x) for x in (found.phi_forward, found.phi_back))
-        yield say("strokes moving" if found.dwells else "strokes", forward=forward, back=back, ratio=found.time_ratio)
-        if abs(found.phi_forward - found.phi_back) > _CONSTANT:
-            yield say("slow forward" if found.phi_forward > found.phi_back else "slow back")
-    if found.times is not None:
-        yield say("times", rpm=found.speed_rpm, forward=found.times.forward, back=found.times.back)
-    if found.dwells and found.dwell_time is not None:
-        yield say("dwell time", time=found.dwell_time)
+        yield say(key, begin=begin, end=end, duration=duration, output=_output(measures, dwell.output))
+    if measures.dwells:
+        yield say("dwells", share=100 * measures.dwell_share)
+    if measures.phi_forward is not None and measures.phi_back is not None:
+        forward, back = (_drive(measures, x) for x in (measures.phi_forward, measures.phi_back))
+        yield say(
+            "strokes moving" if measures.dwells else "strokes", forward=forward, back=back, ratio=measures.time_ratio
+        )
+        if abs(measures.phi_forward - measures.phi_back) > _CONSTANT:
+            yield say("slow forward" if measures.phi_forward > measures.phi_back else "slow back")
+    if measures.times is not None:
+        yield say("times", rpm=measures.speed_rpm, forward=measures.times.forward, back=measures.times.back)
+    if measures.dwells and measures.dwell_time is not None:
+        yield say("dwell time", time=measures.dwell_time)
 
 
-def _drive_lines(found: Measures, say: Any) -> Iterator[str]:
-    span = found.span
+def _drive_lines(measures: Measures, say: Any) -> Iterator[str]:
+    span = measures.span
     if span.full:
         yield say("full") if span.turns == 1 else say("turns", turns=span.turns)
         return
     yield say(
-        "turning range" if found.turning_drive else "range", low=_drive(found, span.low), high=_drive(found, span.high)
+        "turning range" if measures.turning_drive else "range",
+        low=_drive(measures, span.low),
+        high=_drive(measures, span.high),
     )
     for stop, at in zip(span.stops, (span.low, span.high), strict=True):
         if stop is not None:
             key = "limit" if stop.reason == "limit" else "singular"
-            yield say(key, at=_drive(found, at), form=stop.form, links=", ".join(stop.links))
+            yield say(key, at=_drive(measures, at), form=stop.form, links=", ".join(stop.links))
 
 
-def _end(found: Measures, dwell: Dwell) -> float:
+def _end(measures: Measures, dwell: Dwell) -> float:
     """Where a dwell ends, as it is reported: within the period if it goes over its end."""
-    period = found.span.period
+    period = measures.span.period
     return dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
 
 
@@ -189,21 +195,21 @@ def _angle(value: float) -> str:
     return f"{round(degrees(value), 7) + 0.0:.7g}°"
 
 
-def _drive(found: Measures, value: float) -> str:
-    return _angle(value) if found.turning_drive else f"{value:.7g} {found.linkage.unit}"
+def _drive(measures: Measures, value: float) -> str:
+    return _angle(value) if measures.turning_drive else f"{value:.7g} {measures.linkage.unit}"
 
 
-def _output(found: Measures, value: float) -> str:
-    if found.output.turning:
+def _output(measures: Measures, value: float) -> str:
+    if measures.output.turning:
         return _angle(value)
-    return f"{0.0 if abs(value) < 1e-12 * found.linkage.size else value:.7g} {found.linkage.unit}"
+    return f"{0.0 if abs(value) < 1e-12 * measures.linkage.size else value:.7g} {measures.linkage.unit}"
 
 
-def measures_as_dict(found: Measures) -> dict[str, Any]:
+def measures_as_dict(measures: Measures) -> dict[str, Any]:
     """See `Measures.to_json`."""
-    turn = degrees if found.turning_drive else float
-    out = degrees if found.output.turning else float
-    span, transfer, transmission = found.span, found.transfer, found.transmission
+    turn = degrees if measures.turning_drive else float
+    out = degrees if measures.output.turning else float
+    span, transfer, transmission = measures.span, measures.transfer, measures.transmission
     rate = out(1.0) / turn(1.0)
 
     def angle(value: float | None) -> float | None:
@@ -216,20 +222,20 @@ def measures_as_dict(found: Measures) -> dict[str, Any]:
         return {"drive": turn(e.drive), "mu": degrees(e.mu), "deviation": degrees(e.deviation), "links": list(e.links)}
 
     return {
-        "output": {"name": found.output.name, "unit": "deg" if found.output.turning else found.linkage.unit},
+        "output": {"name": measures.output.name, "unit": "deg" if measures.output.turning else measures.linkage.unit},
         "drive": {
-            "unit": "deg" if found.turning_drive else found.linkage.unit,
-            "start": turn(found.start),
-            "branch": list(found.branch),
+            "unit": "deg" if measures.turning_drive else measures.linkage.unit,
+            "start": turn(measures.start),
+            "branch": list(measures.branch),
             "full": span.full,
             "turns": span.turns,
             "range": None if span.full else [turn(span.low), turn(span.high)],
             "stops": [None if s is None else {"reason": s.reason, "links": list(s.links)} for s in span.stops],
         },
-        "ends": None if found.ends is None else [out(value) for value in found.ends],
+        "ends": None if measures.ends is None else [out(value) for value in measures.ends],
         "dead_centres": [
             {"drive": turn(c.drive), "output": out(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
-            for c in found.dead_centres
+            for c in measures.dead_centres
         ],
         "dwells": [
             {
@@ -240,20 +246,20 @@ def measures_as_dict(found: Measures) -> dict[str, Any]:
                 "kind": d.kind,
                 "side": d.side,
             }
-            for d in found.dwells
+            for d in measures.dwells
         ],
-        "dwell_share": found.dwell_share,
-        "dwell_time": found.dwell_time,
-        "output_turns": found.output_turns,
-        "travel": None if found.travel is None else out(found.travel),
-        "phi_forward": angle(found.phi_forward),
-        "phi_back": angle(found.phi_back),
-        "time_ratio": found.time_ratio,
-        "speed_rpm": found.speed_rpm,
-        "times": None if found.times is None else {"forward": found.times.forward, "back": found.times.back},
+        "dwell_share": measures.dwell_share,
+        "dwell_time": measures.dwell_time,
+        "output_turns": measures.output_turns,
+        "travel": None if measures.travel is None else out(measures.travel),
+        "phi_forward": angle(measures.phi_forward),
+        "phi_back": angle(measures.phi_back),
+        "time_ratio": measures.time_ratio,
+        "speed_rpm": measures.speed_rpm,
+        "times": None if measures.times is None else {"forward": measures.times.forward, "back": measures.times.back},
         "change_points": [
             {"drive": turn(c.drive), "links": list(c.links), "form": c.form, "several": c.several}
-            for c in found.change_points
+            for c in measures.change_points
         ],
         "transfer": {
             "still": transfer.still,
@@ -273,6 +279,6 @@ def measures_as_dict(found: Measures) -> dict[str, Any]:
             "good": transmission.good,
             "extremes": [extreme(e) for e in transmission.extremes],
         },
-        "change_points_note": found.change_points_notes["en"],
-        "transmission_note": found.transmission_note,
+        "change_points_note": measures.change_points_notes["en"],
+        "transmission_note": measures.transmission_note,
     }

@@ -28,9 +28,9 @@ class Output(NamedTuple):
         """Whether it is an angle, in radians; else a way in the linkage's unit."""
         return self.joint is None
 
-    def track(self, motion: Motion, order: int = 0) -> Reals:
+    def values(self, motion: Motion, order: int = 0) -> Reals:
         """The output in a motion, or its derivative; (rows,)."""
-        return motion.angular(self.link, order) if self.joint is None else motion.slide(self.joint, order)
+        return motion.angular(self.link, order) if self.joint is None else motion.displacement(self.joint, order)
 
 
 def find_output(linkage: Linkage, output: str | None = None) -> Output:

@@ -96,14 +96,16 @@ def _pairs(linkage: Linkage) -> Iterator[tuple[int, tuple[str, str], str]]:
 
 
 @lru_cache(maxsize=32)
-def _row(made: Circuit, joint: int, links: tuple[str, str], freedom: str) -> Rotatability:
-    lowest, highest = made.range(_quantity(joint, links, freedom), 1.0 if freedom == "turn" else made.system.lower.size)
+def _row(circuit: Circuit, joint: int, links: tuple[str, str], freedom: str) -> Rotatability:
+    lowest, highest = circuit.range(
+        _quantity(joint, links, freedom), 1.0 if freedom == "turn" else circuit.system.lower.size
+    )
     turns, full = 0, False
     if freedom == "turn":
-        ends = made.angle(links[1])[[0, -1]] - made.angle(links[0])[[0, -1]]
-        turns = round(float(ends[1] - ends[0]) / (2 * pi)) if made.closed else 0
+        ends = circuit.angle(links[1])[[0, -1]] - circuit.angle(links[0])[[0, -1]]
+        turns = round(float(ends[1] - ends[0]) / (2 * pi)) if circuit.closed else 0
         full = turns != 0 or highest - lowest >= 2 * pi - _ROUND
-    name = made.linkage.mechanism.chain.joint_names()[joint]
+    name = circuit.linkage.mechanism.chain.joint_names()[joint]
     return Rotatability(name, links, freedom, full, turns, lowest, highest)
 
 
@@ -111,7 +113,7 @@ def _quantity(joint: int, links: tuple[str, str], freedom: str) -> Quantity:
     first, other = links
     if freedom == "turn":
         return lambda poses, order: poses.angle(other, order) - poses.angle(first, order)
-    return lambda poses, order: poses.slide(joint, order, across=freedom == "across")
+    return lambda poses, order: poses.displacement(joint, order, across=freedom == "across")
 
 
 def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> dict[str, Role]:
@@ -121,7 +123,7 @@ def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
     a link that is not joined to the frame is a coupler.
 
     >>> from gruebler.fourbar import FourBar
-    >>> [role.said("de") for role in motion_roles(FourBar(40, 25, 40, 60).linkage()).values()]
+    >>> [role.in_language("de") for role in motion_roles(FourBar(40, 25, 40, 60).linkage()).values()]
     ['Gestell', 'Schwinge', 'Koppel', 'Schwinge']
     """
     made = _circuit(linkage, branch)
@@ -152,5 +154,5 @@ def drive_range(linkage: Linkage | Circuit, branch: str | Iterable[str] | None =
         low, high = sorted(made.drive[[0, -1]].tolist())
         full = made.closed and round((high - low) / (2 * pi)) != 0
         return DriveRange(full or high - low >= 2 * pi - _ROUND, low, high)
-    stretch = next(s for s in made.stretches if s.start <= made.start <= s.end)
+    stretch = next(s for s in made.monotone_pieces if s.start <= made.start <= s.end)
     return DriveRange(False, *sorted(stretch.drives))

@@ -270,7 +270,7 @@ def deviation_angle(motion: Motion, output: str | None = None) -> Reals:
     return pi / 2 - transmission_angle(motion, output)
 
 
-def measure_transmission(course: DriveCycle, output: Output) -> TransmissionExtremes:
+def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtremes:
     """The extremes of the transmission angle over the whole range of the drive.
 
     They are zeros of three functions: of the turning of the force against the way, of their sine (mu = 90 degrees)
@@ -278,23 +278,23 @@ def measure_transmission(course: DriveCycle, output: Output) -> TransmissionExtr
 
     Raises `LinkageError` if there is no transmission angle, with the reason.
     """
-    legs = pushing_links(course.plan, output)
+    legs = pushing_links(cycle.plan, output)
     found = []
     for leg in legs:
-        places, ends = _stationary(course, leg)
-        values = _folded(_lines(course.at(places, 2), leg)) if len(places) else places
+        places, ends = _stationary(cycle, leg)
+        values = _folded(_lines(cycle.at(places, 2), leg)) if len(places) else places
         found += [
-            TransmissionExtremum(course.span.wrapped(float(x)), float(mu), leg.links)
+            TransmissionExtremum(cycle.span.wrapped(float(x)), float(mu), leg.links)
             for x, mu in zip(places, values, strict=True)
         ]
         found += [TransmissionExtremum(x, mu, leg.links) for x, mu in ends]
     smallest = min(found, key=lambda extreme: extreme.mu)
-    mine = [extreme for extreme in found if extreme.links == smallest.links]
-    largest = max(mine, key=lambda extreme: extreme.mu)
+    extrema = [extreme for extreme in found if extreme.links == smallest.links]
+    largest = max(extrema, key=lambda extreme: extreme.mu)
     return TransmissionExtremes(tuple(sorted(found)), smallest, largest, tuple(leg.links for leg in legs))
 
 
-def _stationary(course: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
+def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
     """Where the folded angle has a local extreme, and its values at the ends of a range."""
 
     def product(motion: Motion) -> Complexes:
@@ -303,30 +303,30 @@ def _stationary(course: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple
         return out
 
     def turning(drives: Reals) -> Reals:
-        lines = _lines(course.at(drives, 2), leg)
+        lines = _lines(cycle.at(drives, 2), leg)
         return np.imag(lines.force_rate / lines.force - lines.way_rate / lines.way)[None]
 
     def sine(drives: Reals) -> Reals:
-        return product(course.at(drives, 2)).imag[None]
+        return product(cycle.at(drives, 2)).imag[None]
 
     def cosine(drives: Reals) -> Reals:
-        return product(course.at(drives, 2)).real[None]
+        return product(cycle.at(drives, 2)).real[None]
 
-    slow = _LEAST / (1 if course.turning_drive else course.plan.lower.size)
-    angles = _folded(_lines(course.at(course.grid, 2), leg))
-    constant = not course.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
+    slow = _LEAST / (1 if cycle.turning_drive else cycle.plan.lower.size)
+    angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
+    constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
     places = [
         zero.at
         for jet, floor in ((turning, slow), (sine, _LEAST), (cosine, _LEAST))
-        for zero in (() if constant else find_zeros(jet, course.samples(2), floor))
+        for zero in (() if constant else find_zeros(jet, cycle.samples(2), floor))
     ]
-    if course.span.full:
-        return np.array(places or [course.span.low]), []
+    if cycle.span.full:
+        return np.array(places or [cycle.span.low]), []
     ends = []
-    for upper, at in ((False, course.span.low), (True, course.span.high)):
+    for upper, at in ((False, cycle.span.low), (True, cycle.span.high)):
         z = complex(
-            course.end(lambda motion: product(motion).real, upper),
-            course.end(lambda motion: product(motion).imag, upper),
+            cycle.end(lambda motion: product(motion).real, upper),
+            cycle.end(lambda motion: product(motion).imag, upper),
         )
         ends.append((at, float(np.arctan2(abs(z.real), abs(z.imag)))))
     return np.array(places), ends

@@ -50,17 +50,17 @@ def _alphabet(lang: str) -> Alphabet:
     return Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
 
 
-def decomposition_formula(found: Decomposition, lang: str) -> str:
+def decomposition_formula(decomposition: Decomposition, lang: str) -> str:
     """The structural formula."""
     words, alphabet = _WORDS[lang], _alphabet(lang)
-    drives = found.mechanism.drive_names(alphabet)
+    drives = decomposition.mechanism.drive_names(alphabet)
     head = f"{words['drive']} {', '.join(drives)}" if drives else words["none"]
-    frame = found.mechanism.frame
+    frame = decomposition.mechanism.frame
     groups = [
         f"{group.form(alphabet)}{{{_bodies(group)}{'' if frame in group.base else '; ' + _base(group, words)}}}"
-        for group in found.groups
+        for group in decomposition.groups
     ]
-    rest = [f"?{{{', '.join(found.rest)}}}"] if found.rest else []
+    rest = [f"?{{{', '.join(decomposition.rest)}}}"] if decomposition.rest else []
     return " -> ".join([head, *groups, *rest])
 
 
@@ -93,20 +93,20 @@ def explain_decomposition(found: Decomposition, lang: str) -> str:
     return "\n".join([*lines, *open_groups_message(found, lang)])
 
 
-def open_groups_message(found: Decomposition, lang: str) -> list[str]:
+def open_groups_message(decomposition: Decomposition, lang: str) -> list[str]:
     """What keeps the decomposition from being complete, a sentence or two a line; nothing if it is."""
     words = _WORDS[lang]
-    if found.report is None:
+    if decomposition.report is None:
         return []
-    lines = [words["rest"].format(links=_some(found.rest))]
-    if found.overconstrained:
+    lines = [words["rest"].format(links=_some(decomposition.rest))]
+    if decomposition.overconstrained:
         lines = [words["over"]]
         lines += [
             words["part"].format(links=_some(part.links), k=part.redundancy)
-            for part in overconstrained(generic(found.mechanism.chain))
+            for part in overconstrained(generic(decomposition.mechanism.chain))
         ]
-    if found.report.remaining or found.report.redundant_drives:
-        lines.append(found.report.explain(lang))
+    if decomposition.report.remaining or decomposition.report.redundant_drives:
+        lines.append(decomposition.report.explain(lang))
     return lines
 
 

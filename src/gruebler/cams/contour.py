@@ -178,14 +178,14 @@ class ArcContour:
         best = ContactSamples(*(np.full(angle.shape, -np.inf, dtype=kind) for kind in (float, complex, float, float)))
         for arc, after in self._neighbours():
             span = (after.start - arc.start) % math.tau or math.tau
-            for found in _arc_contacts(follower, turn, arc):
-                turned = np.mod(np.angle(found.normal / turn) - arc.start + 1e-9, math.tau)
-                best = _higher(best, found, turned <= span + 2e-9)
+            for samples in _arc_contacts(follower, turn, arc):
+                turned = np.mod(np.angle(samples.normal / turn) - arc.start + 1e-9, math.tau)
+                best = _higher(best, samples, turned <= span + 2e-9)
             normal = complex(np.exp(1j * after.start))
             ends = arc.centre + arc.radius * normal, after.centre + after.radius * normal
             if isinstance(follower, Roller) and ends[0] != ends[1]:
-                for found, place in _line_contacts(follower, turn, ends, normal):
-                    best = _higher(best, found, (place >= -1e-9) & (place <= 1 + 1e-9))
+                for samples, place in _line_contacts(follower, turn, ends, normal):
+                    best = _higher(best, samples, (place >= -1e-9) & (place <= 1 + 1e-9))
         return best
 
 
@@ -194,10 +194,10 @@ def tangent_cam(base: float, nose: float, distance: float) -> ArcContour:
     return ArcContour.hull([(0j, base), (complex(distance), nose)])
 
 
-def _higher(best: ContactSamples, found: ContactSamples, valid: NDArray[np.bool_]) -> ContactSamples:
+def _higher(best: ContactSamples, samples: ContactSamples, valid: NDArray[np.bool_]) -> ContactSamples:
     with np.errstate(invalid="ignore"):
-        better = valid & (found.coordinate > best.coordinate)
-    return ContactSamples(*(np.where(better, new, old) for new, old in zip(found, best, strict=True)))
+        better = valid & (samples.coordinate > best.coordinate)
+    return ContactSamples(*(np.where(better, new, old) for new, old in zip(samples, best, strict=True)))
 
 
 def _arc_contacts(follower: Follower, turn: ComplexArray, arc: ContourArc) -> Iterator[ContactSamples]:

@@ -102,7 +102,7 @@ class Lift:
 
     def scaled(self, factor: float) -> Lift:
         """Every lift times a factor, as from degrees to radians."""
-        return Lift(one._replace(scale=one.scale * factor) for one in self.segments)
+        return Lift(segment._replace(scale=segment.scale * factor) for segment in self.segments)
 
     @property
     def starts(self) -> tuple[float, ...]:

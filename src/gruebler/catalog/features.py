@@ -33,7 +33,7 @@ class AccessFeatures:
         """Symbols of the joints in one alphabet, how many."""
         return tuple((kind.symbol(Alphabet(alphabet)), count) for kind, count in self.joints_by_pair)
 
-    def said(self, lang: str = "en") -> tuple[tuple[str, str], ...]:
+    def described(self, lang: str = "en") -> tuple[tuple[str, str], ...]:
         """A label and a value for each of the four features."""
         words, german = _WORDS[lang], lang == "de"
         alphabet = Alphabet.GERMAN if german else Alphabet.INTERNATIONAL

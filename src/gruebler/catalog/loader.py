@@ -82,7 +82,7 @@ def entry(id: str) -> Entry:
 def check_all() -> list[CheckedEntry]:
     """Every claim of the catalog derived again: the machines, then the exercises' cases."""
     machines = [check_entry(e) for e in entries().values()]
-    return machines + [one for exercise in exercises().values() for one in check_exercise(exercise)]
+    return machines + [checked_entry for exercise in exercises().values() for checked_entry in check_exercise(exercise)]
 
 
 def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:

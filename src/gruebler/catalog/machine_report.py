@@ -118,7 +118,7 @@ def machine_report(entry: Entry) -> MachineReport:
     mechanism, placed = entry_mechanism(entry), entry.placed()
     linkage = None if entry.dimensions is None else entry.linkage()
     one, several = (linkage, None) if len(mechanism.drives) == 1 else (None, linkage if mechanism.drives else None)
-    found, points = (None, ()) if one is None else _moving(one)
+    measures, points = (None, ()) if one is None else _moving(one)
     return MachineReport(
         entry,
         mechanism,
@@ -126,10 +126,10 @@ def machine_report(entry: Entry) -> MachineReport:
         None if placed is None else _freedoms(placed),
         entry_features(entry),
         check_drives(mechanism) if mechanism.drives else None,
-        found,
+        measures,
         () if several is None else _partials(several),
         points,
-        _shown_transmission(entry, found),
+        _shown_transmission(entry, measures),
     )
 
 
@@ -164,11 +164,11 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     from gruebler.kinematics.solve import cached_plan
 
     names, plan = linkage.mechanism.drive_names(), cached_plan(linkage)
-    if plan.lower.home is None:
+    if plan.lower.reference_pose is None:
         return ()
     home = pose_at_reference(plan, np.zeros(len(names))).drives
     output = find_output(linkage)
-    values = [output.track(move(linkage, [home], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
+    values = [output.values(move(linkage, [home], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
     return tuple(Partial(output.name, *row) for row in zip(names, home.tolist(), map(float, values), strict=True))
 
 
@@ -246,7 +246,7 @@ def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]
 
     yield "mobility", found.mobility.explain(lang).splitlines()
     yield "moves", _moves_lines(found, say, lang)
-    yield "features", [f"{label}: {value}" for label, value in found.features.said(lang)]
+    yield "features", [f"{label}: {value}" for label, value in found.features.described(lang)]
     alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
     if found.drives is None:
         yield "drive", [say("hand")]
@@ -264,7 +264,10 @@ def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]
         yield "measures", lines
     elif found.partials:
         each = zip(found.partials, found.mechanism.drive_names(alphabet), strict=True)
-        yield "measures", [say("partial", output=one.output, value=one.value, drive=name) for one, name in each]
+        yield (
+            "measures",
+            [say("partial", output=partial.output, value=partial.value, drive=name) for partial, name in each],
+        )
     if found.measures is not None and found.points:
         unit = found.measures.linkage.unit
         yield "points", [say("closed" if p.closed else "open", unit=unit, **p._asdict()) for p in found.points]
@@ -277,7 +280,7 @@ def _moves_lines(found: MachineReport, say: Any, lang: str) -> list[str]:
         return [line for line in found.freedoms.explain(lang).splitlines() if not line.endswith(told)]
     if claims.mobility is None:
         return [say("generic", mobility=found.moves)]
-    return [say("claimed", mobility=claims.mobility, reason=claims.reason.said(lang) if claims.reason else "")]
+    return [say("claimed", mobility=claims.mobility, reason=claims.reason.in_language(lang) if claims.reason else "")]
 
 
 def _dimension_lines(entry: Entry, say: Any) -> list[str]:

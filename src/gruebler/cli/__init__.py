@@ -31,7 +31,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = int(import_module(arguments.run).run(arguments))
         sys.stdout.flush()
     except GrueblerError as error:
-        print(f"gruebler {arguments.command}: {error.said(getattr(arguments, 'lang', 'en'))}", file=sys.stderr)
+        print(f"gruebler {arguments.command}: {error.in_language(getattr(arguments, 'lang', 'en'))}", file=sys.stderr)
         return 2
     except MemoryError:
         print(f"gruebler {arguments.command}: this needs more memory than there is", file=sys.stderr)

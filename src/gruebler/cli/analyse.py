@@ -77,7 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
     order = 3 if arguments.jerk else 2
     outputs = [find_output(linkage, name) for name in arguments.output or linkage.outputs or [None]]
     for name in arguments.point:
-        linkage.named(name)
+        linkage.points_named(name)
     if arguments.branch is not None:
         read_branch(plan, arguments.branch)
     given = given_rows(arguments.drive, arguments.at, turning)
@@ -101,9 +101,9 @@ def run(arguments: argparse.Namespace) -> int:
         made = columns(motion, outputs, arguments.point) if len(motion) else []
         return _tell(linkage, None, motion, made, arguments)
     try:
-        found = _measured(linkage, outputs[0], turning[0], arguments)
+        measures = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
-        text = error.said(arguments.lang)
+        text = error.in_language(arguments.lang)
         message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
         if arguments.json:
             none = {"columns": [], "rows": [], "complete": False, "message": message}
@@ -111,15 +111,15 @@ def run(arguments: argparse.Namespace) -> int:
         else:
             print(message)
         return 1
-    rows = default_rows(found.span, shown_range, turning[0]) if given is None else given
-    motion, before = _moved(linkage, found, rows, arguments.branch, order)
+    rows = default_rows(measures.span, shown_range, turning[0]) if given is None else given
+    motion, before = _moved(linkage, measures, rows, arguments.branch, order)
     made = []
     if len(motion):
-        angle = None if found.transmission is None else transmission_angle(motion, found.output.name)
+        angle = None if measures.transmission is None else transmission_angle(motion, measures.output.name)
         rates = (speeds[0], accelerations[0], jerks[0]) if speeds else None
         made = columns(motion, outputs, arguments.point, rates, angle, _WORDS[arguments.lang]["mu"])
         made += _geometry(motion, outputs, arguments)
-    return _tell(linkage, found, motion, [column.without(before) for column in made], arguments)
+    return _tell(linkage, measures, motion, [column.without(before) for column in made], arguments)
 
 
 # --- what was asked for ----------------------------------------------------------------------------
@@ -159,12 +159,12 @@ def _measured(linkage: Linkage, output: Output, turning: bool, arguments: argpar
     return measures(linkage, rpm, arguments.branch, output.name)
 
 
-def _moved(linkage: Linkage, found: Measures, rows: Reals, branch: str | None, order: int) -> tuple[Motion, int]:
+def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None, order: int) -> tuple[Motion, int]:
     """The rows on the branch of the measures, reached from where these begin; else, if it can be, from the first row.
 
     Second comes how many rows at the beginning were not asked for.
     """
-    motion = move(linkage, np.concatenate([[[found.start]], rows]), branch=found.branch, speed=1.0, order=order)
+    motion = move(linkage, np.concatenate([[[measures.start]], rows]), branch=measures.branch, speed=1.0, order=order)
     return (motion, 1) if len(motion) > 1 else (move(linkage, rows, branch=branch, speed=1.0, order=order), 0)
 
 
@@ -183,9 +183,9 @@ def _listed(arguments: argparse.Namespace) -> bool:
     return bool(arguments.poles and arguments.at and not arguments.json and arguments.csv is None)
 
 
-def _others(linkage: Linkage, found: Measures) -> list[str]:
-    branches = all_branches(cached_plan(linkage), np.array([found.start]))
-    others = [_label(branch) for branch in islice(branches, _MOST_BRANCHES) if branch != tuple(found.branch)]
+def _others(linkage: Linkage, measures: Measures) -> list[str]:
+    branches = all_branches(cached_plan(linkage), np.array([measures.start]))
+    others = [_label(branch) for branch in islice(branches, _MOST_BRANCHES) if branch != tuple(measures.branch)]
     return [*others, "…"] if next(branches, None) is not None else others
 
 
@@ -219,30 +219,30 @@ def _tell(
     return 0 if motion.complete else 1
 
 
-def _say(linkage: Linkage, found: Measures, words: dict[str, str], lang: str) -> None:
-    print_text(found.explain(lang))
-    made = _circuit(linkage, found)
+def _say(linkage: Linkage, measures: Measures, words: dict[str, str], lang: str) -> None:
+    print_text(measures.explain(lang))
+    made = _circuit(linkage, measures)
     if isinstance(made, LinkageError):
-        print(words["unknown"].format(why=made.said(lang)))
+        print(words["unknown"].format(why=made.in_language(lang)))
     else:
         roles = motion_roles(made).items()
-        moving = (f"{link} = {role.said(lang)}" for link, role in roles if link != linkage.mechanism.frame)
+        moving = (f"{link} = {role.in_language(lang)}" for link, role in roles if link != linkage.mechanism.frame)
         print(words["roles"].format(roles=", ".join(moving)))
         pairs = (f"{row.joint} {_extent(row, linkage.unit, words)}" for row in rotatability(made))
         print(words["pairs"].format(pairs=", ".join(pairs)))
-    if found.branch:
-        print(words["branch"].format(branch=_label(found.branch)))
-        if others := _others(linkage, found):
+    if measures.branch:
+        print(words["branch"].format(branch=_label(measures.branch)))
+        if others := _others(linkage, measures):
             print(words["others"].format(others=", ".join(others)))
     print()
 
 
-def _circuit(linkage: Linkage, found: Measures) -> Circuit | LinkageError:
+def _circuit(linkage: Linkage, measures: Measures) -> Circuit | LinkageError:
     """The circuit of the measures' branch, or why it cannot be followed."""
     from gruebler.kinematics.circuits import circuit
 
     try:
-        return circuit(linkage, branch=found.branch)
+        return circuit(linkage, branch=measures.branch)
     except LinkageError as error:
         return error
 

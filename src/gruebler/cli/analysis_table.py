@@ -89,13 +89,13 @@ def columns(
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in outputs:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
-        out.append(_scaled(output.name, output.turning, linkage, output.track(motion)))
+        out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
         for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
-            by_drive = output.track(motion, order)
+            by_drive = output.values(motion, order)
             out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), by_drive, natural / unit**order))
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
-            values = in_time(order, partial(output.track, motion))
+            values = in_time(order, partial(output.values, motion))
             out.append(Column(name, f"{own}/{_seconds(order)}", values, natural * usual[order - 1] / unit**order))
     if transmission is not None:
         out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))

@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
         curves=arguments.curve,
         seconds=arguments.seconds,
         lang=arguments.lang,
-        name="" if record is None else record.name.said(arguments.lang),
+        name="" if record is None else record.name.in_language(arguments.lang),
     )
     content = _content(linkage, suffix, options, dark)
     if arguments.output is None:

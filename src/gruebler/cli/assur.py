@@ -37,15 +37,19 @@ def run(arguments: argparse.Namespace) -> int:
         items = [{"code": _code(one.mechanism), "text": str(one.mechanism), **_verdict(one)} for one in choices]
         _print(items, arguments, lambda: _compare(choices, arguments.lang))
         return 0
-    one = decompose(mechanism)
-    about = {"code": _code(mechanism), "text": str(mechanism), **_verdict(one)}
-    about |= {"drives": list(mechanism.drive_names()), "driven": list(one.driven), "rest": list(one.rest)}
-    if not one.complete:
-        about["message"] = one.message(arguments.lang)
+    decomposition = decompose(mechanism)
+    about = {"code": _code(mechanism), "text": str(mechanism), **_verdict(decomposition)}
+    about |= {
+        "drives": list(mechanism.drive_names()),
+        "driven": list(decomposition.driven),
+        "rest": list(decomposition.rest),
+    }
+    if not decomposition.complete:
+        about["message"] = decomposition.message(arguments.lang)
     names = mechanism.chain.joint_names()
-    items = [_item(group, names) for group in one.groups]
-    _print(items, arguments, lambda: print_text(one.explain(arguments.lang)), about)
-    return int(not one.complete)
+    items = [_item(group, names) for group in decomposition.groups]
+    _print(items, arguments, lambda: print_text(decomposition.explain(arguments.lang)), about)
+    return int(not decomposition.complete)
 
 
 def _print(
@@ -62,8 +66,8 @@ def _print(
         say()
 
 
-def _verdict(one: Decomposition) -> dict[str, Any]:
-    return {"formula": one.formula(), "class": one.class_number, "complete": one.complete}
+def _verdict(decomposition: Decomposition) -> dict[str, Any]:
+    return {"formula": decomposition.formula(), "class": decomposition.class_number, "complete": decomposition.complete}
 
 
 def _item(group: SolvedGroup, names: tuple[str, ...]) -> dict[str, Any]:
@@ -107,14 +111,14 @@ def _compare(choices: list[Decomposition], lang: str) -> None:
     alphabet = "german" if lang == "de" else "international"
     rows = [
         (
-            ", ".join(one.mechanism.drive_names(alphabet)),
-            roman(one.class_number) if one.complete else "-",
-            _after(one, lang),
+            ", ".join(decomposition.mechanism.drive_names(alphabet)),
+            roman(decomposition.class_number) if decomposition.complete else "-",
+            _after(decomposition, lang),
         )
-        for one in choices
+        for decomposition in choices
     ]
     print_table(_CHOICES[lang], rows)
 
 
-def _after(one: Decomposition, lang: str) -> str:
-    return one.formula(lang).partition(" -> ")[2]
+def _after(decomposition: Decomposition, lang: str) -> str:
+    return decomposition.formula(lang).partition(" -> ")[2]

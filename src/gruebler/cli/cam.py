@@ -174,7 +174,10 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
 
 def _parts(cam: Cam) -> list[tuple[LiftSegment, float, float]]:
     scale = 180 / math.pi if cam.follower.swings else 1.0
-    return [(one, start, one.change * scale) for one, start in zip(cam.lift.segments, cam.lift.starts, strict=True)]
+    return [
+        (segment, start, segment.change * scale)
+        for segment, start in zip(cam.lift.segments, cam.lift.starts, strict=True)
+    ]
 
 
 def _table(cam: Cam, degrees: NDArray[np.float64]) -> list[list[float]]:
@@ -202,19 +205,19 @@ def _print(cam: Cam, table: list[list[float]] | None, words: dict[str, Any]) -> 
         size = f"{jump.size * scale:+.6g}{unit}"
         print(words["jump"].format(at=_degrees(jump.at), what=what, size=size, square=square, effect=effect))
     print()
-    found = cam.findings()
+    report = cam.findings()
     lines: list[tuple[str, CamExtremum | None, bool]] = [
-        ("pressure_least", found.pressure[0], True),
-        ("pressure_greatest", found.pressure[1], True),
-        ("convex", found.convex, False),
-        ("hollow", found.hollow, False),
+        ("pressure_least", report.pressure[0], True),
+        ("pressure_greatest", report.pressure[1], True),
+        ("convex", report.convex, False),
+        ("hollow", report.hollow, False),
     ]
     if isinstance(cam.follower, Flat):
-        lines += [("face_least", found.face[0], False), ("face_greatest", found.face[1], False)]
+        lines += [("face_least", report.face[0], False), ("face_greatest", report.face[1], False)]
     cells = [(words[key], _said(one.value, angle), f"{_degrees(one.at)}°") for key, one, angle in lines if one]
     print_table(words["finding"], cells, numbers=(1, 2))
     roller = words["smaller"] if isinstance(cam.follower, Roller) and cam.follower.radius else ""
-    print(words["undercut"].format(at=_degrees(found.room.at), roller=roller) if found.undercut else words["fine"])
+    print(words["undercut"].format(at=_degrees(report.room.at), roller=roller) if report.undercut else words["fine"])
     if table is not None:
         print()
         marks = ("°", unit, "", "", "°", "", "", "")
@@ -230,20 +233,22 @@ def _said(value: float, angle: bool) -> str:
 
 
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
-    found = cam.findings()
+    report = cam.findings()
 
     def told(one: CamExtremum | None, angle: bool = False) -> dict[str, float] | None:
         return one and {"value": math.degrees(one.value) if angle else one.value, "at_deg": math.degrees(one.at)}
 
     document: dict[str, Any] = {
-        "parts": [_part(one, start, change) for one, start, change in _parts(cam)],
-        "jumps": [{"at_deg": math.degrees(one.at), "order": one.order, "size": one.size} for one in cam.lift.jumps()],
+        "parts": [_part(segment, start, change) for segment, start, change in _parts(cam)],
+        "jumps": [
+            {"at_deg": math.degrees(jump.at), "order": jump.order, "size": jump.size} for jump in cam.lift.jumps()
+        ],
         "start": math.degrees(cam.start) if cam.follower.swings else cam.start,
-        "pressure_angle_deg": [told(one, angle=True) for one in found.pressure],
-        "convex_radius": told(found.convex),
-        "hollow_radius": told(found.hollow),
-        "face": [told(one) for one in found.face] if isinstance(cam.follower, Flat) else None,
-        "undercut": found.undercut,
+        "pressure_angle_deg": [told(extremum, angle=True) for extremum in report.pressure],
+        "convex_radius": told(report.convex),
+        "hollow_radius": told(report.hollow),
+        "face": [told(one) for one in report.face] if isinstance(cam.follower, Flat) else None,
+        "undercut": report.undercut,
     }
     if table is not None:
         keys = ("cam_deg", "lift", "velocity", "acceleration", "pressure_angle_deg", "radius", "x", "y")
@@ -251,6 +256,6 @@ def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     return document
 
 
-def _part(one: LiftSegment, start: float, change: float) -> dict[str, Any]:
-    name = one.law.name if one.law else None
-    return {"from_deg": math.degrees(start), "angle_deg": math.degrees(one.angle), "lift": change, "law": name}
+def _part(segment: LiftSegment, start: float, change: float) -> dict[str, Any]:
+    name = segment.law.name if segment.law else None
+    return {"from_deg": math.degrees(start), "angle_deg": math.degrees(segment.angle), "lift": change, "law": name}

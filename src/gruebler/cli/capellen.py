@@ -35,15 +35,15 @@ _WORDS: dict[str, dict[str, Any]] = {
 
 def run(arguments: argparse.Namespace) -> int:
     """The double rocker of a ratio, or both of an angle."""
-    made = _made(arguments)
+    symmetric_rockers = _made(arguments)
     if arguments.json:
-        print_json([_item(one) for one in made])
+        print_json([_item(one) for one in symmetric_rockers])
         return 0
     words = _WORDS[arguments.lang]
-    for number, one in enumerate(made):
-        found = one.contact()
+    for number, one in enumerate(symmetric_rockers):
+        lever_contact = one.contact()
         print("\n" * (number > 0), end="")
-        said = words["about"].format(**_about(one), points=found.points, coefficient=found.coefficient)
+        said = words["about"].format(**_about(one), points=lever_contact.points, coefficient=lever_contact.coefficient)
         print(numbers_in_language(said, arguments.lang))
         rows = [_row(words[key], lever, arguments.lang) for key, lever in _levers(one)]
         print_table(words["headers"], rows, numbers=range(1, 8))
@@ -83,9 +83,9 @@ def _about(one: SymmetricRocker) -> dict[str, float]:
 
 
 def _item(one: SymmetricRocker) -> dict[str, Any]:
-    found = one.contact()
+    lever_contact = one.contact()
     out: dict[str, Any] = {"lambda": one.ratio, "phi0_deg": math.degrees(one.phi0), "D": one.diameter}
-    out["contact"] = {"points": found.points, "coefficient": found.coefficient}
+    out["contact"] = {"points": lever_contact.points, "coefficient": lever_contact.coefficient}
     for key, lever in _levers(one):
         out[key] = _lengths(lever) | {"kappa_deg": math.degrees(lever.kappa), "type": lever.size.type.key}
     return out

@@ -77,18 +77,18 @@ def _list(arguments: argparse.Namespace) -> None:
     rows = []
     for machine in machines:
         chain = machine.chain()
-        rows.append((machine.id, machine.name.said(lang), str(chain.n), str(counted(chain)), machine.source))
+        rows.append((machine.id, machine.name.in_language(lang), str(chain.n), str(counted(chain)), machine.source))
     print_table(_HEADERS[lang], rows, numbers=(2, 3))
     print("\n" + _EXERCISES[lang])
-    print_table(_EXERCISE_HEADERS[lang], [(task.id, task.name.said(lang), task.source) for task in tasks])
+    print_table(_EXERCISE_HEADERS[lang], [(task.id, task.name.in_language(lang), task.source) for task in tasks])
 
 
 def _shown(record: Entry | Exercise, lang: str) -> str:
-    title = f"{record.name.said(lang)} ({record.id})"
+    title = f"{record.name.in_language(lang)} ({record.id})"
     lines = [title, "-" * len(title), f"{_label('source', lang)}: {record.source}"]
     if isinstance(record, Exercise):
-        lines.append(f"{_label('task', lang)}: {record.task.said(lang)}")
-        lines += [f"{_label('case', lang)}: {c.name.said(lang)} ({c.machine})" for c in record.cases]
+        lines.append(f"{_label('task', lang)}: {record.task.in_language(lang)}")
+        lines += [f"{_label('case', lang)}: {c.name.in_language(lang)} ({c.machine})" for c in record.cases]
         return "\n".join(lines)
     chain, alphabet = record.chain(), "german" if lang == "de" else "international"
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
@@ -107,7 +107,7 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
     if record.figure_lost:
         lines.append(_label("lost", lang))
     if record.remark:
-        lines.append(f"{_label('remark', lang)}: {record.remark.said(lang)}")
+        lines.append(f"{_label('remark', lang)}: {record.remark.in_language(lang)}")
     return "\n".join(lines)
 
 

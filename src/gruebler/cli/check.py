@@ -52,40 +52,46 @@ _ENDINGS = (".toml", ".json", ".txt", ".g6")  # of files with chains; without an
 
 def run(arguments: argparse.Namespace) -> int:
     """Check what the arguments name; 1 if a claim fails."""
-    found = [one for word in arguments.chains for one in _checked(word, arguments)] if arguments.chains else check_all()
+    checked_entries = (
+        [checked_entry for word in arguments.chains for checked_entry in _checked(word, arguments)]
+        if arguments.chains
+        else check_all()
+    )
     if arguments.json:
-        print_json([checked_as_dict(one) for one in found])
+        print_json([checked_as_dict(one) for one in checked_entries])
     elif arguments.explain:
-        print_text("\n\n".join(explanation(one, arguments.lang) for one in found))
+        print_text("\n\n".join(explanation(one, arguments.lang) for one in checked_entries))
     else:
-        print_checked(found, arguments.lang)
-    _complain(found)
-    return int(any(not one.holds for one in found))
+        print_checked(checked_entries, arguments.lang)
+    _complain(checked_entries)
+    return int(any(not one.holds for one in checked_entries))
 
 
-def checked_as_dict(one: CheckedEntry) -> dict[str, Any]:
+def checked_as_dict(checked_entry: CheckedEntry) -> dict[str, Any]:
     """One object of the list that --json prints."""
-    holds = None if one.claims == Claims() else one.holds
-    finite = None if one.freedoms is None else one.freedoms.to_json()["finite"]
-    return {"name": one.id, **one.report.to_json(), "finite": finite, "claims_hold": holds}
+    holds = None if checked_entry.claims == Claims() else checked_entry.holds
+    finite = None if checked_entry.freedoms is None else checked_entry.freedoms.to_json()["finite"]
+    return {"name": checked_entry.id, **checked_entry.report.to_json(), "finite": finite, "claims_hold": holds}
 
 
 def print_checked(found: Iterable[CheckedEntry], lang: str) -> None:
     """The table, and a line that sums it up where there are claims."""
     rows = []
     claims = []
-    for one in found:
-        holds = None if one.claims == Claims() else one.holds
+    for checked_entry in found:
+        holds = None if checked_entry.claims == Claims() else checked_entry.holds
         claims.append(holds)
         rows.append(
             (
-                one.id if len(one.id) <= _WIDEST_NAME else one.id[: _WIDEST_NAME - 3] + "...",
-                str(one.report.chain.n),
-                " ".join(f"g{f}={g}" for f, g in one.report.count.by_freedom),
-                str(one.report.counted),
-                str(one.report.generic),
-                verdict_word(one.report.verdict, lang),
-                _MOVES[lang].format(one.claims.mobility) if _moves_otherwise(one) else "",
+                checked_entry.id
+                if len(checked_entry.id) <= _WIDEST_NAME
+                else checked_entry.id[: _WIDEST_NAME - 3] + "...",
+                str(checked_entry.report.chain.n),
+                " ".join(f"g{f}={g}" for f, g in checked_entry.report.count.by_freedom),
+                str(checked_entry.report.counted),
+                str(checked_entry.report.generic),
+                verdict_word(checked_entry.report.verdict, lang),
+                _MOVES[lang].format(checked_entry.claims.mobility) if _moves_otherwise(checked_entry) else "",
                 _CLAIMS[lang][holds],
             )
         )
@@ -95,40 +101,42 @@ def print_checked(found: Iterable[CheckedEntry], lang: str) -> None:
         print("\n" + _SUMMARY[lang][wrong > 0].format(n=len(rows), wrong=wrong))
 
 
-def explanation(one: CheckedEntry, lang: str) -> str:
+def explanation(checked_entry: CheckedEntry, lang: str) -> str:
     """The report in words under the entry's name, with what the entry adds to it."""
-    known = entries().get(one.id) if one.origin else None
-    title = f"{known.name.said(lang)} ({one.id})" if known else one.id
-    lines = [title, "-" * len(title), one.report.explain(lang)]
-    claims = one.claims
-    if claims.reason is not None and _moves_otherwise(one):
-        clusters = one.report.rigid_clusters or (one.report.chain.links,)
+    known = entries().get(checked_entry.id) if checked_entry.origin else None
+    title = f"{known.name.in_language(lang)} ({checked_entry.id})" if known else checked_entry.id
+    lines = [title, "-" * len(title), checked_entry.report.explain(lang)]
+    claims = checked_entry.claims
+    if claims.reason is not None and _moves_otherwise(checked_entry):
+        clusters = checked_entry.report.rigid_clusters or (checked_entry.report.chain.links,)
         lines.append(
             _TRUTH[lang].format(
                 mobility=claims.mobility,
-                generic=one.report.generic,
-                reason=claims.reason.said(lang),
+                generic=checked_entry.report.generic,
+                reason=claims.reason.in_language(lang),
                 links=", ".join(link for cluster in clusters for link in cluster),
             )
         )
     if claims.group is not None:
         lines.append(
-            _GROUP[lang].format(b=claims.group.b, counted=claims.group.counted, reason=claims.group.reason.said(lang))
+            _GROUP[lang].format(
+                b=claims.group.b, counted=claims.group.counted, reason=claims.group.reason.in_language(lang)
+            )
         )
-    if one.freedoms is not None:
-        lines.append(one.freedoms.summary(lang))
+    if checked_entry.freedoms is not None:
+        lines.append(checked_entry.freedoms.summary(lang))
     return "\n".join(lines)
 
 
-def _moves_otherwise(one: CheckedEntry) -> bool:
+def _moves_otherwise(checked_entry: CheckedEntry) -> bool:
     """Whether the entry claims a mobility that only its special dimensions give."""
-    return one.claims.mobility is not None and one.claims.mobility != one.report.generic
+    return checked_entry.claims.mobility is not None and checked_entry.claims.mobility != checked_entry.report.generic
 
 
 def _complain(found: Iterable[CheckedEntry]) -> None:
-    for one in found:
-        for claim in one.wrong:
-            print(f"{one.origin or one.id}: {claim}", file=sys.stderr)
+    for checked_entry in found:
+        for claim in checked_entry.wrong:
+            print(f"{checked_entry.origin or checked_entry.id}: {claim}", file=sys.stderr)
 
 
 def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:

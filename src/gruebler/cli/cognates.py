@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         raise GrueblerError("cognates are known of the four-bar and the slider-crank, not of its inversion")
     if arguments.json:
-        print_json({"cognates": [_item(one) for one in found]})
+        print_json({"cognates": [_item(cognate) for cognate in found]})
     else:
         _say(found, arguments.lang)
     return 0
@@ -85,8 +85,8 @@ def _say(found: Sequence[Cognate], lang: str) -> None:
         print(words["third"].format(x=third.real, y=third.imag, far=abs(third)))
     else:
         print(words["infinity"])
-    for n, one in enumerate(found[1:], 2):
-        pairs = zip(("crank", "coupler", "rocker"), one.turns_with, strict=False)
+    for n, cognate in enumerate(found[1:], 2):
+        pairs = zip(("crank", "coupler", "rocker"), cognate.turns_with, strict=False)
         links = ", ".join(words["like"].format(link=words[own], other=words[other]) for own, other in pairs)
         print(words["turning"].format(n=n, links=links))
 

@@ -91,8 +91,14 @@ def coverage_rows() -> tuple[Row, ...]:
     if strange := sorted(set(told) - set(entries())):
         raise fail(f"machines: the catalog has no entry {strange[0]!r}")
     concepts = [
-        Row(one.where, one.en, one.de, (*((c, 0) for c in one.commands), *((c, 2) for c in one.refused)), one.functions)
-        for one in table.concepts
+        Row(
+            concept.where,
+            concept.en,
+            concept.de,
+            (*((c, 0) for c in concept.commands), *((c, 2) for c in concept.refused)),
+            concept.functions,
+        )
+        for concept in table.concepts
     ]
     machines = [
         Row(entry.id, entry.name.en, entry.name.de, tuple((c, 0) for c in told.get(entry.id, ())), ())
@@ -161,7 +167,7 @@ def run(arguments: argparse.Namespace) -> int:
     outcomes: dict[str, Outcome] = {}
     if arguments.execute:
         wanted = {command: status for row in chosen for command, status in row.commands}
-        outcomes = {one.command: one for one in _executed(wanted)}
+        outcomes = {outcome.command: outcome for outcome in _executed(wanted)}
     absent = {name for row in chosen for name in row.functions if arguments.execute and find_function(name) is None}
     if arguments.json:
         print_json([_document(row, outcomes, absent) for row in chosen])
@@ -213,7 +219,7 @@ def _tell(chosen: Sequence[Row], outcomes: dict[str, Outcome], absent: set[str],
     print()
     print(words["sum"].format(rows=len(chosen), commands=len(commands), functions=len(functions), missing=missing))
     if arguments.execute:
-        good = sum(one.good for one in outcomes.values())
+        good = sum(outcome.good for outcome in outcomes.values())
         there = len(functions) - len(absent)
         print(words["ran"].format(good=good, commands=len(commands), there=there, functions=len(functions)))
 

@@ -79,7 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
     found = coupler_curve(
         linkage, point_of(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance, drives=path
     )
-    turning = found.trail.course.turning_drive
+    turning = found.point_path.cycle.turning_drive
     drives = [math.radians(value) if turning else value for value in arguments.contact]
     contacts = [found.contact(drive) for drive in drives]
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
@@ -93,7 +93,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _polygon(found: CouplerCurve) -> list[Column]:
-    linkage, z = found.trail.course.linkage, found.points
+    linkage, z = found.point_path.cycle.linkage, found.points
     values = _values(found, found.drives)
     units = ["°" if drive.direction.startswith("R") else linkage.unit for drive in linkage.mechanism.drives]
     return [
@@ -106,7 +106,7 @@ def _polygon(found: CouplerCurve) -> list[Column]:
 
 def _values(found: CouplerCurve, at: Reals) -> Reals:
     """The values of all drives, turning ones in degrees; (n, drives)."""
-    course = found.trail.course
+    course = found.point_path.cycle
     values = course.values(at) if isinstance(course, PathCycle) else np.asarray(at)[:, None]
     turning = [drive.direction.startswith("R") for drive in course.linkage.mechanism.drives]
     return np.where(turning, np.degrees(values), values)
@@ -118,17 +118,17 @@ def _values(found: CouplerCurve, at: Reals) -> Reals:
 def _say(
     found: CouplerCurve, contacts: list[tuple[float, TangentContact]], directions: tuple[float, ...], lang: str
 ) -> None:
-    words, unit = _WORDS[lang], found.trail.course.linkage.unit
+    words, unit = _WORDS[lang], found.point_path.cycle.linkage.unit
     if found.area is not None:
         print(words["closed"].format(length=found.length, area=round(found.area, 9) + 0.0, unit=unit))
     else:
-        low, high = (_drive(found, value) for value in found.trail.course.span[:2])
+        low, high = (_drive(found, value) for value in found.point_path.cycle.span[:2])
         print(words["open"].format(low=low, high=high, length=found.length, unit=unit))
     if found.retraced:
         print(words["retraced"])
-    for drive, one in contacts:
-        key = "straight" if one.points is None else "contact"
-        print(words[key].format(drive=_drive(found, drive), points=one.points, coefficient=one.coefficient))
+    for drive, contact in contacts:
+        key = "straight" if contact.points is None else "contact"
+        print(words[key].format(drive=_drive(found, drive), points=contact.points, coefficient=contact.coefficient))
     rows = _rows(found, directions, words)
     print()
     if rows:
@@ -138,21 +138,21 @@ def _say(
 
 
 def _rows(found: CouplerCurve, directions: tuple[float, ...], words: dict[str, str]) -> list[list[str]]:
-    unit = found.trail.course.linkage.unit
+    unit = found.point_path.cycle.linkage.unit
     rows = []
 
     def add(what: str, drives: tuple[float, ...], at: complex, note: str) -> None:
-        noise = 1e-9 * found.trail.size
+        noise = 1e-9 * found.point_path.size
         places = [f"{value if abs(value) > noise else 0.0:.6g}" for value in (at.real, at.imag)]
         rows.append([what, ", ".join(_drive(found, drive) for drive in drives), *places, note])
 
     for cusp in found.cusps:
         add(words["cusp"], (cusp.drive,), cusp.at, words["tangent"].format(direction=_axis(cusp.direction)))
-    for one in found.inflections:
-        what = words["flat" if one.flat else "inflection"]
-        add(what, (one.drive,), one.at, words["tangent"].format(direction=_axis(one.direction)))
+    for inflection in found.inflections:
+        what = words["flat" if inflection.flat else "inflection"]
+        add(what, (inflection.drive,), inflection.at, words["tangent"].format(direction=_axis(inflection.direction)))
     for top in found.vertices:
-        straight = abs(top.curvature) * found.trail.size < 1e-9
+        straight = abs(top.curvature) * found.point_path.size < 1e-9
         radius = math.inf if straight else 1 / top.curvature
         add(words["vertex"], (top.drive,), top.at, words["radius"].format(radius=radius, unit=unit).replace("inf", "∞"))
     for double in found.double_points:
@@ -170,7 +170,7 @@ def _axis(angle: float) -> float:
 
 
 def _drive(found: CouplerCurve, value: float) -> str:
-    linkage = found.trail.course.linkage
+    linkage = found.point_path.cycle.linkage
     said = []
     for drive, one in zip(linkage.mechanism.drives, _values(found, np.array([value]))[0], strict=True):
         turning = drive.direction.startswith("R")
@@ -179,7 +179,7 @@ def _drive(found: CouplerCurve, value: float) -> str:
 
 
 def _document(found: CouplerCurve, contacts: list[TangentContact], directions: tuple[float, ...]) -> dict[str, Any]:
-    path = isinstance(found.trail.course, PathCycle)
+    path = isinstance(found.point_path.cycle, PathCycle)
 
     def told(one: Any) -> dict[str, Any]:
         """An event as its fields, drives in degrees."""
@@ -199,13 +199,13 @@ def _document(found: CouplerCurve, contacts: list[TangentContact], directions: t
         "length": found.length,
         "area": found.area,
         "retraced": found.retraced,
-        "cusps": [told(one) for one in found.cusps],
-        "inflections": [told(one) for one in found.inflections],
-        "vertices": [told(one) for one in found.vertices],
-        "double_points": [told(one) for one in found.double_points],
+        "cusps": [told(cusp) for cusp in found.cusps],
+        "inflections": [told(inflection) for inflection in found.inflections],
+        "vertices": [told(vertex) for vertex in found.vertices],
+        "double_points": [told(double_point) for double_point in found.double_points],
         "turning_points": {
-            f"{direction:g}": [told(one) for one in found.turning_points(math.radians(direction))]
+            f"{direction:g}": [told(turning_point) for turning_point in found.turning_points(math.radians(direction))]
             for direction in directions
         },
-        "contacts": [{"points": one.points, "coefficient": one.coefficient} for one in contacts],
+        "contacts": [{"points": contact.points, "coefficient": contact.coefficient} for contact in contacts],
     }

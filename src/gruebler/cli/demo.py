@@ -15,8 +15,8 @@ _EXPLAINED = ("vcomp", "diff", "loco3", "quad_strut")
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the catalog's table, then the four explanations; 1 if a claim fails."""
-    found = check_all()
-    print_checked(found, arguments.lang)
+    checked_entries = check_all()
+    print_checked(checked_entries, arguments.lang)
     for id in _EXPLAINED:
         print_text("\n" + explanation(check_entry(entry(id)), arguments.lang))
-    return int(any(not one.holds for one in found))
+    return int(any(not checked_entry.holds for checked_entry in checked_entries))

@@ -107,7 +107,7 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     if view is None and (has_sizes or asked):
         return _to_scale(arguments, moving)
     record = entry_of(arguments.chain)
-    name = "" if record is None else record.name.said(arguments.lang)
+    name = "" if record is None else record.name.in_language(arguments.lang)
     if has_sizes:
         thing: Chain | Mechanism = linkage_of(arguments.chain)[0].mechanism
     else:
@@ -139,7 +139,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
         ghost=moving["ghosts"],
         labels=arguments.labels,
         lang=arguments.lang,
-        name="" if record is None else record.name.said(arguments.lang),
+        name="" if record is None else record.name.in_language(arguments.lang),
         names=german(record, arguments.lang),
     )
 

@@ -151,7 +151,7 @@ def _count(
     size: Estimate,
 ) -> int:
     with _drawn(arguments.lang) as draw:
-        found = run_count(
+        count = run_count(
             request,
             orbits=arguments.orbits,
             executor=executor,
@@ -159,15 +159,15 @@ def _count(
             progress=draw,
             expected=size.chains,
         )
-    document = found.to_json()
+    document = count.to_json()
     if request.fractionated == "all":
-        document["by_fractionation"] = found.by_fractionation
+        document["by_fractionation"] = count.by_fractionation
     if arguments.output is not None:
         write_file(arguments.output, (json.dumps(document, indent=2) + "\n").encode(), arguments.lang)
     elif arguments.json:
         print_json(document)
     else:
-        _print_count(found, request, arguments.lang)
+        _print_count(count, request, arguments.lang)
     return 0
 
 

@@ -54,8 +54,8 @@ def run(arguments: argparse.Namespace) -> int:
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(f"--count is a number from 1 to {_MOST}, not {arguments.count}")
             seeds = range(arguments.seed, arguments.seed + arguments.count)
-            made = [generate(arguments.kind, seed, arguments.level) for seed in seeds]
-            _tell(made, arguments, solved=arguments.solutions)
+            exercises = [generate(arguments.kind, seed, arguments.level) for seed in seeds]
+            _tell(exercises, arguments, solved=arguments.solutions)
         case "check":
             return _mark(exercise(arguments.id), arguments)
     return 0
@@ -67,7 +67,7 @@ def _list(arguments: argparse.Namespace) -> None:
         print_json([task_as_dict(one) for one in found])
         return
     lang = arguments.lang
-    print_table(_HEADERS[lang], [(one.id, one.name.said(lang), source_text(one.source, lang)) for one in found])
+    print_table(_HEADERS[lang], [(one.id, one.name.in_language(lang), source_text(one.source, lang)) for one in found])
 
 
 def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
@@ -101,13 +101,13 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
 
 def _say(task: Exercise, marks: list[Grade], lang: str) -> None:
     for one in marks:
-        line = f"{ascii_key(one.key)} = {one.answer}: {_MARKS[one.mark].said(lang)}"
+        line = f"{ascii_key(one.key)} = {one.answer}: {_MARKS[one.mark].in_language(lang)}"
         if one.mark is Mark.RIGHT:
             line += f" ({value_text(one.result.value, one.result.unit, lang)})"
-        print(line + (f". {one.hint.said(lang)}" if one.hint else ""))
+        print(line + (f". {one.hint.in_language(lang)}" if one.hint else ""))
     answered = {one.key for one in marks}
     results = solve(task).results
     missing = [plain_name(results[asked.key]) for asked in task.asked if asked.key not in answered]
     if missing:
-        print(_MISSING.said(lang).format(", ".join(missing)))
-    print(_SUMMARY.said(lang).format(right=sum(one.mark is Mark.RIGHT for one in marks), all=len(marks)))
+        print(_MISSING.in_language(lang).format(", ".join(missing)))
+    print(_SUMMARY.in_language(lang).format(right=sum(one.mark is Mark.RIGHT for one in marks), all=len(marks)))

@@ -23,16 +23,16 @@ _HEADERS = {
 def run(arguments: argparse.Namespace) -> int:
     """List or count the extensions."""
     chain = chain_from_word(arguments.chain)
-    found = extend(chain, dyad=arguments.dyad, coupler=arguments.coupler, at_joints=arguments.at_joints)
+    extensions = extend(chain, dyad=arguments.dyad, coupler=arguments.coupler, at_joints=arguments.at_joints)
     if arguments.json:
-        document: dict[str, Any] = {"count": len(found)}
+        document: dict[str, Any] = {"count": len(extensions)}
         if not arguments.count:
-            document["items"] = [_item(chain, one) for one in found]
+            document["items"] = [_item(chain, extension) for extension in extensions]
         print_json(document)
     elif arguments.count:
-        print(len(found))
+        print(len(extensions))
     else:
-        print_table(_HEADERS[arguments.lang], [_row(chain, one, arguments.lang) for one in found], numbers=(1, 2))
+        print_table(_HEADERS[arguments.lang], [_row(chain, one, arguments.lang) for one in extensions], numbers=(1, 2))
     return 0
 
 

@@ -52,7 +52,7 @@ def _linkage(word: str) -> Linkage | SpatialLinkage:
             "durch Schrauben angeben ([screws] in der Datei), und gruebler check zählt ab",
         )
     if made is None:
-        placed = [one.id for one in entries().values() if one.dimensions is not None or one.screws is not None]
+        placed = [entry.id for entry in entries().values() if entry.dimensions is not None or entry.screws is not None]
         raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {', '.join(placed)}")
     return made
 

@@ -148,7 +148,7 @@ def _fits(number: int) -> None:
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
     record = entry(id)
-    name = record.name.said(arguments.lang)
+    name = record.name.in_language(arguments.lang)
     names = german(record, arguments.lang)
     figure = draw(subject(id, None, None, []), labels=arguments.labels, lang=arguments.lang, name=name, names=names)
     return Item(figure, name, id)

@@ -121,8 +121,12 @@ def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> d
             {"link": link, "unit": units[link].value, "speed": _value(found.values[link])} for link in train.links
         ],
         "contradictions": [
-            {"link": one.link, "wanted": _value(one.wanted), "follows": _value(one.follows)}
-            for one in found.contradictions
+            {
+                "link": contradiction.link,
+                "wanted": _value(contradiction.wanted),
+                "follows": _value(contradiction.follows),
+            }
+            for contradiction in found.contradictions
         ],
         "spare": list(found.spare),
     }

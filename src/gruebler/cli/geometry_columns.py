@@ -95,7 +95,7 @@ def curvature_columns(
         for axis, values in zip("xy", _parts(path.centre), strict=True):
             known = np.isfinite(path.radius)
             out.append(Column(f"{name} {words['centre']} {axis}", linkage.unit, np.where(known, values, np.nan)))
-        places = [point] if isinstance(point, LinkPoint) else reversed(linkage.named(point))
+        places = [point] if isinstance(point, LinkPoint) else reversed(linkage.points_named(point))
         moving.append(next(place.link for place in places if place.link != frame))
     moving += [link for link in links if not _pivoted(linkage, link)]
     for link in dict.fromkeys([*moving, *_floating(linkage)]):

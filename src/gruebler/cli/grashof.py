@@ -90,18 +90,18 @@ def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
 
 def _along(given: dict[str, float], arguments: argparse.Namespace) -> int:
     free, turns, words = arguments.free, arguments.turns, _WORDS[arguments.lang]
-    found = turning_ranges(turns, **given) if turns else types_along(**given)
+    length_ranges = turning_ranges(turns, **given) if turns else types_along(**given)
     if arguments.json:
-        items = [_range_item(part) for part in found]
+        items = [_range_item(part) for part in length_ranges]
         print_json({**given, "free": free, "turns": turns, "items": items})
-    elif not found:
+    elif not length_ranges:
         print(words["none"].format(free=free, turns=turns))
     else:
         if turns:
             print(words["some"].format(turns=turns))
-        rows = [_range_row(part, free, arguments.lang) for part in found]
+        rows = [_range_row(part, free, arguments.lang) for part in length_ranges]
         print_table(_HEADERS[arguments.lang], rows, numbers=(0, 1))
-    return 0 if found else 1
+    return 0 if length_ranges else 1
 
 
 def _range_row(part: LengthRange, free: str, lang: str) -> tuple[str, ...]:
@@ -141,17 +141,17 @@ def _arc(arc: CrankRange, full: str) -> str:
 
 
 def _document(four_bar: FourBar) -> dict[str, object]:
-    found: Grashof = four_bar.grashof
+    grashof: Grashof = four_bar.grashof
     centres = four_bar.dead_centres
     document: dict[str, object] = {
-        **found.lengths,
-        "type": found.type.key,
-        "english": found.type.english,
-        "german": found.type.german,
-        "condition": found.condition,
-        "excess": found.excess,
-        "shortest": list(found.shortest),
-        "turning": list(found.turning),
+        **grashof.lengths,
+        "type": grashof.type.key,
+        "english": grashof.type.english,
+        "german": grashof.type.german,
+        "condition": grashof.condition,
+        "excess": grashof.excess,
+        "shortest": list(grashof.shortest),
+        "turning": list(grashof.turning),
         "limits_deg": [[math.degrees(end) for end in arc] for arc in four_bar.limits],
     }
     if centres is not None:

@@ -76,20 +76,20 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     one = guidance(arguments.name)
     try:
-        found = one.sized(*task[:2]) if task else None
+        sizing = one.sized(*task[:2]) if task else None
     except LinkageError as error:
         print(error)
         return 1
     if arguments.json:
-        print_json(_item(one) | (_sized_item(one, found) if found else {}))
+        print_json(_item(one) | (_sized_item(one, sizing) if sizing else {}))
         return 0
     print_table(words["headers"], [_row(one, arguments.lang)], numbers=(2, 5, 6, 7))
-    print(f"\n{words['proportions'].format(text=one.proportions.said(arguments.lang))}")
+    print(f"\n{words['proportions'].format(text=one.proportions.in_language(arguments.lang))}")
     if one.contact:
         said = words["contact"].format(at=round(one.degrees[1], 4), n=one.contact.points, c=one.contact.coefficient)
         print(numbers_in_language(said, arguments.lang))
-    if task and found:
-        _say_size(one, found, task, arguments.lang)
+    if task and sizing:
+        _say_size(one, sizing, task, arguments.lang)
     return 0
 
 
@@ -114,7 +114,7 @@ def _row(one: Guidance, lang: str) -> tuple[str, ...]:
     )
     return (
         one.key,
-        one.name.said(lang),
+        one.name.in_language(lang),
         str(one.linkage.mechanism.chain.n),
         words["exact" if one.is_exact else "approximate"],
         words["points"].format(n=one.contact.points) if one.contact else "",

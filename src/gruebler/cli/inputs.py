@@ -39,8 +39,8 @@ def _of_file(word: str) -> Mechanism | None:
 
 def chain_from_word(word: str, space: str | None = None) -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
-    if (found := _of_file(word)) is not None:
-        return found.chain
+    if (mechanism := _of_file(word)) is not None:
+        return mechanism.chain
     if _is_code(word):
         return decode(word.strip()).chain
     if is_text(word) and ";" in word:
@@ -51,17 +51,17 @@ def chain_from_word(word: str, space: str | None = None) -> Chain:
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechanism:
     """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
     if (drawn := _of_file(word)) is not None:
-        found = drawn
+        mechanism = drawn
     elif not is_text(word):
         record = entry(word)
         chain = record.chain()
-        found = Mechanism(chain, record.frame or chain.links[0], record.drives)
+        mechanism = Mechanism(chain, record.frame or chain.links[0], record.drives)
     elif "(" in word and not (_is_code(word) and ";frame=" not in word):
-        found = Mechanism.parse(word)
+        mechanism = Mechanism.parse(word)
     else:
         chain = chain_from_word(word)
-        found = Mechanism(chain, chain.links[0])
-    return Mechanism(found.chain, found.frame if frame is None else frame, drives or found.drives)
+        mechanism = Mechanism(chain, chain.links[0])
+    return Mechanism(mechanism.chain, mechanism.frame if frame is None else frame, drives or mechanism.drives)
 
 
 def outputs_of(word: str) -> tuple[str, ...]:

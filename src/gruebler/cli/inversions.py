@@ -31,23 +31,23 @@ def run(arguments: argparse.Namespace) -> int:
             if given:
                 raise GrueblerError(f"{option} goes with --drives: it is said of a driven mechanism")
     if arguments.drives:
-        found = list(
+        drivens = list(
             driven_mechanisms(chain, drives=arguments.number, at_frame=not arguments.anywhere, output=arguments.output)
         )
     else:
-        found = [DrivenMechanism(mechanism) for mechanism in inversions(chain)]
+        drivens = [DrivenMechanism(mechanism) for mechanism in inversions(chain)]
     if arguments.json:
-        document: dict[str, object] = {"count": len(found)}
+        document: dict[str, object] = {"count": len(drivens)}
         if not arguments.count:
-            document["items"] = [item(driven) for driven in found]
+            document["items"] = [item(driven) for driven in drivens]
         print_json(document)
     elif arguments.count:
-        print(len(found))
+        print(len(drivens))
     elif arguments.text:
-        for driven in found:
+        for driven in drivens:
             print(driven)
     else:
-        _print(found, arguments.lang)
+        _print(drivens, arguments.lang)
     return 0
 
 

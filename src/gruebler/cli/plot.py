@@ -32,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     _check(arguments)
     linkage, between = linkage_and_range(arguments.linkage)
     record = entry_of(arguments.linkage)
-    name = "" if record is None else record.name.said(arguments.lang)
+    name = "" if record is None else record.name.in_language(arguments.lang)
     figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))
     told_picture(figure, arguments.file, suffix, arguments.dark, arguments.lang)
     return 0
@@ -168,10 +168,10 @@ def _ratio(asked: _Asked) -> Figure:
         )
     marked = None
     if given.ratio is not None:
-        found = piece_of_ratio(path, middle, given.ratio, tangent)
-        if found is None:
+        piece = piece_of_ratio(path, middle, given.ratio, tangent)
+        if piece is None:
             raise GrueblerError(f"every window about {given.centre:g} degrees is straighter than Q_G = {given.ratio:g}")
-        marked = found.end - found.start, found.ratio, found.length / crank
+        marked = piece.end - piece.start, piece.ratio, piece.length / crank
     name = title(linkage.mechanism, given.lang, asked.name)
     return ratio_diagram(
         [p.end - p.start for p in shown],

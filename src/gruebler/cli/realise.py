@@ -19,19 +19,19 @@ def run(arguments: argparse.Namespace) -> int:
     mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
     if arguments.output is not None:
         check_linkage_path(arguments.output)
-    found = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
-    if found.linkage is not None and (outputs := outputs_of(arguments.chain)):
-        found = replace(found, linkage=found.linkage.with_outputs(outputs))
-    if found.linkage is not None and arguments.output is not None:
-        write_linkage(arguments.output, found.linkage)
+    realisation = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
+    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain)):
+        realisation = replace(realisation, linkage=realisation.linkage.with_outputs(outputs))
+    if realisation.linkage is not None and arguments.output is not None:
+        write_linkage(arguments.output, realisation.linkage)
         say_written(arguments.output, arguments.lang)
     if arguments.json:
-        print_json(_document(found, arguments.lang))
-        return 0 if found.found else 1
-    print(found.message(arguments.lang))
-    if found.linkage is not None and arguments.output is None:
-        print("\n" + linkage_to_toml(found.linkage).rstrip())
-    return 0 if found.found else 1
+        print_json(_document(realisation, arguments.lang))
+        return 0 if realisation.found else 1
+    print(realisation.message(arguments.lang))
+    if realisation.linkage is not None and arguments.output is None:
+        print("\n" + linkage_to_toml(realisation.linkage).rstrip())
+    return 0 if realisation.found else 1
 
 
 def _document(found: Realisation, lang: str) -> dict[str, object]:

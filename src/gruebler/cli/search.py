@@ -138,7 +138,7 @@ def _row(entry: Entry, features: AccessFeatures, lang: str) -> tuple[str, ...]:
     alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
     return (
         entry.id,
-        entry.name.said(lang),
+        entry.name.in_language(lang),
         str(features.links),
         str(_counted(entry)),
         str(_moves(entry)),
@@ -167,8 +167,8 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     if arguments.limit is None:
         ask_before(structures_time(query), arguments.yes)
-    found = progress(structures(query), words["progress"] if quiet else "")
-    told = found if arguments.limit is None else islice(found, arguments.limit)
+    drivens = progress(structures(query), words["progress"] if quiet else "")
+    told = drivens if arguments.limit is None else islice(drivens, arguments.limit)
     items: list[dict[str, object]] = []
     number = 0
     for number, driven in enumerate(told, 1):
@@ -176,7 +176,7 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
             items += [] if arguments.count else [item(driven)]
         elif not arguments.count:
             print(f"{number}  {_text(driven, arguments.lang)}", flush=True)
-    more = arguments.limit == number and next(found, None) is not None
+    more = arguments.limit == number and next(drivens, None) is not None
     if arguments.json:
         document = {"count": number, "complete": not more} | ({} if arguments.count else {"items": items})
         print_json(document)

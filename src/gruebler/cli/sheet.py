@@ -60,15 +60,15 @@ def _list(arguments: argparse.Namespace) -> None:
         items = [
             {
                 "id": one.id,
-                "title": {lang: one.record.title.said(lang) for lang in ("en", "de")},
-                "source": one.record.source.said("en"),
+                "title": {lang: one.record.title.in_language(lang) for lang in ("en", "de")},
+                "source": one.record.source.in_language("en"),
             }
             for one in sheets().values()
         ]
         print_json(items)
         return
     rows = [
-        (one.id, one.record.title.said(arguments.lang), one.record.source.said(arguments.lang))
+        (one.id, one.record.title.in_language(arguments.lang), one.record.source.in_language(arguments.lang))
         for one in sheets().values()
     ]
     print_table(_WORDS[arguments.lang]["list"], rows)
@@ -96,16 +96,16 @@ def _show(one: Sheet, arguments: argparse.Namespace) -> int:
         print_json(_item(one, arguments.lang))
         return int(bool(one.wrong))
     lang, words = arguments.lang, _WORDS[arguments.lang]
-    title = f"{one.record.title.said(lang)} ({one.id})"
-    print(title, "-" * len(title), f"{words['source']}: {one.record.source.said(lang)}", sep="\n")
+    title = f"{one.record.title.in_language(lang)} ({one.id})"
+    print(title, "-" * len(title), f"{words['source']}: {one.record.source.in_language(lang)}", sep="\n")
     for task in one.record.tasks:
-        print(f"- {task.said(lang)}")
+        print(f"- {task.in_language(lang)}")
     print()
-    for label, value in one.features.said(lang):
+    for label, value in one.features.described(lang):
         print(f"{label}: {value}")
     print()
-    told = [*one.dimensions, *one.quantities, *one.example_values]
-    print_table(words["values"], [_row(value, lang) for value in told], numbers=(3,))
+    values = [*one.dimensions, *one.quantities, *one.example_values]
+    print_table(words["values"], [_row(value, lang) for value in values], numbers=(3,))
     for text in explanation_paragraphs(one, lang):
         print(f"\n{text}")
     print()
@@ -113,23 +113,23 @@ def _show(one: Sheet, arguments: argparse.Namespace) -> int:
     return int(bool(one.wrong))
 
 
-def _row(told: StatedValue, lang: str) -> tuple[str, ...]:
+def _row(value: StatedValue, lang: str) -> tuple[str, ...]:
     words = _WORDS[lang]
-    meaning = told.name.said(lang) if told.name else words["of"].format(of="".join(told.of))
-    remark = "" if told.printed is None or told.of else words["right"]
-    if told.reason is not None:
-        remark = told.reason.said(lang)
-    elif told.remark is not None:
-        remark += f"; {told.remark.said(lang)}"
-    whole = told.exact is not None and told.exact.text.isdigit()
-    printed = told.printed.typeset if told.printed and not told.of else ""
+    meaning = value.name.in_language(lang) if value.name else words["of"].format(of="".join(value.of))
+    remark = "" if value.printed is None or value.of else words["right"]
+    if value.reason is not None:
+        remark = value.reason.in_language(lang)
+    elif value.remark is not None:
+        remark += f"; {value.remark.in_language(lang)}"
+    whole = value.exact is not None and value.exact.text.isdigit()
+    printed = value.printed.typeset if value.printed and not value.of else ""
     return (
-        told.symbol,
+        value.symbol,
         meaning,
-        told.exact.typeset if told.exact else "",
-        format(LocalNumber(told.derived, lang), "g" if whole else ".6f") + told.unit,
+        value.exact.typeset if value.exact else "",
+        format(LocalNumber(value.derived, lang), "g" if whole else ".6f") + value.unit,
         printed.replace(".", ",") if lang == "de" else printed,
-        remark if told.holds else words["wrong"],
+        remark if value.holds else words["wrong"],
     )
 
 
@@ -137,9 +137,9 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
     features = one.features
     return {
         "id": one.id,
-        "title": one.record.title.said(lang),
-        "source": one.record.source.said("en"),
-        "tasks": [task.said(lang) for task in one.record.tasks],
+        "title": one.record.title.in_language(lang),
+        "source": one.record.source.in_language("en"),
+        "tasks": [task.in_language(lang) for task in one.record.tasks],
         "mechanism": str(one.linkage.mechanism),
         "features": {
             "drive_joints": features.drive_joints,
@@ -151,7 +151,7 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
             "joints": features.joints,
             "joints_by_symbol": dict(features.by_symbol("german" if lang == "de" else "international")),
         },
-        "dimensions": [_value(told) for told in one.dimensions],
+        "dimensions": [_value(value) for value in one.dimensions],
         "quantities": [_value(told) for told in (*one.quantities, *one.example_values)],
         "explanation": explanation_paragraphs(one, lang),
         "diagram": {
@@ -164,14 +164,14 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
     }
 
 
-def _value(told: StatedValue) -> dict[str, Any]:
+def _value(value: StatedValue) -> dict[str, Any]:
     return {
-        "symbol": told.symbol,
-        "exact": told.exact.text if told.exact else None,
-        "computed": told.derived,
-        "printed": told.printed.text if told.printed else None,
-        "as_printed": told.is_as_printed,
-        "holds": told.holds,
+        "symbol": value.symbol,
+        "exact": value.exact.text if value.exact else None,
+        "computed": value.derived,
+        "printed": value.printed.text if value.printed else None,
+        "as_printed": value.is_as_printed,
+        "holds": value.holds,
     }
 
 
@@ -188,14 +188,14 @@ def _size(one: Sheet, arguments: argparse.Namespace) -> int:
     else:
         raise GrueblerError(f"--ratio: expected a number between 0 and 1, but found {arguments.ratio!r}")
     try:
-        found = one.sized(length, tolerance)
+        sized_mechanism = one.sized(length, tolerance)
     except LinkageError as error:
         print(error)
         return 1
     if arguments.json:
-        print_json(_sized_item(found, unit))
+        print_json(_sized_item(sized_mechanism, unit))
     else:
-        _say_size(one, found, unit, arguments.lang)
+        _say_size(one, sized_mechanism, unit, arguments.lang)
     return 0
 
 

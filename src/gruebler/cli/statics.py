@@ -71,13 +71,13 @@ def run(arguments: argparse.Namespace) -> int:
         print(motion.message(arguments.lang))
         return 1
     held = statics(motion, loads)
-    made = _columns(held, arguments.friction, words)
+    columns = _columns(held, arguments.friction, words)
     if arguments.csv is not None:
-        write_file(arguments.csv, as_csv([*made, *_components(held, words)]).encode("utf-8"), arguments.lang)
+        write_file(arguments.csv, as_csv([*columns, *_components(held, words)]).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print_json(_document(held, [*made, *_components(held, words)], arguments.lang))
+        print_json(_document(held, [*columns, *_components(held, words)], arguments.lang))
     elif arguments.csv is None:
-        _say(held, made, words, arguments.lang)
+        _say(held, columns, words, arguments.lang)
     return 0 if motion.complete and not held.singular.any() else 1
 
 
@@ -136,20 +136,20 @@ def _motion(
         raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
     if rows is not None:
         return move(linkage, rows, branch=arguments.branch, order=1)
-    course = drive_cycle(linkage, arguments.branch)
-    values = default_rows(course.span, shown_range, turning[0])[:, 0]
-    if not course.span.full:
-        margin = _FROM_LIMITS * course.span.width
-        values = np.clip(values, course.span.low + margin, course.span.high - margin)
-    return course.at(values, 1)
+    cycle = drive_cycle(linkage, arguments.branch)
+    values = default_rows(cycle.span, shown_range, turning[0])[:, 0]
+    if not cycle.span.full:
+        margin = _FROM_LIMITS * cycle.span.width
+        values = np.clip(values, cycle.span.low + margin, cycle.span.high - margin)
+    return cycle.at(values, 1)
 
 
 # --- what is said ----------------------------------------------------------------------------------
 
 
-def _columns(held: Statics, coefficient: float | None, words: dict[str, str]) -> list[Column]:
+def _columns(statics: Statics, coefficient: float | None, words: dict[str, str]) -> list[Column]:
     """Drive values, their efforts, the sizes of joint forces, friction of slides."""
-    linkage, motion = held.motion.linkage, held.motion
+    linkage, motion = statics.motion.linkage, statics.motion
     mechanism = linkage.mechanism
     out, efforts = [], []
     for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
@@ -157,29 +157,29 @@ def _columns(held: Statics, coefficient: float | None, words: dict[str, str]) ->
         values = motion.drives[:, k]
         out.append(Column(name, "°", np.degrees(values)) if turns else Column(name, linkage.unit, values))
         effort = words["torque" if turns else "force"].format(name=name)
-        work = np.where(np.abs(held.work[:, k]) <= _NOISE * held.load[k], 0.0, held.work[:, k])
+        work = np.where(np.abs(statics.work[:, k]) <= _NOISE * statics.load[k], 0.0, statics.work[:, k])
         efforts.append(Column(effort, f"N·{linkage.unit}" if turns else "N", work))
     out += efforts
-    names, largest = mechanism.chain.joint_names(), _largest_force(held)
+    names, largest = mechanism.chain.joint_names(), _largest_force(statics)
     for number, joint in enumerate(mechanism.chain.joints):
         links = joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]
         for link in links:
-            size = np.hypot(*held.force(number, link).T)
+            size = np.hypot(*statics.force(number, link).T)
             out.append(Column(words["joint"].format(joint=names[number], link=link), "N", size, largest))
     for number, joint in enumerate(mechanism.chain.joints if coefficient is not None else ()):
         if joint.pair.name in ("prismatic", "roll_slide"):
             assert coefficient is not None
-            found = slide_friction(held, number, coefficient)
+            found = slide_friction(statics, number, coefficient)
             out.append(Column(words["friction"].format(joint=names[number]), "N", found.friction, largest))
             more = words["effort"].format(name=efforts[0].name)
             out.append(Column(more, efforts[0].unit, efforts[0].values + found.effort))
     return out
 
 
-def _largest_force(held: Statics) -> float:
+def _largest_force(statics: Statics) -> float:
     """The largest force of a joint over all rows: what rounding leaves of other forces is as small against it."""
-    joints = enumerate(held.motion.linkage.mechanism.chain.joints)
-    sizes = [np.abs(held.force(number, link)) for number, joint in joints for link in joint.links]
+    joints = enumerate(statics.motion.linkage.mechanism.chain.joints)
+    sizes = [np.abs(statics.force(number, link)) for number, joint in joints for link in joint.links]
     return max(float(np.where(np.isfinite(size), size, 0.0).max(initial=0.0)) for size in sizes)
 
 
@@ -202,8 +202,8 @@ def _moving(links: Sequence[str], frame: str) -> str:
     return next(link for link in reversed(links) if link != frame)
 
 
-def _say(held: Statics, made: list[Column], words: dict[str, str], lang: str) -> None:
-    motion, drives = held.motion, len(held.motion.linkage.mechanism.drives)
+def _say(statics: Statics, made: list[Column], words: dict[str, str], lang: str) -> None:
+    motion, drives = statics.motion, len(statics.motion.linkage.mechanism.drives)
     if len(motion) > 1:
         for column in made[drives : 2 * drives]:
             if np.isfinite(column.values).any():
@@ -211,29 +211,29 @@ def _say(held: Statics, made: list[Column], words: dict[str, str], lang: str) ->
                 key = "most" if column.values[row] else "idle"
                 at = f"{made[0].values[row]:.6g}{'' if made[0].unit == '°' else ' '}{made[0].unit}"
                 print(words[key].format(name=column.name, value=column.values[row], unit=column.unit, drive=at))
-    if math.isfinite(held.disagreement):
-        print(words["agree"].format(part=held.disagreement))
-    if len(motion) > 1 or math.isfinite(held.disagreement):
+    if math.isfinite(statics.disagreement):
+        print(words["agree"].format(part=statics.disagreement))
+    if len(motion) > 1 or math.isfinite(statics.disagreement):
         print()
     if len(motion) > 1:
         print_table([column.header for column in made], shown(made), numbers=range(len(made)))
     else:
-        every = [*made, *_components(held, words, once=True)]
+        every = [*made, *_components(statics, words, once=True)]
         print_table(
             ["", "", ""], [[c.name, value, c.unit] for c, value in zip(every, shown(every)[0], strict=True)], [1]
         )
-    for message in (motion.message(lang), held.message(lang)):
+    for message in (motion.message(lang), statics.message(lang)):
         if message:
             print(message)
 
 
-def _document(held: Statics, made: list[Column], lang: str) -> dict[str, object]:
+def _document(statics: Statics, made: list[Column], lang: str) -> dict[str, object]:
     rows = zip(*(column.values for column in made), strict=True)
     return {
         "columns": [{"name": column.name, "unit": column.unit} for column in made],
         "rows": [[float(value) if math.isfinite(value) else None for value in row] for row in rows],
-        "disagreement": held.disagreement if math.isfinite(held.disagreement) else None,
-        "singular": [int(row) for row in np.flatnonzero(held.singular)],
-        "complete": held.motion.complete,
-        "message": " ".join(filter(None, (held.motion.message(lang), held.message(lang)))),
+        "disagreement": statics.disagreement if math.isfinite(statics.disagreement) else None,
+        "singular": [int(row) for row in np.flatnonzero(statics.singular)],
+        "complete": statics.motion.complete,
+        "message": " ".join(filter(None, (statics.motion.message(lang), statics.message(lang)))),
     }

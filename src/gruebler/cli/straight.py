@@ -37,28 +37,28 @@ _WORDS = {
 def run(arguments: argparse.Namespace) -> int:
     """The piece asked for; status 1 if there is none."""
     words = _WORDS[arguments.lang]
-    found = _found(arguments)
-    if found is None:
+    piece = _found(arguments)
+    if piece is None:
         print(words["none"].format(centre=arguments.centre, ratio=arguments.ratio))
         return 1
-    start, end = math.degrees(found.start), math.degrees(found.end)
+    start, end = math.degrees(piece.start), math.degrees(piece.end)
     if arguments.json:
         document = {
             "start_deg": start,
             "end_deg": end,
-            "length": found.length,
-            "band": found.band,
-            "ratio": found.ratio if found.length else None,
-            "direction_deg": math.degrees(found.direction),
+            "length": piece.length,
+            "band": piece.band,
+            "ratio": piece.ratio if piece.length else None,
+            "direction_deg": math.degrees(piece.direction),
         }
         print_json(document)
         return 0
     rows = (
         ("angles", words["window"].format(start=start, end=end, width=end - start)),
-        ("length", f"{found.length:.9g}"),
-        ("band", f"{found.band:.6g}"),
-        ("ratio", f"{found.ratio:.6g}"),
-        ("direction", f"{math.degrees(found.direction):.6f}°"),
+        ("length", f"{piece.length:.9g}"),
+        ("band", f"{piece.band:.6g}"),
+        ("ratio", f"{piece.ratio:.6g}"),
+        ("direction", f"{math.degrees(piece.direction):.6f}°"),
     )
     for key, value in rows:
         print(f"{words[key]}: {value}")

@@ -82,25 +82,25 @@ def run(arguments: argparse.Namespace) -> int:
         _check_picture(arguments.draw)
     demands = _demands(arguments)
     task = _task(arguments)
-    found = _solved(arguments, task, demands)
-    best = found.designs[0] if found.designs else None
-    optimum = _minimax(arguments, found) if arguments.kind == "function" and arguments.minimax else None
+    result = _solved(arguments, task, demands)
+    best = result.designs[0] if result.designs else None
+    optimum = _minimax(arguments, result) if arguments.kind == "function" and arguments.minimax else None
     if arguments.json:
-        document = found.to_json()
+        document = result.to_json()
         if optimum is not None:
             document["minimax"] = _optimum_document(optimum)
         print(json.dumps(document, ensure_ascii=False, indent=2))
     else:
-        _print(found, words, arguments.rejected)
+        _print(result, words, arguments.rejected)
         if optimum is not None:
             _print_optimum(optimum, words)
     if best is not None and arguments.output is not None:
         write_linkage(arguments.output, best.linkage)
         _say(arguments, words["written"].format(path=arguments.output))
-    if found.designs and arguments.draw is not None:
-        _draw(arguments.draw, found, arguments.lang)
+    if result.designs and arguments.draw is not None:
+        _draw(arguments.draw, result, arguments.lang)
         _say(arguments, words["written"].format(path=arguments.draw))
-    return 0 if found.designs else 1
+    return 0 if result.designs else 1
 
 
 def _say(arguments: argparse.Namespace, text: str) -> None:

@@ -12,9 +12,9 @@ __all__ = ["run"]
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the tables of a name."""
-    found = teaching_table(arguments.name)
+    tables = teaching_table(arguments.name)
     if arguments.json:
-        print_json([table_as_dict(table) for table in found])
+        print_json([table_as_dict(table) for table in tables])
     else:
-        print("\n\n".join("\n".join(lines_of_table(table, arguments.lang)) for table in found))
+        print("\n\n".join("\n".join(lines_of_table(table, arguments.lang)) for table in tables))
     return 0

@@ -58,11 +58,13 @@ def run_count(
     def known(number: int) -> list[PieceTally] | None:
         kept = store.head(number) if store is not None else None
         try:
-            found = [PieceTally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (kept or {})["tallies"]]
+            piece_tallies = [
+                PieceTally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (kept or {})["tallies"]
+            ]
         except (KeyError, TypeError, ValueError):  # none, or not the head of a counted piece
             return None
-        watch.add(sum(tally.chains for tally in found), fresh=False)
-        return found
+        watch.add(sum(tally.chains for tally in piece_tallies), fresh=False)
+        return piece_tallies
 
     def finished(number: int, found: list[PieceTally]) -> None:
         if store is not None:
@@ -73,10 +75,10 @@ def run_count(
     results = run_work(
         PieceCounter(request, orbits), work_units(request, size=size), executor, known=known, finished=finished
     )
-    found = add_tallies(request, orbits, results)
+    count = add_tallies(request, orbits, results)
     if store is not None:
         store.tidy()
-    return found
+    return count
 
 
 def run_list(
@@ -104,9 +106,9 @@ def run_list(
             yield from _filed(lister, work, executor, PieceFiles(directory, durable=False), watch)
     else:
         for piece in work:
-            found = lister(piece)
-            watch.add(sum(listing.chains for listing in found), fresh=True)
-            yield from found
+            piece_listings = lister(piece)
+            watch.add(sum(listing.chains for listing in piece_listings), fresh=True)
+            yield from piece_listings
 
 
 _Head = list[tuple[str, int, int]]
@@ -122,9 +124,9 @@ class _ListToFile:
 
     def __call__(self, numbered: tuple[int, Work]) -> _Head:
         number, work = numbered
-        found = self.lister(work)
-        head = [(listing.kind, listing.chains, len(listing.text)) for listing in found]
-        self.files.save(number, {"listings": head}, b"".join(listing.text for listing in found))
+        piece_listings = self.lister(work)
+        head = [(listing.kind, listing.chains, len(listing.text)) for listing in piece_listings]
+        self.files.save(number, {"listings": head}, b"".join(listing.text for listing in piece_listings))
         return head
 
 

@@ -108,8 +108,8 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
             if kind == "none":
                 yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
             else:
-                found = fractionated_chains(plain_chains, request.links, request.mobility, kind)
-                yield from (chain for chain in found if request.assortment in (None, chain.assortment))
+                chains = fractionated_chains(plain_chains, request.links, request.mobility, kind)
+                yield from (chain for chain in chains if request.assortment in (None, chain.assortment))
         return
     for work in work_units(request):
         yield from (chain for _, chain in _chains(request, work))
@@ -146,7 +146,7 @@ class PieceCounter:
     def __call__(self, work: Work) -> list[PieceTally]:
         """The numbers of a piece, by class and assortment."""
         if isinstance(work, WorkPiece):
-            return [PieceTally("none", *found) for found in count_piece(work, self.orbits)]
+            return [PieceTally("none", *piece_count) for piece_count in count_piece(work, self.orbits)]
         sums: dict[tuple[str, Assortment], list[int]] = {}
         for kind, chain in _chains(self.request, work):
             row = sums.setdefault((kind, chain.assortment), [0, 0, 0, 0])

@@ -57,7 +57,7 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
     return GivenAnswer(float(text) * scale, last_place(text) * scale, bool(form[3]))
 
 
-def unit_scale(unit: str, wanted: str) -> float | None:
+def unit_scale(unit: str, target: str) -> float | None:
     """What a unit is worth in another one of the same kind; None if it is of another kind, or unknown.
 
     >>> unit_scale("cm/s^2", "mm/s²"), unit_scale("s", "mm")
@@ -65,7 +65,7 @@ def unit_scale(unit: str, wanted: str) -> float | None:
     """
     plain = re.sub(r"\^?2$", "²", unit.replace(" ", ""))
     plain = _SPELT.get(plain.casefold(), plain)
-    mine, other = _WORTH.get(plain), _WORTH.get(wanted)
+    mine, other = _WORTH.get(plain), _WORTH.get(target)
     if mine is None or other is None or mine[1] != other[1]:
         return None
     return mine[0] / other[0]

@@ -37,13 +37,13 @@ def headers(*names: str) -> list[Text]:
     return [Text(name, name) for name in names]
 
 
-def check_path(way: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
+def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
     """The path against the general solver's, whose point is ``C``."""
     moved = move(linkage, drives, branch=branch)
     apart = (
         float(np.abs(moved.complex_point("C") - (points[:, 0] + 1j * points[:, 1])).max()) if moved.complete else 1.0
     )
-    way.check(*BY_SOLVER, 0.0, apart)
+    builder.check(*BY_SOLVER, 0.0, apart)
 
 
 def _read_points(points: str) -> list[tuple[float, float]]:
@@ -106,8 +106,8 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     if isclose(a, d):
         raise LinkageError(f"with a = d = {d:g} the joint A runs through B0, where the coupler has no direction")
     as_step(step)
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         "The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:",
         "Die Koppel zeigt stets von A durch den Gleitstein in B0 = (d; 0); C liegt an ihrem Ende, um b von A entfernt:",
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",
@@ -119,37 +119,37 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
         way_out = d - joint
         end = joint + b * way_out / abs(way_out)
         rows.append((round(degrees(phi), 9), end.real, end.imag, abs(way_out), degrees(cmath.phase(way_out))))
-    way.table(PATH, [*headers("φ [°]", "C_x", "C_y", "|AB0|"), Text("direction [°]", "Richtung [°]")], rows)
+    builder.table(PATH, [*headers("φ [°]", "C_x", "C_y", "|AB0|"), Text("direction [°]", "Richtung [°]")], rows)
     if a < d:
-        _add_swing(way, size)
+        _add_swing(builder, size)
     points = np.array([row[1:3] for row in rows])
-    check_path(way, size.linkage({"C": (b, 0)}), drives, points, "+")
-    _add_straight(way, coupler_path(size, b, 0), linkage_path(size.linkage({"C": (b, 0)}), "C"), b / 180)
-    return way.done()
+    check_path(builder, size.linkage({"C": (b, 0)}), drives, points, "+")
+    _add_straight(builder, coupler_path(size, b, 0), linkage_path(size.linkage({"C": (b, 0)}), "C"), b / 180)
+    return builder.done()
 
 
-def _add_straight(way: SolutionBuilder, path: Path, by_solver: Path, band: float) -> None:
+def _add_straight(builder: SolutionBuilder, path: Path, by_solver: Path, band: float) -> None:
     """The longest stretch that keeps within a band."""
-    unit = way.unit
-    found = longest_in_band(path, 0.0, pi, band)
+    unit = builder.unit
+    piece = longest_in_band(path, 0.0, pi, band)
     en, de = f"a band of {number(band)} {unit}", f"einem Streifen von {number(band)} {unit}"
-    way.say(
-        f"Nearly straight: within {en} C runs {found.length:.3f} {unit} far, from φ = {degrees(found.start):.2f}° "
-        f"to {degrees(found.end):.2f}°.",
-        f"Angenähert gerade: In {de} Breite läuft C {found.length:.3f} {unit} weit, von φ = "
-        f"{degrees(found.start):.2f}° bis {degrees(found.end):.2f}°.",
+    builder.say(
+        f"Nearly straight: within {en} C runs {piece.length:.3f} {unit} far, from φ = {degrees(piece.start):.2f}° "
+        f"to {degrees(piece.end):.2f}°.",
+        f"Angenähert gerade: In {de} Breite läuft C {piece.length:.3f} {unit} weit, von φ = "
+        f"{degrees(piece.start):.2f}° bis {degrees(piece.end):.2f}°.",
     )
-    way.keep(
+    builder.keep(
         "length",
         Text("length of the nearly straight stretch", "Länge des angenähert geraden Stücks"),
-        found.length,
+        piece.length,
         unit=unit,
         symbol="L",
     )
-    again = path_piece(by_solver, found.start, found.end, found.direction, samples=2001)
+    again = path_piece(by_solver, piece.start, piece.end, piece.direction, samples=2001)
     en, de = "of this stretch, by the general solver", "dieses Stücks, mit dem allgemeinen Löser"
-    way.check(f"Length {en}", f"Länge {de}", found.length, again.length)
-    way.check(f"Width {en}, and the band", f"Breite {de}, und der Streifen", band, again.band, tolerance=STRIP)
+    builder.check(f"Length {en}", f"Länge {de}", piece.length, again.length)
+    builder.check(f"Width {en}, and the band", f"Breite {de}, und der Streifen", band, again.band, tolerance=STRIP)
 
 
 def _add_swing(way: SolutionBuilder, size: InvertedSliderCrank) -> None:

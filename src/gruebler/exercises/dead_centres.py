@@ -34,26 +34,26 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     >>> round(slider_crank(1.7, 6, 1.5).number("H"), 6)
     3.522595
     """
-    way = SolutionBuilder(unit)
-    _add_dead_centres(way, SliderCrank(a, b, e))
-    return way.done()
+    builder = SolutionBuilder(unit)
+    _add_dead_centres(builder, SliderCrank(a, b, e))
+    return builder.done()
 
 
-def _add_dead_centres(way: SolutionBuilder, size: SliderCrank) -> None:
+def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
     if size.dead_centres is None:
         raise LinkageError(
             f"the crank of the slider-crank a = {size.a:g}, b = {size.b:g}, e = {size.e:g} does not turn"
         )
     a, b, e = size.a, size.b, abs(size.e)
     if not e:
-        outer = way.find("l_a", _OUTER, "a + b", a + b, a=a, b=b)
-        inner = way.find("l_i", _INNER, "b - a", b - a, a=a, b=b)
+        outer = builder.find("l_a", _OUTER, "a + b", a + b, a=a, b=b)
+        inner = builder.find("l_i", _INNER, "b - a", b - a, a=a, b=b)
     else:
-        outer = way.find("l_a", _OUTER, "√((a + b)² - e²)", sqrt((a + b) ** 2 - e**2), a=a, b=b, e=e)
-        inner = way.find("l_i", _INNER, "√((b - a)² - e²)", sqrt((b - a) ** 2 - e**2), a=a, b=b, e=e)
-    stroke = way.find("H", _STROKE, "l_a - l_i", outer - inner, l_a=outer, l_i=inner)
+        outer = builder.find("l_a", _OUTER, "√((a + b)² - e²)", sqrt((a + b) ** 2 - e**2), a=a, b=b, e=e)
+        inner = builder.find("l_i", _INNER, "√((b - a)² - e²)", sqrt((b - a) ** 2 - e**2), a=a, b=b, e=e)
+    stroke = builder.find("H", _STROKE, "l_a - l_i", outer - inner, l_a=outer, l_i=inner)
     found = measures(size.linkage())
-    way.check(
+    builder.check(
         "Stroke, from the extremes of the solved motion",
         "Hub, aus den Extremwerten der durchgerechneten Bewegung",
         stroke,
@@ -61,47 +61,51 @@ def _add_dead_centres(way: SolutionBuilder, size: SliderCrank) -> None:
     )
     for key, centre in (("l_a", found.outer), ("l_i", found.inner)):
         there = abs(centre.output) if centre else 0.0
-        way.check(f"{key} of the solved motion", f"{key} aus der durchgerechneten Bewegung", way.number(key), there)
-    way.mistake(
+        builder.check(
+            f"{key} of the solved motion", f"{key} aus der durchgerechneten Bewegung", builder.number(key), there
+        )
+    builder.mistake(
         "H", a, "The stroke is twice the crank, not once.", "Der Hub ist zweimal die Kurbellänge, nicht einmal."
     )
-    way.mistake(
+    builder.mistake(
         "H",
         2 * a,
         "H = 2a holds for a central slider-crank only; this one is eccentric.",
         "H = 2a gilt nur für die zentrische Schubkurbel; diese hier ist exzentrisch.",
     )
-    way.mistake(
+    builder.mistake(
         "H",
         sqrt((a + b) ** 2 + e**2) - sqrt((b - a) ** 2 + e**2),
         "e is a side of the right triangle at the slider's line, so e² is taken off, not added.",
         "e ist Kathete des rechtwinkligen Dreiecks an der Totlagengeraden: e² wird abgezogen, nicht addiert.",
     )
     if e:
-        _add_division(way, a, b, e, found)
+        _add_division(builder, a, b, e, found)
 
 
-def _add_division(way: SolutionBuilder, a: float, b: float, e: float, found: Measures) -> None:
+def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measures: Measures) -> None:
     """How the eccentricity divides the turn of the crank."""
     name = Text("inclination of the stretched linkage", "Neigung der gestreckten Lage")
-    phi_a = way.find("φ_a", name, "arcsin(e/(a + b))", degrees(asin(e / (a + b))), unit="°", a=a, b=b, e=e)
+    phi_a = builder.find("φ_a", name, "arcsin(e/(a + b))", degrees(asin(e / (a + b))), unit="°", a=a, b=b, e=e)
     name = Text("inclination of the overlapping linkage", "Neigung der Decklage")
-    phi_i = way.find("φ_i", name, "arcsin(e/(b - a))", degrees(asin(e / (b - a))), unit="°", a=a, b=b, e=e)
-    longer = _add_times(way, phi_i - phi_a, {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}, "φ_i - φ_a")
+    phi_i = builder.find("φ_i", name, "arcsin(e/(b - a))", degrees(asin(e / (b - a))), unit="°", a=a, b=b, e=e)
+    longer = _add_times(builder, phi_i - phi_a, {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}, "φ_i - φ_a")
     name = Text("difference between forward and return travel", "Winkeldifferenz zwischen Hin- und Rückhub")
-    way.find("difference", name, "2·Δφ", 2 * (phi_i - phi_a), unit="°", symbol="φ_max - φ_min", Δφ=angle(phi_i - phi_a))
-    way.check(
+    builder.find(
+        "difference", name, "2·Δφ", 2 * (phi_i - phi_a), unit="°", symbol="φ_max - φ_min", Δφ=angle(phi_i - phi_a)
+    )
+    builder.check(
         "Longer crank angle, between the dead centres of the solved motion",
         "Größerer Kurbelwinkel, zwischen den Totlagen der durchgerechneten Bewegung",
         longer,
-        degrees(found.phi_max or 0.0),
+        degrees(measures.phi_max or 0.0),
         "°",
     )
-    for key, centre in (("φ_a", found.outer), ("φ_i", found.inner)):
+    for key, centre in (("φ_a", measures.outer), ("φ_i", measures.inner)):
         tilt = degrees(abs(asin(sin(centre.drive)))) if centre else 0.0
         en, de = f"{key}, the crank's inclination there", f"{key}, Neigung der Kurbel dort"
-        way.check(en, de, way.number(key), tilt, "°", tolerance=FLAT)
-    way.mistake(
+        builder.check(en, de, builder.number(key), tilt, "°", tolerance=FLAT)
+    builder.mistake(
         "difference",
         phi_i - phi_a,
         "Asked is φ_max - φ_min = 2·Δφ: one way is longer by Δφ, the other shorter by it.",
@@ -109,21 +113,23 @@ def _add_division(way: SolutionBuilder, a: float, b: float, e: float, found: Mea
     )
 
 
-def _add_times(way: SolutionBuilder, delta: float, angles: dict[str, str], formula: str) -> float:
+def _add_times(builder: SolutionBuilder, delta: float, angles: dict[str, str], formula: str) -> float:
     name = Text("deviation from half a turn", "Abweichung von der halben Umdrehung")
-    way.find("Δφ", name, formula, delta, unit="°", values=angles)
-    longer = way.find("φ_max", _LONGER, "180° + Δφ", 180 + delta, unit="°", Δφ=angle(delta))
-    shorter = way.find("φ_min", _SHORTER, "180° - Δφ", 180 - delta, unit="°", Δφ=angle(delta))
+    builder.find("Δφ", name, formula, delta, unit="°", values=angles)
+    longer = builder.find("φ_max", _LONGER, "180° + Δφ", 180 + delta, unit="°", Δφ=angle(delta))
+    shorter = builder.find("φ_min", _SHORTER, "180° - Δφ", 180 - delta, unit="°", Δφ=angle(delta))
     ratio = longer / shorter
     values = {"φ_max": angle(longer), "φ_min": angle(shorter)}
-    way.find("time_ratio", _TIMES, "φ_max/φ_min", ratio, unit="", symbol="k", values=values)
+    builder.find("time_ratio", _TIMES, "φ_max/φ_min", ratio, unit="", symbol="k", values=values)
     hint = (
         "Both ways together are a full turn; φ_max is more than 180°, φ_min less.",
         "Beide Wege ergeben zusammen eine volle Umdrehung; φ_max liegt über 180°, φ_min darunter.",
     )
-    way.mistake("φ_max", shorter, *hint)
-    way.mistake("φ_min", longer, *hint)
-    way.mistake("time_ratio", shorter / longer, "The longer time is divided by the shorter.", "Länger durch kürzer.")
+    builder.mistake("φ_max", shorter, *hint)
+    builder.mistake("φ_min", longer, *hint)
+    builder.mistake(
+        "time_ratio", shorter / longer, "The longer time is divided by the shorter.", "Länger durch kürzer."
+    )
     return longer
 
 
@@ -136,15 +142,15 @@ def stroke_table(
     below the crank's pivot, and the way made from the outer dead centre.
     """
     as_step(step)
-    way = SolutionBuilder(unit)
-    rod = _rod(way, a, b, ratio)
+    builder = SolutionBuilder(unit)
+    rod = _rod(builder, a, b, ratio)
     size = SliderCrank(a, rod, e)
-    _add_dead_centres(way, size)
+    _add_dead_centres(builder, size)
     centres = size.dead_centres
     assert centres is not None  # _add_dead_centres has refused the others
     start = centres.outer.phi if centres.outer.phi < pi else centres.outer.phi - 2 * pi
     low = "" if not e else " - e" if e > 0 else " + e"
-    way.say(
+    builder.say(
         "The slider's way at every crank angle, counted from below the crank's pivot:",
         "Der Schieberweg zu jedem Kurbelwinkel, gezählt vom Lot durch den Kurbeldrehpunkt:",
         f"s = a·cos φ + √(b² - (a·sin φ{low})²)",
@@ -158,31 +164,31 @@ def stroke_table(
         "Transfer function s(φ), from the outer dead centre", "Übertragungsfunktion s(φ), ab der äußeren Totlage"
     )
     headers = ("Δφ [°]", "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]")
-    way.table(title, [Text(h, h) for h in headers], rows, decimals=3)
+    builder.table(title, [Text(h, h) for h in headers], rows, decimals=3)
     inner = (centres.inner.phi - centres.outer.phi) % (2 * pi)
     name = Text(
         "crank angle from the outer to the inner dead centre", "Kurbelwinkel von der äußeren zur inneren Totlage"
     )
-    way.keep("inner_at", name, degrees(inner), unit="°", symbol="Δφ(Ti)")
+    builder.keep("inner_at", name, degrees(inner), unit="°", symbol="Δφ(Ti)")
     moved = move(size.linkage(), [radians(row[1]) for row in rows])
-    way.check(
+    builder.check(
         "Largest difference of s in the table from the general solver's",
         "Größter Unterschied von s in der Tabelle gegenüber dem allgemeinen Löser",
         0.0,
-        max(abs(row[2] - s) for row, s in zip(rows, moved.slide("P(frame-slider)").tolist(), strict=True)),
+        max(abs(row[2] - s) for row, s in zip(rows, moved.displacement("P(frame-slider)").tolist(), strict=True)),
     )
-    return way.done()
+    return builder.done()
 
 
-def _rod(way: SolutionBuilder, a: float, b: float | None, ratio: float | None) -> float:
+def _rod(builder: SolutionBuilder, a: float, b: float | None, ratio: float | None) -> float:
     if (b is None) == (ratio is None):
         raise LinkageError("either the connecting rod b is given or the ratio lambda = a/b")
     as_positive("lambda" if b is None else "b", ratio if b is None else b)
     if ratio is not None:
         name = Text("connecting rod from the crank-conrod ratio", "Koppellänge aus dem Schubstangenverhältnis")
-        return way.find("b", name, "a/λ", a / ratio, a=a, λ=ratio)
+        return builder.find("b", name, "a/λ", a / ratio, a=a, λ=ratio)
     assert b is not None
-    way.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
+    builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
     return b
 
 
@@ -193,13 +199,13 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     >>> round(found.number("φ_H2"), 4), round(found.number("μ_H2"), 4)
     (78.463, 66.9261)
     """
-    way = SolutionBuilder(unit)
-    rod = _rod(way, a, b, ratio)
+    builder = SolutionBuilder(unit)
+    rod = _rod(builder, a, b, ratio)
     size = SliderCrank(a, rod)
     if size.dead_centres is None:
         raise LinkageError(f"the crank of the slider-crank a = {a:g}, b = {rod:g} does not turn")
-    way.find("H", _STROKE, "2·a", 2 * a, a=a)
-    way.find(
+    builder.find("H", _STROKE, "2·a", 2 * a, a=a)
+    builder.find(
         "s_H2",
         Text("slider in the middle of the stroke", "Schieber in Hubmitte"),
         "(l_a + l_i)/2",
@@ -216,17 +222,17 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
         "Kurbelwinkel dort: Das Dreieck A0, A, B hat zwei Seiten b, seine Höhe von B aus trifft also die Mitte von a",
     )
     phi = degrees(acos(a / (2 * rod)))
-    way.find("φ_H2", name, "± arccos(a/(2·b))", phi, unit="°", text=text, either_sign=True, a=a, b=rod)
+    builder.find("φ_H2", name, "± arccos(a/(2·b))", phi, unit="°", text=text, either_sign=True, a=a, b=rod)
     name = Text(
         "crank angle from the inner dead centre to the middle", "Kurbelwinkel von der inneren Totlage bis zur Hubmitte"
     )
-    way.find("φ_i_H2", name, "180° - φ_H2", 180 - phi, unit="°", φ_H2=angle(phi))
+    builder.find("φ_i_H2", name, "180° - φ_H2", 180 - phi, unit="°", φ_H2=angle(phi))
     name = Text("deviation angle in the middle of the stroke", "Ablenkwinkel in der Hubmitte")
     values = {"a": number(a), "b": number(rod), "φ_H2": angle(phi)}
-    alpha = way.find(
+    alpha = builder.find(
         "α_H2", name, "arcsin(a·sin φ_H2/b)", degrees(asin(a * sin(radians(phi)) / rod)), unit="°", values=values
     )
-    way.find(
+    builder.find(
         "μ_H2",
         Text("transmission angle in the middle of the stroke", "Übertragungswinkel in der Hubmitte"),
         "90° - α_H2",
@@ -234,41 +240,43 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
         unit="°",
         α_H2=angle(alpha),
     )
-    _add_middle_of_time(way, size, phi)
+    _add_middle_of_time(builder, size, phi)
     moved = move(size.linkage(), [radians(phi)])
-    slide = float(moved.slide("P(frame-slider)")[0])
+    slide = float(moved.displacement("P(frame-slider)")[0])
     rod_angle = degrees(abs(float(moved.angle("coupler")[0])))
-    way.check("s at this angle, by the general solver", "s bei diesem Winkel, mit dem allgemeinen Löser", rod, slide)
-    way.check("α there, by the general solver", "α dort, mit dem allgemeinen Löser", alpha, rod_angle, "°")
-    _add_middle_mistakes(way, phi, alpha)
-    return way.done()
+    builder.check(
+        "s at this angle, by the general solver", "s bei diesem Winkel, mit dem allgemeinen Löser", rod, slide
+    )
+    builder.check("α there, by the general solver", "α dort, mit dem allgemeinen Löser", alpha, rod_angle, "°")
+    _add_middle_mistakes(builder, phi, alpha)
+    return builder.done()
 
 
-def _add_middle_of_time(way: SolutionBuilder, size: SliderCrank, phi: float) -> None:
+def _add_middle_of_time(builder: SolutionBuilder, size: SliderCrank, phi: float) -> None:
     name = Text("slider in the middle of the time, at φ = 90°", "Schieber in der Zeitmitte, bei φ = 90°")
-    at_time = way.find("s_T", name, "√(b² - a²)", sqrt(size.b**2 - size.a**2), a=size.a, b=size.b)
+    at_time = builder.find("s_T", name, "√(b² - a²)", sqrt(size.b**2 - size.a**2), a=size.a, b=size.b)
     name = Text("middle of the way less middle of the time", "Wegmitte minus Zeitmitte")
-    offset = way.find("offset", name, "s_H2 - s_T", size.b - at_time, symbol="Δs", s_H2=size.b, s_T=at_time)
+    offset = builder.find("offset", name, "s_H2 - s_T", size.b - at_time, symbol="Δs", s_H2=size.b, s_T=at_time)
     name = Text("the same as a part of the stroke", "dasselbe bezogen auf den Hub")
-    way.find("offset_H", name, "Δs/H", offset / (2 * size.a), unit="", symbol="δ", Δs=offset, H=2 * size.a)
+    builder.find("offset_H", name, "Δs/H", offset / (2 * size.a), unit="", symbol="δ", Δs=offset, H=2 * size.a)
     name = Text("part of the time that the outer half of the stroke takes", "Zeitanteil der äußeren Hubhälfte")
-    way.find("time_part", name, "φ_H2/180°", phi / 180, unit="", symbol="τ", φ_H2=angle(phi))
+    builder.find("time_part", name, "φ_H2/180°", phi / 180, unit="", symbol="τ", φ_H2=angle(phi))
 
 
-def _add_middle_mistakes(way: SolutionBuilder, phi: float, alpha: float) -> None:
-    way.mistake(
+def _add_middle_mistakes(builder: SolutionBuilder, phi: float, alpha: float) -> None:
+    builder.mistake(
         "φ_H2",
         90.0,
         "At 90° the crank is in the middle of the time, not of the way: the slider is already beyond H/2.",
         "Bei 90° steht die Kurbel in der Zeitmitte, nicht in der Wegmitte: Der Schieber ist schon über H/2 hinaus.",
     )
-    way.mistake(
+    builder.mistake(
         "φ_H2", 180 - phi, "Counted from the inner dead centre; asked is the outer.", "Von der inneren Totlage gezählt."
     )
-    way.mistake(
+    builder.mistake(
         "φ_i_H2", phi, "Counted from the outer dead centre; asked is the inner.", "Von der äußeren Totlage gezählt."
     )
-    way.mistake(
+    builder.mistake(
         "μ_H2", alpha, "That is the deviation angle α; μ = 90° - α.", "Das ist der Ablenkwinkel α; μ = 90° - α."
     )
 
@@ -309,9 +317,9 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     return way.done()
 
 
-def _dead_centre_angles(way: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> tuple[float, float]:
+def _dead_centre_angles(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> tuple[float, float]:
     a, b, c, d = size.a, size.b, size.c, size.d
-    way.say(
+    builder.say(
         "In a dead centre crank and coupler lie on one line; with rocker and frame they form a triangle with the "
         "side b - a (inner) or b + a (outer). The cosine rule gives the angle at A0.",
         "In einer Totlage liegen Kurbel und Koppel auf einer Geraden; mit Schwinge und Gestell bilden sie ein "
@@ -323,11 +331,11 @@ def _dead_centre_angles(way: SolutionBuilder, size: FourBar, lengths: dict[str, 
         value = degrees(acos((side**2 + d**2 - c**2) / (2 * side * d)))
         formula = f"arccos(((b {sign} a)² + d² - c²)/(2·(b {sign} a)·d))"
         name = Text(f"{en} dead centre, direction of the coupler's line", f"{de} Totlage, Richtung der Koppelgeraden")
-        found.append(way.find(key, name, formula, value, unit="°", values=lengths))
+        found.append(builder.find(key, name, formula, value, unit="°", values=lengths))
     return found[0], found[1]
 
 
-def _add_swing(way: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> None:
+def _add_swing(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> None:
     a, b, c, d = size.a, size.b, size.c, size.d
     found = []
     for key, sign, en, de in (("ψ_i", "-", "inner", "inneren"), ("ψ_a", "+", "outer", "äußeren")):
@@ -335,10 +343,10 @@ def _add_swing(way: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> 
         value = 180 - degrees(acos((c**2 + d**2 - side**2) / (2 * c * d)))
         formula = f"180° - arccos((c² + d² - (b {sign} a)²)/(2·c·d))"
         name = Text(f"angle of the rocker in the {en} dead centre", f"Winkel der Schwinge in der {de} Totlage")
-        found.append(way.find(key, name, formula, value, unit="°", values=lengths))
+        found.append(builder.find(key, name, formula, value, unit="°", values=lengths))
     inner, outer = found
-    swing = way.find("ψ_H", _SWING, "ψ_i - ψ_a", inner - outer, unit="°", ψ_i=angle(inner), ψ_a=angle(outer))
-    way.mistake(
+    swing = builder.find("ψ_H", _SWING, "ψ_i - ψ_a", inner - outer, unit="°", ψ_i=angle(inner), ψ_a=angle(outer))
+    builder.mistake(
         "ψ_H",
         180 - swing,
         "Take both angles of the rocker from the same side of the frame line.",
@@ -346,28 +354,28 @@ def _add_swing(way: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> 
     )
 
 
-def _add_durations(way: SolutionBuilder, rpm: float, longer: float, by_motion: float) -> None:
+def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motion: float) -> None:
     name = Text("time of one turn", "Dauer einer Umdrehung")
-    period = way.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
+    period = builder.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
     times = []
     for key, name, angle_name, part in (
         ("T_max", Text("time of the slower way", "Dauer des langsamen Weges"), "φ_max", longer),
         ("T_min", Text("time of the quicker way", "Dauer des schnellen Weges"), "φ_min", 360 - longer),
     ):
         values = {angle_name: angle(part), "T": f"{number(period)} ms"}
-        times.append(way.find(key, name, f"{angle_name}/360°·T", part / 360 * period, unit="ms", values=values))
+        times.append(builder.find(key, name, f"{angle_name}/360°·T", part / 360 * period, unit="ms", values=values))
     slow, quick = times
     name = Text("difference of the times", "Zeitdifferenz zwischen Hin- und Rückhub")
     shown = {"T_max": f"{number(slow)} ms", "T_min": f"{number(quick)} ms"}
-    way.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
-    way.check(
+    builder.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
+    builder.check(
         "Time of the slower way, by the solved motion",
         "Dauer des langsamen Weges, aus der Bewegung",
         slow,
         by_motion,
         "ms",
     )
-    way.mistake(
+    builder.mistake(
         "ΔT",
         (slow - quick) / 2,
         "That is the distance from T/2; the ways differ by twice it.",

@@ -26,31 +26,31 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
     >>> dyad("R(1-2) R(2-3) R(3-4) R(1-4)")["chains"]
     2
     """
-    way = SolutionBuilder()
+    builder = SolutionBuilder()
     start = Chain.parse(chain)
-    before = _add_before(way, start)
-    way.say(
+    before = _add_before(builder, start)
+    builder.say(
         "A dyad brings two links and three joints with f = 1:",
         "Ein Zweischlag bringt zwei Glieder und drei Gelenke mit f = 1:",
         "ΔF = 3·2 - 2·3 = 0",
     )
-    found = extend(start, dyad=form)
-    _add_after(way, start, found)
-    way.say("A dyad leaves F unchanged.", "Ein Zweischlag lässt F unverändert.")
+    extensions = extend(start, dyad=form)
+    _add_after(builder, start, extensions)
+    builder.say("A dyad leaves F unchanged.", "Ein Zweischlag lässt F unverändert.")
     hint = (
         "Besides the two links three joints are added: 3·2 - 2·3 = 0.",
         "Zu den zwei Gliedern kommen drei Gelenke: 3·2 - 2·3 = 0.",
     )
-    way.mistake(
+    builder.mistake(
         "F_after",
         before - 2,
         "Two links without a joint between them are two couplers; in a dyad they are joined.",
         "Zwei Glieder ohne gemeinsames Gelenk sind zwei Koppeln; im Zweischlag sind sie verbunden.",
     )
-    way.mistake("F_after", before + 2, *hint)
-    way.mistake("F_after", before + 6, *hint)
-    _add_places(way, found)
-    return way.done()
+    builder.mistake("F_after", before + 2, *hint)
+    builder.mistake("F_after", before + 6, *hint)
+    _add_places(builder, extensions)
+    return builder.done()
 
 
 def coupler(chain: str) -> Solution:
@@ -59,39 +59,39 @@ def coupler(chain: str) -> Solution:
     >>> coupler("R(1-2) R(2-3) R(3-4) R(4-5) R(1-5)")["F_after"]
     1
     """
-    way = SolutionBuilder()
+    builder = SolutionBuilder()
     start = Chain.parse(chain)
-    before = _add_before(way, start)
-    way.say(
+    before = _add_before(builder, start)
+    builder.say(
         "A coupler brings one link and two joints with f = 1:",
         "Eine Koppel bringt ein Glied und zwei Gelenke mit f = 1:",
         "ΔF = 3·1 - 2·2 = -1",
     )
-    found = extend(start, coupler="RR")
-    sound = [one for one in found if not mobility_report(one.chain).rigid_clusters]
-    _add_after(way, start, sound)
-    way.say("A coupler lowers F by one.", "Eine Koppel erniedrigt F um eins.")
-    for one in found:
+    extensions = extend(start, coupler="RR")
+    sound = [extension for extension in extensions if not mobility_report(extension.chain).rigid_clusters]
+    _add_after(builder, start, sound)
+    builder.say("A coupler lowers F by one.", "Eine Koppel erniedrigt F um eins.")
+    for one in extensions:
         if one not in sound:
-            way.say(
+            builder.say(
                 f"Between {' and '.join(map(str, one.places[0]))} it makes a rigid triangle: these links become one.",
                 f"Zwischen {' und '.join(map(str, one.places[0]))} entsteht ein starres Dreieck: Die Glieder werden "
                 "zu einem.",
             )
-    way.mistake(
+    builder.mistake(
         "F_after",
         before,
         "That holds for a dyad; a coupler takes one away.",
         "Das gilt für den Zweischlag; eine Koppel nimmt einen Freiheitsgrad weg.",
     )
-    way.mistake(
+    builder.mistake(
         "F_after",
         before + 1,
         "The coupler has two joints, and each takes two freedoms: 3 - 4 = -1.",
         "Die Koppel hat zwei Gelenke, jedes nimmt zwei Freiheiten: 3 - 4 = -1.",
     )
-    _add_places(way, sound)
-    return way.done()
+    _add_places(builder, sound)
+    return builder.done()
 
 
 def _numbered(start: Chain, extended: Chain) -> Chain:
@@ -103,41 +103,43 @@ def _numbered(start: Chain, extended: Chain) -> Chain:
     return extended.renamed({link: str(last + k) for k, link in enumerate(new, 1)})
 
 
-def _add_before(way: SolutionBuilder, start: Chain) -> int:
+def _add_before(builder: SolutionBuilder, start: Chain) -> int:
     parts = count_freedoms(start).formula().removeprefix("F = ").split(" = ")
-    way.parts.append(
+    builder.parts.append(
         SolutionStep(
             Text(f"Before: {start}", f"Vorher: {start.text('german')}"), f"F = {parts[0]}", parts[1], counted(start)
         )
     )
-    way.keep("F_before", _BEFORE, counted(start), symbol="F")
+    builder.keep("F_before", _BEFORE, counted(start), symbol="F")
     return counted(start)
 
 
-def _add_after(way: SolutionBuilder, start: Chain, found: list[Extension]) -> None:
+def _add_after(builder: SolutionBuilder, start: Chain, found: list[Extension]) -> None:
     first = found[0].chain
     parts = count_freedoms(first).formula().removeprefix("F = ").split(" = ")
-    way.parts.append(SolutionStep(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
-    way.keep("F_after", _AFTER, counted(first), symbol="F'")
+    builder.parts.append(SolutionStep(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
+    builder.keep("F_after", _AFTER, counted(first), symbol="F'")
     change = counted(first) - counted(start)
-    way.keep("change", Text("change of F", "Änderung von F"), _CHANGES.get(change, str(change)), symbol="ΔF")
-    way.keep("n", Text("links after", "Glieder nachher"), first.n)
-    way.keep("g1", Text("joints with f = 1 after", "Gelenke mit f = 1 nachher"), first.joints_by_freedom.get(1, 0))
-    way.keep("chains", Text("essentially different chains", "wesentlich verschiedene Ketten"), len(found), symbol="k")
+    builder.keep("change", Text("change of F", "Änderung von F"), _CHANGES.get(change, str(change)), symbol="ΔF")
+    builder.keep("n", Text("links after", "Glieder nachher"), first.n)
+    builder.keep("g1", Text("joints with f = 1 after", "Gelenke mit f = 1 nachher"), first.joints_by_freedom.get(1, 0))
+    builder.keep(
+        "chains", Text("essentially different chains", "wesentlich verschiedene Ketten"), len(found), symbol="k"
+    )
     rows: list[tuple[Value, ...]] = []
-    for one in found:
-        name = family(Mechanism(one.chain, one.chain.links[0]))
-        shown = _numbered(start, one.chain)
-        rows.append((name.split()[0] if name else "", Text(str(shown), shown.text("german")), len(one.places)))
+    for extension in found:
+        name = family(Mechanism(extension.chain, extension.chain.links[0]))
+        shown = _numbered(start, extension.chain)
+        rows.append((name.split()[0] if name else "", Text(str(shown), shown.text("german")), len(extension.places)))
     agreeing = sum(counted(one.chain) == mobility_report(one.chain).generic for one in found)
-    way.check(
+    builder.check(
         "Chains, and those whose F agrees with the rank of the constraints at random sizes",
         "Ketten, und solche, deren F mit dem Rang der Bindungen bei zufälligen Abmessungen übereinstimmt",
         float(len(found)),
         float(agreeing),
         "",
     )
-    way.check(
+    builder.check(
         "Different chains by canonical codes, and by comparing graphs pair by pair",
         "Verschiedene Ketten nach kanonischen Codes, und durch paarweisen Vergleich der Graphen",
         float(len(found)),
@@ -145,13 +147,13 @@ def _add_after(way: SolutionBuilder, start: Chain, found: list[Extension]) -> No
         "",
     )
     headers = (Text("name", "Name"), Text("chain", "Kette"), Text("places", "Stellen"))
-    way.table(Text("The different chains", "Die verschiedenen Ketten"), headers, rows)
+    builder.table(Text("The different chains", "Die verschiedenen Ketten"), headers, rows)
 
 
-def _add_places(way: SolutionBuilder, found: list[Extension]) -> None:
-    way.mistake(
+def _add_places(builder: SolutionBuilder, found: list[Extension]) -> None:
+    builder.mistake(
         "chains",
-        sum(len(one.places) for one in found),
+        sum(len(extension.places) for extension in found),
         "Many places give the same chain up to the names of its links.",
         "Viele Stellen ergeben bis auf die Namen der Glieder dieselbe Kette.",
     )
@@ -168,8 +170,8 @@ def _classes(found: list[Extension]) -> int:
     import networkx as nx
 
     kept: list[nx.MultiGraph] = []
-    for one in found:
-        graph = one.chain.link_graph()
+    for extension in found:
+        graph = extension.chain.link_graph()
         if not any(nx.is_isomorphic(graph, other, edge_match=_same_pairs) for other in kept):
             kept.append(graph)
     return len(kept)

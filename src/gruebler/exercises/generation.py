@@ -55,9 +55,11 @@ def generate(kind: str, seed: int, level: int = 1) -> Exercise:
     title = Text(f"{name.en}, level {level}", f"{name.de}, Stufe {level}")
     id = f"{kind}-{level}-{seed}"
     while True:
-        made = maker(random, level)
-        asked = tuple(Question(key) for key in made.asked)
-        task = Exercise(id=id, name=title, source="", task=made.task, method=made.method, given=made.given, asked=asked)
+        _draft = maker(random, level)
+        asked = tuple(Question(key) for key in _draft.asked)
+        task = Exercise(
+            id=id, name=title, source="", task=_draft.task, method=_draft.method, given=_draft.given, asked=asked
+        )
         if kind not in _MEASURED or _tells_mistakes(task):
             return task
 
@@ -69,7 +71,7 @@ _APART = 5e-3  # relative, of a likely mistake from the right answer
 def _tells_mistakes(task: Exercise) -> bool:
     """Whether no likely mistake is so near the right answer that it would pass for it."""
     solution = solve(task)
-    asked = {one.key for one in task.asked}
+    asked = {question.key for question in task.asked}
     pairs = [(m.value, solution[m.key]) for m in solution.mistakes if m.key in asked]
     return all(
         abs(wrong - right) > _APART * abs(right)
@@ -99,10 +101,10 @@ def generated_from_id(id: str) -> Exercise:
 
 
 def _mobility(random: Random, level: int) -> _Draft:
-    found = _typed(random, level)
-    while mobility_report(found).generic != max(counted(found), 0):
-        found = _typed(random, level)
-    shuffled = _shuffled(random, found)
+    chain = _typed(random, level)
+    while mobility_report(chain).generic != max(counted(chain), 0):
+        chain = _typed(random, level)
+    shuffled = _shuffled(random, chain)
     text, german = str(shuffled), shuffled.text("german")
     letters = sorted({joint.pair.name for joint in shuffled.joints}, key=list(_LETTERS).index)
     en, de = (", ".join(_LETTERS[name][column] for name in letters) for column in (0, 1))
@@ -122,10 +124,10 @@ def _shuffled(random: Random, chain: Chain) -> Chain:
 
 
 def _typed(random: Random, level: int) -> Chain:
-    found = random.choice(_structures(level))
+    chain = random.choice(_structures(level))
     if level > 1:
-        found = _with_pairs(random, found, "prismatic", random.choice((1, 1, 2)))
-    return _with_pairs(random, found, "roll_slide", random.choice((1, 2))) if level > 2 else found
+        chain = _with_pairs(random, chain, "prismatic", random.choice((1, 1, 2)))
+    return _with_pairs(random, chain, "roll_slide", random.choice((1, 2))) if level > 2 else chain
 
 
 _LETTERS = {
@@ -139,7 +141,7 @@ _LETTERS = {
 def _structures(level: int) -> list[Chain]:
     sizes = ((4, 1), (5, 2), (5, 0), (6, 1), (7, 2)) if level == 1 else ((6, 1), (7, 2), (8, 1))
     joints = 0 if level == 1 else "1-2"
-    return [one for n, mobility in sizes for one in chains(n, mobility, multiple_joints=joints)]
+    return [chain for n, mobility in sizes for chain in chains(n, mobility, multiple_joints=joints)]
 
 
 def _with_pairs(random: Random, chain: Chain, kind: str, number_: int) -> Chain:

@@ -90,17 +90,17 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
         raise GrueblerError(
             f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
         )
-    found: list[Grade] = []
+    grades: list[Grade] = []
     for word, answer in answers.items():
         key = _asked_for(word, exercise, solution.results)
-        if key in (one.key for one in found):
+        if key in (one.key for one in grades):
             raise GrueblerError(f"{word} is answered twice: give one answer for each")
         printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
         known = [*printed, *(m for m in solution.mistakes if m.key == key)]
         result = solution.results[key]
         scales = [1.0, *(scale_of(asked, result) for asked in exercise.asked if asked.key == key)]
-        found.append(_marked(known, result, answer.strip(), scales))
-    return found
+        grades.append(_marked(known, result, answer.strip(), scales))
+    return grades
 
 
 def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> str:

@@ -33,66 +33,66 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     >>> condition(40, 100, 70, 90)["type"].en
     'crank-rocker'
     """
-    found = FourBar(a, b, c, d).grashof
-    if not found.assemblable:
+    grashof = FourBar(a, b, c, d).grashof
+    if not grashof.assemblable:
         raise LinkageError(f"lengths {a:g}, {b:g}, {c:g}, {d:g} cannot be assembled")
-    way = SolutionBuilder(unit)
-    _add_sums(way, found)
-    shortest = ", ".join(found.shortest)
-    turns = "a" in found.turning
-    way.keep("turns", Text("the crank a turns fully", "die Kurbel a ist umlauffähig"), turns)
-    way.keep("type", Text("type", "Getriebetyp"), _name(found.type), symbol="")
-    way.parts.append(
+    builder = SolutionBuilder(unit)
+    _add_sums(builder, grashof)
+    shortest = ", ".join(grashof.shortest)
+    turns = "a" in grashof.turning
+    builder.keep("turns", Text("the crank a turns fully", "die Kurbel a ist umlauffähig"), turns)
+    builder.keep("type", Text("type", "Getriebetyp"), _name(grashof.type), symbol="")
+    builder.parts.append(
         SolutionStep(
             Text(
                 f"The place of the shortest link ({shortest}; d is the frame) makes it a:",
                 f"Mit dem kürzesten Glied an dieser Stelle ({shortest}; d ist das Gestell) ist das Getriebe:",
             ),
-            value=_name(found.type),
+            value=_name(grashof.type),
         )
     )
-    if found.condition != "=":
+    if grashof.condition != "=":
         moved = drive_range(FourBar(a, b, c, d).linkage())
-        way.check(
+        builder.check(
             "The crank turns fully (1) or not (0), by following the motion",
             "Kurbel umlauffähig (1) oder nicht (0), durch Verfolgen der Bewegung",
             float(turns),
             float(moved.full),
             "",
         )
-    way.mistake(
+    builder.mistake(
         "turns",
         not turns,
         "Compare l_min + l_max with the two others, and see where the shortest link is.",
         "l_min + l_max mit den beiden anderen vergleichen, und auf die Stelle des kürzesten Gliedes achten.",
     )
-    return way.done()
+    return builder.done()
 
 
-def _add_sums(way: SolutionBuilder, found: Grashof) -> None:
+def _add_sums(builder: SolutionBuilder, found: Grashof) -> None:
     """The sums of Grashof's condition and their relation."""
-    unit = way.unit
+    unit = builder.unit
     low, first, second, high = sorted(found.lengths.values())
     shortest = ", ".join(found.shortest)
-    way.say(
+    builder.say(
         f"Shortest link: {shortest} with {number(low)} {unit}; longest: {found.longest} with {number(high)} {unit}.",
         f"Kürzestes Glied: {shortest} mit {number(low)} {unit}; längstes: {found.longest} mit {number(high)} {unit}.",
     )
     name = Text("sum of the shortest and the longest length", "Summe aus kürzester und längster Länge")
-    ends = way.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
+    ends = builder.find("sum_ends", name, "l_min + l_max", low + high, symbol="s1", l_min=low, l_max=high)
     name = Text("sum of the two others", "Summe der beiden anderen")
     others = first + second
-    way.parts.append(SolutionStep(name, "s2 = l' + l''", f"{number(second)} + {number(first)}", others, unit))
-    way.keep("sum_others", name, others, unit=unit, symbol="s2")
+    builder.parts.append(SolutionStep(name, "s2 = l' + l''", f"{number(second)} + {number(first)}", others, unit))
+    builder.keep("sum_others", name, others, unit=unit, symbol="s2")
     relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
-    way.parts.append(
+    builder.parts.append(
         SolutionStep(
             Text("Grashof's condition: " + _SAYS[found.condition][0], "Satz von Grashof: " + _SAYS[found.condition][1]),
             relation[found.condition],
             f"{number(ends)} {found.condition} {number(others)}",
         )
     )
-    way.mistake("sum_ends", low + second, "The longest link was not taken.", "Nicht das längste Glied genommen.")
+    builder.mistake("sum_ends", low + second, "The longest link was not taken.", "Nicht das längste Glied genommen.")
 
 
 def length_range(
@@ -120,8 +120,8 @@ def length_range(
     if crank >= short:
         told = ", ".join(f"{name} = {value:g}" for name, value in lengths.items())
         raise LinkageError(f"no value of {free} makes a crank-rocker with crank a of {told}: a is not the shortest")
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, and with "
         "it l_min + l_max must not exceed the sum of the two others.",
         "Damit die Kurbel a umläuft und eine Schwinge antreibt, muss sie das kürzeste Glied sein, und mit ihr darf "
@@ -133,34 +133,34 @@ def length_range(
     )
     values = {"a": crank, one: long, other: short}
     name = Text("smallest value", "Kleinstmaß")
-    way.find(f"{free}_min", name, f"a + {one} - {other}", low, text=text, values=values)
+    builder.find(f"{free}_min", name, f"a + {one} - {other}", low, text=text, values=values)
     text = Text(
         f"{free} is the longest link: a + {free} ≤ {one} + {other}",
         f"{free} ist das längste Glied: a + {free} ≤ {one} + {other}",
     )
     name = Text("largest value", "Größtmaß")
-    way.find(f"{free}_max", name, f"{one} + {other} - a", high, text=text, values=values)
-    way.say(
+    builder.find(f"{free}_max", name, f"{one} + {other} - a", high, text=text, values=values)
+    builder.say(
         f"So {number(low)} {unit} ≤ {free} ≤ {number(high)} {unit}. At both ends the sums are equal: the linkage is "
         "then at a change point, safely rotatable it is only in between.",
         f"Also {number(low)} {unit} ≤ {free} ≤ {number(high)} {unit}. An beiden Grenzen sind die Summen gleich: Dort "
         "ist das Getriebe durchschlagend, sicher umlauffähig ist es nur dazwischen.",
     )
-    _add_shortest(way, free, crank, long, short, (one, other))
-    _check_range(way, free, lengths, low, high)
-    _add_range_mistakes(way, free, crank, long, short)
-    return way.done()
+    _add_shortest(builder, free, crank, long, short, (one, other))
+    _check_range(builder, free, lengths, low, high)
+    _add_range_mistakes(builder, free, crank, long, short)
+    return builder.done()
 
 
 def _add_shortest(
-    way: SolutionBuilder, free: str, crank: float, long: float, short: float, names: tuple[str, str]
+    builder: SolutionBuilder, free: str, crank: float, long: float, short: float, names: tuple[str, str]
 ) -> None:
     """The range with the free length as the shortest link: the crank turns there only if that is the frame."""
     upper = crank + short - long
     name = Text(f"{free} as the shortest link, up to", f"{free} als kürzestes Glied, bis")
     symbol = f"{free}'"
     if free != "d" or upper <= 0:
-        way.keep("shortest_upper", name, upper, unit=way.unit, symbol=symbol)
+        builder.keep("shortest_upper", name, upper, unit=builder.unit, symbol=symbol)
         return
     one, other = names
     text = Text(
@@ -170,25 +170,25 @@ def _add_shortest(
         "also 0 < d ≤ d'",
     )
     values = {"a": crank, one: long, other: short}
-    way.find("shortest_upper", name, f"a + {other} - {one}", upper, symbol=symbol, text=text, values=values)
+    builder.find("shortest_upper", name, f"a + {other} - {one}", upper, symbol=symbol, text=text, values=values)
 
 
-def _check_range(way: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:
+def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:
     (found,) = (part for part in turning_ranges("a", **lengths) if part.type.key == "crank_rocker")
-    way.check("Lower end, by going through all types", "Untere Grenze, aus der Folge aller Typen", low, found.lower)
-    way.check("Upper end, by going through all types", "Obere Grenze, aus der Folge aller Typen", high, found.upper)
+    builder.check("Lower end, by going through all types", "Untere Grenze, aus der Folge aller Typen", low, found.lower)
+    builder.check("Upper end, by going through all types", "Obere Grenze, aus der Folge aller Typen", high, found.upper)
     near = 1e-3 * (high - low)
     tried = [(low + near, True), (low - near, False), (high - near, True), (high + near, False)]
-    upper = way.number("shortest_upper")
+    upper = builder.number("shortest_upper")
     cranks = [part.upper for part in turning_ranges("a", **lengths) if part.type.key == "double_crank"]
     if free == "d" and upper > 0:
         en, de = "Double crank up to, by going through all types", "Doppelkurbel bis, aus der Folge aller Typen"
-        way.check(en, de, upper, max(cranks, default=0.0))
+        builder.check(en, de, upper, max(cranks, default=0.0))
         close = 1e-3 * min(upper, low - upper)
         tried += [(upper - close, True), (upper + close, False)]
     for value, full in tried:
         moved = drive_range(FourBar(**lengths, **{free: value}).linkage()).full
-        way.check(
+        builder.check(
             f"{free} = {number(value)}: the crank turns fully (1) or not (0), by following the motion",
             f"{free} = {number(value)}: Kurbel umlauffähig (1) oder nicht (0), durch Verfolgen der Bewegung",
             float(full),
@@ -197,31 +197,31 @@ def _check_range(way: SolutionBuilder, free: str, lengths: dict[str, float], low
         )
 
 
-def _add_range_mistakes(way: SolutionBuilder, free: str, crank: float, long: float, short: float) -> None:
+def _add_range_mistakes(builder: SolutionBuilder, free: str, crank: float, long: float, short: float) -> None:
     wrong = (
         "Both cases are needed: once the free link is the longest, once it is not.",
         "Beide Fälle sind nötig: einmal ist das gesuchte Glied das längste, einmal nicht.",
     )
-    way.mistake(
+    builder.mistake(
         f"{free}_min",
         long - short,
         "The crank a was forgotten in the sum l_min + l_max.",
         "In l_min + l_max wurde die Kurbel a vergessen.",
     )
-    way.mistake(
+    builder.mistake(
         f"{free}_max",
         long + short,
         "That only closes the chain; for a full turn the crank a is taken off.",
         "So schließt sich nur die Kette; für den vollen Umlauf wird die Kurbel a abgezogen.",
     )
-    way.mistake(
+    builder.mistake(
         f"{free}_max",
         long + short + crank,
         "l_max stands on the side of l_min: a is taken off.",
         "l_max steht auf der Seite von l_min: a wird abgezogen.",
     )
-    way.mistake(f"{free}_max", long, *wrong)
-    way.mistake(
+    builder.mistake(f"{free}_max", long, *wrong)
+    builder.mistake(
         f"{free}_min",
         crank,
         "To be longer than the crank is not enough: the sums decide.",

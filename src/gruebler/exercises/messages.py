@@ -56,7 +56,7 @@ def value_text(value: Value, unit: str, lang: str) -> str:
     if isinstance(value, bool):
         return _word("yes" if value else "no", lang)
     if isinstance(value, Text):
-        return value.said(lang)
+        return value.in_language(lang)
     if isinstance(value, str):
         return value
     return _local(number(value), lang) + (unit if unit in ("", "°") else f" {unit}")
@@ -86,23 +86,23 @@ _SOURCES = {
 
 def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = None) -> str:
     """Title, source and task, with what is given and, if the solution's names are at hand, what is asked."""
-    title = f"{exercise.name.said(lang)} ({exercise.id})"
+    title = f"{exercise.name.in_language(lang)} ({exercise.id})"
     lines = [title, "-" * len(title)]
     if exercise.source:
         lines.append(f"{_word('source', lang)}: {source_text(exercise.source, lang)}")
-    lines.append(f"{_word('task', lang)}: {exercise.task.said(lang)}")
+    lines.append(f"{_word('task', lang)}: {exercise.task.in_language(lang)}")
     if solution is not None and exercise.asked:
-        found = [solution.results[asked.key] for asked in exercise.asked]
+        results = [solution.results[asked.key] for asked in exercise.asked]
         lines.append(f"{_word('asked', lang)}:")
-        lines += [f"  {ascii_key(result.key)}: {_asked(result, lang)}" for result in found]
+        lines += [f"  {ascii_key(result.key)}: {_asked(result, lang)}" for result in results]
     if exercise.remark is not None:
-        lines.append(f"{_word('remark', lang)}: {exercise.remark.said(lang)}")
+        lines.append(f"{_word('remark', lang)}: {exercise.remark.in_language(lang)}")
     return "\n".join(lines)
 
 
 def _asked(result: Result, lang: str) -> str:
     """The name, and in which unit it is wanted."""
-    name = _local(result.name.said(lang), lang)
+    name = _local(result.name.in_language(lang), lang)
     if not _is_number(result.value):
         return name
     return f"{name} ({_word('unit', lang).format(result.unit) if result.unit else _word('plain', lang)})"
@@ -115,7 +115,7 @@ def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> s
     for part in solution.parts:
         if isinstance(part, Heading):
             count = 0
-            lines += ["", f"  {part.text.said(lang)}"]
+            lines += ["", f"  {part.text.in_language(lang)}"]
         elif isinstance(part, Table):
             lines += ["", *(_INDENT + line for line in lines_of_table(part, lang)), ""]
         else:
@@ -136,7 +136,7 @@ def _step(step: SolutionStep, count: int, lang: str) -> list[str]:
     if sides[1:] and sides[-1] == sides[-2]:
         sides.pop()
     is_relation = step.value is None and " = " not in step.formula
-    lines = [f"{count:3}. {_local(_capital(step.text.said(lang)), lang)}"]
+    lines = [f"{count:3}. {_local(_capital(step.text.in_language(lang)), lang)}"]
     return [*lines, _INDENT + (": " if is_relation else " = ").join(sides)] if sides else lines
 
 
@@ -146,23 +146,23 @@ def _capital(text: str) -> str:
 
 
 def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
-    for one in comparisons:
-        result, asked = one.result, one.asked
+    for comparison in comparisons:
+        result, asked = comparison.result, comparison.asked
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
         line = (
-            f"  {_capital(_local(result.name.said(lang), lang))}: {symbol}{'± ' * result.either_sign}"
+            f"  {_capital(_local(result.name.in_language(lang), lang))}: {symbol}{'± ' * result.either_sign}"
             f"{value_text(result.value, result.unit, lang)}"
         )
         if asked.printed is not None:
             printed = _printed(asked.printed, asked.unit or result.unit, lang)
-            if isinstance(result.value, Text) and one.agrees:
-                printed = result.value.said(lang)
-            if one.agrees:
+            if isinstance(result.value, Text) and comparison.agrees:
+                printed = result.value.in_language(lang)
+            if comparison.agrees:
                 note = _word("printed", lang).format(printed)
             elif asked.reason is None:
                 note = _word("unexplained", lang).format(printed)
             else:
-                note = _word("misprint", lang).format(printed, asked.reason.said(lang))
+                note = _word("misprint", lang).format(printed, asked.reason.in_language(lang))
             line += f"   [{note}]"
         yield line
 
@@ -176,17 +176,17 @@ def _printed(text: str, unit: str, lang: str) -> str:
 def _check(check: Check, lang: str) -> str:
     first, second = (value_text(value, check.unit, lang) for value in (check.first, check.second))
     verdict = _word("agrees" if check.holds else "differs", lang)
-    return f"  {_local(check.text.said(lang), lang)}: {first} | {second}: {verdict}"
+    return f"  {_local(check.text.in_language(lang), lang)}: {first} | {second}: {verdict}"
 
 
 def lines_of_table(table: Table, lang: str) -> list[str]:
     """The table as aligned lines under its title; columns of numbers are flush right."""
-    cells = [[header.said(lang) for header in table.headers]]
+    cells = [[header.in_language(lang) for header in table.headers]]
     places = [0 if all(map(_is_whole, column)) else table.decimals for column in zip(*table.rows, strict=True)]
     cells += [[_cell(value, k, lang) for value, k in zip(row, places, strict=True)] for row in table.rows]
     flush = [all(_is_number(row[k]) for row in table.rows) for k in range(len(table.headers))]
     widths = [max(len(row[k]) for row in cells) for k in range(len(table.headers))]
-    lines = [table.title.said(lang)]
+    lines = [table.title.in_language(lang)]
     for row in cells:
         shown = (c.rjust(w) if right else c.ljust(w) for c, w, right in zip(row, widths, flush, strict=True))
         lines.append("  ".join(shown).rstrip())

@@ -35,9 +35,9 @@ def chain(chain: str, space: str = "planar") -> Solution:
     >>> chain("R(0-1) R(1-2-3) R(2-4) R(3-5) P(0-4) P(0-5)")["F"]
     1
     """
-    way = SolutionBuilder()
-    _add_count(way, Chain.parse(chain, space), _Mark("", None), {})
-    return way.done()
+    builder = SolutionBuilder()
+    _add_count(builder, Chain.parse(chain, space), _Mark("", None), {})
+    return builder.done()
 
 
 def machines(machines: str) -> Solution:
@@ -47,18 +47,18 @@ def machines(machines: str) -> Solution:
     7
     """
     ids = machines.split()
-    way = SolutionBuilder()
+    builder = SolutionBuilder()
     for id in ids:
         record = entry(id)
         if len(ids) > 1:
-            way.parts.append(Heading(record.name))
+            builder.parts.append(Heading(record.name))
         if record.figure_lost:
-            way.say(
+            builder.say(
                 "The figure is lost; the structure is an assumption.", "Das Bild fehlt; die Struktur ist angenommen."
             )
         mark = _Mark(f".{id}", record.name) if len(ids) > 1 else _Mark("", None)
-        _add_count(way, record.chain(), mark, record.links)
-    return way.done()
+        _add_count(builder, record.chain(), mark, record.links)
+    return builder.done()
 
 
 class _Mark(NamedTuple):
@@ -74,37 +74,37 @@ class _Mark(NamedTuple):
         return self.key
 
 
-def _add_count(way: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
+def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
     numbered = all(link.isdigit() for link in structure.links)
     links = sorted(structure.links, key=int) if numbered else structure.links
     names = Text(", ".join(links), ", ".join(german.get(link, link) for link in links))
-    way.parts.append(SolutionStep(Text(f"Links: {names.en}.", f"Glieder: {names.de}."), "n", "", structure.n))
-    way.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
-    _add_joints(way, structure, mark, german)
+    builder.parts.append(SolutionStep(Text(f"Links: {names.en}.", f"Glieder: {names.de}."), "n", "", structure.n))
+    builder.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
+    _add_joints(builder, structure, mark, german)
     formula = count_freedoms(structure)
     parts = formula.formula().removeprefix("F = ").split(" = ")
-    way.parts.append(SolutionStep(_FREEDOM, f"F = {parts[0]}", parts[1], formula.value))
-    way.keep(f"F{mark}", mark.named(_FREEDOM), formula.value, symbol="F")
+    builder.parts.append(SolutionStep(_FREEDOM, f"F = {parts[0]}", parts[1], formula.value))
+    builder.keep(f"F{mark}", mark.named(_FREEDOM), formula.value, symbol="F")
     sides = formula.criterion().split(" = ")
-    way.parts.append(SolutionStep(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
+    builder.parts.append(SolutionStep(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
     report = mobility_report(structure)
     verdict = Text(*(verdict_word(report.verdict, lang) for lang in ("en", "de")))
     drives = "one drive is" if report.generic == 1 else f"{report.generic} drives are"
     antriebe = "ist ein Antrieb" if report.generic == 1 else f"sind {report.generic} Antriebe"
     need = (f": {drives} needed", f": nötig {antriebe}") if report.generic > 0 else ("", "")
-    way.say(f"The chain is {verdict.en}{need[0]}.", f"Die Kette ist {verdict.de}{need[1]}.")
+    builder.say(f"The chain is {verdict.en}{need[0]}.", f"Die Kette ist {verdict.de}{need[1]}.")
     check = mark.named(_BY_RANK)
-    way.check(
+    builder.check(
         check.en,
         check.de,
         float(max(formula.value, 0)),
         float(report.generic),
         "",
     )
-    _add_mistakes(way, structure, mark)
+    _add_mistakes(builder, structure, mark)
 
 
-def _add_joints(way: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
+def _add_joints(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: Mapping[str, str]) -> None:
     short = structure.renamed(_short(structure, german)) if german else structure
     by_freedom = {1: 0, 2: 0} | structure.joints_by_freedom
     for f, number in by_freedom.items():
@@ -114,13 +114,13 @@ def _add_joints(way: SolutionBuilder, structure: Chain, mark: _Mark, german: Map
             ", ".join(short.joint_names(Alphabet.GERMAN)[k] for k in which) or "keine",
         )
         text = Text(f"Joints with f = {f}: {words.en}.", f"Gelenke mit f = {f}: {words.de}.")
-        way.parts.append(SolutionStep(text, f"g{f}", "", number))
+        builder.parts.append(SolutionStep(text, f"g{f}", "", number))
         name = Text(f"number of joints with f = {f}", f"Anzahl der Gelenke mit f = {f}")
-        way.keep(f"g{f}{mark}", mark.named(name), number, symbol=f"g{f}")
+        builder.keep(f"g{f}{mark}", mark.named(name), number, symbol=f"g{f}")
     for joint, named in zip(structure.multiple_joints, short.multiple_joints, strict=True):
         k = len(joint.links)
         times = _TIMES.get(k - 1, Text(f"{k - 1} times", f"{k - 1}-fach"))
-        way.say(
+        builder.say(
             f"The joint {'-'.join(joint.links)} connects {k} links and counts {times.en}.",
             f"Das Gelenk {'-'.join(named.links)} verbindet {k} Glieder und zählt {times.de}.",
         )
@@ -132,7 +132,7 @@ def _short(structure: Chain, german: Mapping[str, str]) -> dict[str, str]:
     return names if len(set(names.values())) == len(names) else {link: german.get(link, link) for link in names}
 
 
-def _add_mistakes(way: SolutionBuilder, structure: Chain, mark: _Mark) -> None:
+def _add_mistakes(builder: SolutionBuilder, structure: Chain, mark: _Mark) -> None:
     b, n = structure.space.b, structure.n
     right = count_freedoms(structure).value
     extra = [(joint, joint.count - 1) for joint in structure.multiple_joints]
@@ -142,13 +142,13 @@ def _add_mistakes(way: SolutionBuilder, structure: Chain, mark: _Mark) -> None:
             "A joint of three links is a double joint and counts twice, one of four three times.",
             "Ein Gelenk dreier Glieder ist ein Doppelgelenk und zählt zweifach, eines von vier Gliedern dreifach.",
         )
-        way.mistake(f"F{mark}", right + lost, *hint)
+        builder.mistake(f"F{mark}", right + lost, *hint)
         simple = sum(1 for joint in structure.joints if joint.pair.f(structure.space) == 1)
-        way.mistake(f"g1{mark}", simple, *hint)
+        builder.mistake(f"g1{mark}", simple, *hint)
     frame = ("The frame is a link too: n counts it.", "Das Gestell ist auch ein Glied und zählt in n mit.")
-    way.mistake(f"n{mark}", n - 1, *frame)
-    way.mistake(f"F{mark}", right - b, *frame)
-    way.mistake(
+    builder.mistake(f"n{mark}", n - 1, *frame)
+    builder.mistake(f"F{mark}", right - b, *frame)
+    builder.mistake(
         f"F{mark}",
         right + b,
         "The frame does not move: the formula has n - 1 free links, not n.",
@@ -160,5 +160,5 @@ def _add_mistakes(way: SolutionBuilder, structure: Chain, mark: _Mark) -> None:
             "A joint that rolls and slides has f = 2 and takes away one motion only.",
             "Ein Gleitwälzgelenk hat f = 2 und nimmt nur eine Bewegung weg.",
         )
-        way.mistake(f"F{mark}", right - higher, *hint)
-        way.mistake(f"g2{mark}", 0, *hint)
+        builder.mistake(f"F{mark}", right - higher, *hint)
+        builder.mistake(f"g2{mark}", 0, *hint)

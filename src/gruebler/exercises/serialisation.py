@@ -36,7 +36,11 @@ def solution_as_dict(exercise: Exercise, solution: Solution) -> dict[str, Any]:
             ascii_key(r.key): {"symbol": r.symbol, "name": _value(r.name), "value": _value(r.value), "unit": r.unit}
             for r in solution.results.values()
         },
-        "printed": [_comparison(one) for one in compare(exercise, solution) if one.asked.printed is not None],
+        "printed": [
+            _comparison(comparison)
+            for comparison in compare(exercise, solution)
+            if comparison.asked.printed is not None
+        ],
         "checks": [
             {"text": _value(c.text), "first": c.first, "second": c.second, "unit": c.unit, "holds": c.holds}
             for c in solution.checks
@@ -57,12 +61,12 @@ def grades_as_list(marks: Sequence[Grade]) -> list[dict[str, Any]]:
     """The marked answers."""
     return [
         {
-            "key": ascii_key(one.key),
-            "answer": one.answer,
-            "mark": one.mark.value,
-            "hint": None if one.hint is None else _value(one.hint),
+            "key": ascii_key(grade.key),
+            "answer": grade.answer,
+            "mark": grade.mark.value,
+            "hint": None if grade.hint is None else _value(grade.hint),
         }
-        for one in marks
+        for grade in marks
     ]
 
 

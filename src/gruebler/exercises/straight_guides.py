@@ -31,8 +31,8 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     if not b == c == e or a + d >= 2 * b:
         raise LinkageError(f"the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}")
     size = FourBar(a, b, c, d)
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         "B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one.",
         "B ist von A, B0 und C gleich weit entfernt (b = c = e): Nach Thales ist der Winkel A-B0-C ein rechter.",
         "|B0C| = √((b + e)² - |AB0|²)",
@@ -42,7 +42,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
         "Abstand h bei φ = 180°: A liegt auf der Gestellgeraden, C senkrecht über B0",
     )
     name = Text("height of C above the frame line", "Abstand des Punktes C von der Gestellgeraden")
-    height = way.find(
+    height = builder.find(
         "h", name, "√((b + e)² - (a + d)²)", sqrt((b + e) ** 2 - (a + d) ** 2), text=text, a=a, b=b, d=d, e=e
     )
     drives = turns(0, 360, as_step(step))
@@ -52,44 +52,46 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
         (round(degrees(p), 9), *map(float, (*c_, *b_)))
         for p, c_, b_ in zip(drives, points, motion.B.value, strict=True)
     ]
-    way.table(PATH, headers("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
-    _add_straight(way, size, b + e)
-    _check_piece(way, path_piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0))
-    check_path(way, size.linkage({"C": (b + e, 0)}), drives, points, "+")
-    way.check(
+    builder.table(PATH, headers("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
+    _add_straight(builder, size, b + e)
+    _check_piece(
+        builder, path_piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0)
+    )
+    check_path(builder, size.linkage({"C": (b + e, 0)}), drives, points, "+")
+    builder.check(
         "h, from the path at φ = 180°",
         "h, aus der Bahn bei φ = 180°",
         height,
         float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag),
     )
-    way.mistake(
+    builder.mistake(
         "h",
         sqrt((b + e) ** 2 - (d - a) ** 2),
         "That is the height at φ = 0°, where the path is not straight.",
         "Das ist die Höhe bei φ = 0°; dort ist die Bahn nicht gerade.",
     )
-    way.mistake(
+    builder.mistake(
         "h", b + e, "C is not vertically above A but above B0.", "C liegt nicht senkrecht über A, sondern über B0."
     )
-    return way.done()
+    return builder.done()
 
 
-def _check_piece(way: SolutionBuilder, again: PathPiece) -> None:
+def _check_piece(builder: SolutionBuilder, again: PathPiece) -> None:
     """Length and width of the straight stretch against those of the path of the general solver."""
-    way.check("L, by the general solver", "L, mit dem allgemeinen Löser", way.number("length"), again.length)
-    way.check(
-        "Δ, by the general solver", "Δ, mit dem allgemeinen Löser", way.number("band"), again.band, tolerance=STRIP
+    builder.check("L, by the general solver", "L, mit dem allgemeinen Löser", builder.number("length"), again.length)
+    builder.check(
+        "Δ, by the general solver", "Δ, mit dem allgemeinen Löser", builder.number("band"), again.band, tolerance=STRIP
     )
 
 
-def _add_straight(way: SolutionBuilder, size: FourBar, reach: float) -> None:
+def _add_straight(builder: SolutionBuilder, size: FourBar, reach: float) -> None:
     """The straight stretch of the lambda linkage's path, over half a turn of the crank."""
     half = path_piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
     text = Text(
         "straight stretch: from φ = 90° to 270° C runs along a length of",
         "gerades Stück: Von φ = 90° bis 270° läuft C über eine Länge von",
     )
-    way.find(
+    builder.find(
         "length",
         Text("length of the straight stretch", "Länge des geraden Stücks"),
         "|C_x(90°) - C_x(270°)|",
@@ -98,9 +100,9 @@ def _add_straight(way: SolutionBuilder, size: FourBar, reach: float) -> None:
         text=text,
     )
     name = Text("deviation from the straight line there", "Abweichung von der Geraden dort")
-    way.find("band", name, "max C_y - min C_y", half.band, symbol="Δ")
+    builder.find("band", name, "max C_y - min C_y", half.band, symbol="Δ")
     name = Text("deviation by length", "bezogene Abweichung")
-    way.find("ratio", name, "Δ/L", half.ratio, unit="", symbol="Q", Δ=half.band, L=half.length)
+    builder.find("ratio", name, "Δ/L", half.ratio, unit="", symbol="Q", Δ=half.band, L=half.length)
 
 
 def watt_linkage(
@@ -116,14 +118,14 @@ def watt_linkage(
     size = FourBar(rocker, coupler, rocker, hypot(width, height))
     tilt = -atan2(height, width)
     left = complex(-rocker, height / 2)
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, -c/2), "
         "the coupler upright with its middle F in the origin.",
         "Mittellage (angenommen, das Bild fehlt): beide Schwingen waagerecht, Drehpunkte A0 = (-a; c/2) und B0 = (a; "
         "-c/2), die Koppel senkrecht mit ihrer Mitte F im Ursprung.",
     )
-    way.say(
+    builder.say(
         "For each angle t of the left rocker: A by t, B on both circles, F in the middle.",
         "Zu jedem Winkel t der linken Schwinge: A aus t, B auf beiden Kreisen, F in der Mitte.",
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
@@ -140,15 +142,15 @@ def watt_linkage(
         for t, z, r in zip(values, path, right, strict=True)
     ]
     last = Text("right rocker [°]", "rechte Schwinge [°]")
-    way.table(PATH, [*headers("t [°]", "F_x", "F_y"), last], rows)
-    _add_watt_stroke(way, size, tilt, left, coupler)
-    _check_watt(way, size, tilt, left, coupler)
+    builder.table(PATH, [*headers("t [°]", "F_x", "F_y"), last], rows)
+    _add_watt_stroke(builder, size, tilt, left, coupler)
+    _check_watt(builder, size, tilt, left, coupler)
     moved = move(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
-    way.check(*BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
-    return way.done()
+    builder.check(*BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
+    return builder.done()
 
 
-def _add_watt_stroke(way: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
     """How far F goes up and down while it keeps within so many hundredths of the rocker beside the straight line."""
     from scipy.optimize import brentq
 
@@ -161,17 +163,17 @@ def _add_watt_stroke(way: SolutionBuilder, size: FourBar, tilt: float, left: com
     excess = {sign: lambda t, s=sign: s * at(t).real - side for sign in (-1, 1)}
     reach = next((t for t in np.radians(np.arange(1.0, 60.0)) if all(excess[s](s * t) > 0 for s in (-1, 1))), None)
     if reach is None:
-        raise LinkageError(f"F does not leave the strip of {side:g} {way.unit} at both ends within 60 degrees")
+        raise LinkageError(f"F does not leave the strip of {side:g} {builder.unit} at both ends within 60 degrees")
     ends = [float(brentq(excess[sign], 0, sign * reach, xtol=1e-14)) for sign in (-1, 1)]
     low, high = (at(t).imag for t in ends)
-    name = Text(f"stroke with |F_x| ≤ {number(side)} {way.unit}", f"Hub mit |F_x| ≤ {number(side)} {way.unit}")
-    way.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
-    way.keep("t_low", Text("rocker at the lower end", "Schwinge am unteren Ende"), degrees(ends[0]), unit="°")
-    way.keep("t_high", Text("rocker at the upper end", "Schwinge am oberen Ende"), degrees(ends[1]), unit="°")
+    name = Text(f"stroke with |F_x| ≤ {number(side)} {builder.unit}", f"Hub mit |F_x| ≤ {number(side)} {builder.unit}")
+    builder.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
+    builder.keep("t_low", Text("rocker at the lower end", "Schwinge am unteren Ende"), degrees(ends[0]), unit="°")
+    builder.keep("t_high", Text("rocker at the upper end", "Schwinge am oberen Ende"), degrees(ends[1]), unit="°")
     contact = lever_contact(size, coupler / 2, 0, -tilt, branch=-1)
     name = Text("points that path and tangent have in common in the middle", "Punkte, in denen die Tangente berührt")
-    way.keep("n", name, contact.points)
-    way.say(
+    builder.keep("n", name, contact.points)
+    builder.say(
         f"About the middle F_x grows with the power {contact.points} of F_y only: path and tangent have "
         f"{contact.points} points in common there.",
         f"Um die Mittellage wächst F_x nur mit der {contact.points}. Potenz von F_y: Die Tangente berührt die "
@@ -179,17 +181,17 @@ def _add_watt_stroke(way: SolutionBuilder, size: FourBar, tilt: float, left: com
     )
 
 
-def _check_watt(way: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+def _check_watt(builder: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
     """Both ends of the stroke and the order of contact, by the general solver."""
     linkage = size.linkage({"F": (coupler / 2, 0)})
-    ends = [radians(way.number(key)) for key in ("t_low", "t_high")]
+    ends = [radians(builder.number(key)) for key in ("t_low", "t_high")]
     moved = left + move(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(1j * tilt)
     en, de = "by the general solver", "mit dem allgemeinen Löser"
-    way.check(f"Stroke, {en}", f"Hub, {de}", way.number("stroke"), float(np.ptp(moved.imag)))
+    builder.check(f"Stroke, {en}", f"Hub, {de}", builder.number("stroke"), float(np.ptp(moved.imag)))
     for name, place in zip(("F_y1", "F_y2"), moved, strict=True):
-        way.check(f"|F_x| at {name}, {en}", f"|F_x| bei {name}, {de}", size.a / 600, float(abs(place.real)))
+        builder.check(f"|F_x| at {name}, {en}", f"|F_x| bei {name}, {de}", size.a / 600, float(abs(place.real)))
     met = tangent_contact(move(linkage, -tilt, speed=1, branch="-"), "F").points
-    way.check(f"Points in common, {en}", f"Gemeinsame Punkte, {de}", way.number("n"), float(met or 0), "")
+    builder.check(f"Points in common, {en}", f"Gemeinsame Punkte, {de}", builder.number("n"), float(met or 0), "")
 
 
 def double_rocker(
@@ -211,9 +213,9 @@ def double_rocker(
     [84.071616, 43.677859]
     """
     size = FourBar(d, a, b, c)
-    way = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit)
     pair = f"{number(c * cos(radians(frame)))}, {number(c * sin(radians(frame)))}"
-    way.say(
+    builder.say(
         f"Pivot of the rocker d in the origin, of the rocker b at ({pair}): the frame c lies at {number(frame)}° to "
         "the horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
         "lost).",
@@ -221,7 +223,7 @@ def double_rocker(
         f"unter {number(frame)}° zur Waagerechten. D ist das Gelenk von d, A das von b; C liegt auf der Geraden A-D "
         "jenseits von D (angenommen, das Bild fehlt).",
     )
-    way.say(
+    builder.say(
         "D follows from φ; A lies on the circle of radius a about D and that of radius b about the other pivot:",
         "D folgt aus φ; A liegt auf dem Kreis um D mit Radius a und dem um den anderen Drehpunkt mit Radius b:",
         "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
@@ -238,50 +240,50 @@ def double_rocker(
         (round(degrees(phi), 9), *(float(x) for column in columns for x in (column[k].real, column[k].imag)))
         for k, phi in enumerate(values)
     ]
-    way.table(PATH, headers("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
+    builder.table(PATH, headers("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
     ends = radians(start) - tilt, radians(stop) - tilt
-    _add_strip(way, size, coupler_path(size, a - ac, 0), ends, frame)
-    _check_piece(way, path_piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
-    _check_limits(way, size)
-    check_path(way, size.linkage({"C": (a - ac, 0)}), values - tilt, local, "+")
-    return way.done()
+    _add_strip(builder, size, coupler_path(size, a - ac, 0), ends, frame)
+    _check_piece(builder, path_piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
+    _check_limits(builder, size)
+    check_path(builder, size.linkage({"C": (a - ac, 0)}), values - tilt, local, "+")
+    return builder.done()
 
 
-def _add_strip(way: SolutionBuilder, size: FourBar, path: Path, ends: tuple[float, float], frame: float) -> None:
+def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[float, float], frame: float) -> None:
     """How straight C runs, and which angles the rocker could reach with a horizontal frame."""
-    unit = way.unit
-    found = path_piece(path, *ends)
+    unit = builder.unit
+    piece = path_piece(path, *ends)
     name = Text("width of the strip in which C keeps", "Breite des Streifens, in dem C bleibt")
-    way.keep("band", name, found.band, unit=unit, symbol="Δ")
-    way.keep(
+    builder.keep("band", name, piece.band, unit=unit, symbol="Δ")
+    builder.keep(
         "length",
         Text("length of the path along it", "Länge der Bahn längs des Streifens"),
-        found.length,
+        piece.length,
         unit=unit,
         symbol="L",
     )
-    direction = (degrees(found.direction) + frame) % 180
-    way.keep("direction", Text("direction of the strip", "Richtung des Streifens"), direction, unit="°")
-    way.say(
-        f"C keeps in a strip of {number(found.band)} {unit} over {number(found.length)} {unit}, at "
+    direction = (degrees(piece.direction) + frame) % 180
+    builder.keep("direction", Text("direction of the strip", "Richtung des Streifens"), direction, unit="°")
+    builder.say(
+        f"C keeps in a strip of {number(piece.band)} {unit} over {number(piece.length)} {unit}, at "
         f"{number(direction)}° to the horizontal. Turned by a right angle that is the level way of the load.",
-        f"C bleibt über {number(found.length)} {unit} in einem Streifen von {number(found.band)} {unit} Breite, unter "
+        f"C bleibt über {number(piece.length)} {unit} in einem Streifen von {number(piece.band)} {unit} Breite, unter "
         f"{number(direction)}° zur Waagerechten. Um 90° gedreht ist das der waagerechte Lastweg.",
     )
     arc = size.limits[0]
-    way.keep(
+    builder.keep(
         "lowest",
         Text("smallest angle of rocker and frame", "kleinster Winkel zwischen Schwinge d und Gestell"),
         degrees(arc.start),
         unit="°",
     )
-    way.keep(
+    builder.keep(
         "highest",
         Text("largest angle of rocker and frame", "größter Winkel zwischen Schwinge d und Gestell"),
         degrees(arc.end),
         unit="°",
     )
-    way.say(
+    builder.say(
         f"With a horizontal frame the chain would close only for φ from {number(degrees(arc.start))}° to "
         f"{number(degrees(arc.end))}°.",
         f"Bei waagerechtem Gestell schlösse sich die Kette nur für φ von {number(degrees(arc.start))}° bis "
@@ -289,15 +291,15 @@ def _add_strip(way: SolutionBuilder, size: FourBar, path: Path, ends: tuple[floa
     )
 
 
-def _check_limits(way: SolutionBuilder, size: FourBar) -> None:
+def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
     """The general solver has no position just beyond the limits of the rocker, and one just inside."""
     linkage = size.linkage()
     for key, side in (("lowest", -1), ("highest", 1)):
-        limit = way.number(key)
+        limit = builder.number(key)
         inside, beyond = (
             move(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
         )
-        way.check(
+        builder.check(
             f"{number(limit)}° is the limit (1) or not (0), by the general solver",
             f"{number(limit)}° ist die Grenze (1) oder nicht (0), mit dem allgemeinen Löser",
             1.0,
@@ -315,8 +317,8 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     if not a == b == e:
         raise LinkageError(f"an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}")
     size = SliderCrank(a, b)
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line through "
         "A0 at right angles to the slider's way.",
         "A ist von A0, B und C gleich weit entfernt: Nach Thales ist der Winkel B-A0-C ein rechter; C liegt also auf "
@@ -326,10 +328,10 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     drives = turns(-60, 60, as_step(step))
     points = size.motion(drives).point(-e).value
     rows = [(round(degrees(p), 9), round(float(z[0]), 12), float(z[1])) for p, z in zip(drives, points, strict=True)]
-    way.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)
+    builder.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)
     name = Text("largest deviation from the straight line", "größte Abweichung von der Geraden")
-    way.find("deviation", name, "max |C_x|", max(abs(row[1]) for row in rows), symbol="Δ")
-    check_path(way, size.linkage({"C": (-e, 0)}), drives, points, "+")
+    builder.find("deviation", name, "max |C_x|", max(abs(row[1]) for row in rows), symbol="Δ")
+    check_path(builder, size.linkage({"C": (-e, 0)}), drives, points, "+")
     expected = max(abs(z[1] - 2 * a * sin(p)) for p, z in zip(drives.tolist(), points.tolist(), strict=True))
-    way.check("Largest difference from 2a·sin φ", "Größter Unterschied zu 2a·sin φ", 0.0, expected)
-    return way.done()
+    builder.check("Largest difference from 2a·sin φ", "Größter Unterschied zu 2a·sin φ", 0.0, expected)
+    return builder.done()

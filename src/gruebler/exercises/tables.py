@@ -124,7 +124,7 @@ def _roles() -> Table:
     rows: list[tuple[Value, ...]] = []
     for name, linkage in examples:
         found = [(str(link), role) for link, role in motion_roles(linkage).items()]
-        en, de = (", ".join(role.said(lang) for _, role in found) for lang in ("en", "de"))
+        en, de = (", ".join(role.in_language(lang) for _, role in found) for lang in ("en", "de"))
         rows.append((name, Text(en, de)))
     title = Text("Links by their motion (computed from it)", "Glieder nach ihrer Bewegung (aus ihr berechnet)")
     return Table(
@@ -147,7 +147,7 @@ def inversion_table() -> tuple[Table, ...]:
             crank, rocker = rocker, crank
         size = FourBar(*(chain[name] for name in (crank, coupler, rocker, frame)))
         roles = dict(zip((frame, crank, coupler, rocker), motion_roles(size.linkage()).values(), strict=True))
-        cells = [Text(roles[name].said("en"), roles[name].said("de")) for name in ring]
+        cells = [Text(roles[name].in_language("en"), roles[name].in_language("de")) for name in ring]
         rows.append((f"({row})", frame, *cells, Text(size.type.english, size.type.german)))
     title = Text(
         "One chain, four mechanisms: a = 2, b = 5, c = 4, d = 5",

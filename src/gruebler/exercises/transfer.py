@@ -21,10 +21,10 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     """
     if as_positive("i", i) * 360 > _MOST * as_step(step):
         raise LinkageError(f"the table has at most {_MOST} rows, too few for i = {i:g} in steps of {step:g} degrees")
-    way = SolutionBuilder()
+    builder = SolutionBuilder()
     name = Text("slope of the transfer function", "Steigung der Übertragungsfunktion")
-    way.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
-    way.say(
+    builder.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
+    builder.say(
         "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in opposite "
         "senses; with signs the line falls, ψ = -φ/i.",
         "ψ wächst gleichmäßig mit φ: Die Übertragungsfunktion ist eine Gerade durch den Ursprung. Ein Außenradpaar "
@@ -33,25 +33,25 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     )
     rows = [(k * step, k * step / i) for k in range(int(360 * i / step + 1e-9) + 1)]
     title = Text("Transfer function, magnitudes", "Übertragungsfunktion, Beträge")
-    way.table(title, [Text("φ [°]", "φ [°]"), Text("ψ [°]", "ψ [°]")], rows)
-    way.keep(
+    builder.table(title, [Text("φ [°]", "φ [°]"), Text("ψ [°]", "ψ [°]")], rows)
+    builder.keep(
         "turns", Text("turns of the drive for one of the output", "Umdrehungen des Antriebs für eine des Abtriebs"), i
     )
     teeth = 20
     reading = read_train(f"drive:{teeth} wheel:{number(teeth * i)}; drive=1") if float(teeth * i).is_integer() else None
     if reading is not None:
         speed = speeds(reading.train, {"drive": 1}).values["wheel"]
-        way.check(
+        builder.check(
             f"Slope by the gear train {teeth}:{number(teeth * i)}",
             f"Steigung aus dem Räderpaar {teeth}:{number(teeth * i)}",
             1 / i,
             abs(float(speed or 0)),
             "",
         )
-    way.mistake(
+    builder.mistake(
         "slope",
         float(i),
         "i is input by output; the slope is output by input, 1/i.",
         "i ist Antrieb durch Abtrieb; die Steigung ist Abtrieb durch Antrieb, 1/i.",
     )
-    return way.done()
+    return builder.done()

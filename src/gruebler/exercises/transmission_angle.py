@@ -34,8 +34,8 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     size = FourBar(a, b, c, d)
     if "a" not in size.turning:
         raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - a or d + "
         "a.",
         "Der Übertragungswinkel ist in den Steglagen am größten und am kleinsten: Dort ist der Abstand A-B0 gleich d "
@@ -51,14 +51,14 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
             f"Winkel zwischen Koppel und Schwinge, Steglage {key}",
         )
         formula = f"arccos((b² + c² - (d {sign} a)²)/(2·b·c))"
-        way.find(f"μ_{key}", name, formula, value, unit="°", a=a, b=b, c=c, d=d)
-        folded.append(_add_folded(way, key, value))
+        builder.find(f"μ_{key}", name, formula, value, unit="°", a=a, b=b, c=c, d=d)
+        folded.append(_add_folded(builder, key, value))
         name = Text(f"deviation angle, frame position {key}", f"Ablenkwinkel, Steglage {key}")
         small = f"μ_{key}*" if value > 90 else f"μ_{key}"
         values = {small: angle(folded[-1])}
-        deviations.append(way.find(f"α_{key}", name, f"90° - {small}", 90 - folded[-1], unit="°", values=values))
-    names = ["μ_I*" if way.number("μ_I") > 90 else "μ_I", "μ_II*" if way.number("μ_II") > 90 else "μ_II"]
-    mu = way.find(
+        deviations.append(builder.find(f"α_{key}", name, f"90° - {small}", 90 - folded[-1], unit="°", values=values))
+    names = ["μ_I*" if builder.number("μ_I") > 90 else "μ_I", "μ_II*" if builder.number("μ_II") > 90 else "μ_II"]
+    mu = builder.find(
         "μ_min",
         _SMALLEST,
         f"min({names[0]}, {names[1]})",
@@ -66,54 +66,54 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
         unit="°",
         values=dict(zip(names, map(angle, folded), strict=True)),
     )
-    _add_rule(way, mu)
-    _check_smallest(way, size.linkage(), mu)
+    _add_rule(builder, mu)
+    _check_smallest(builder, size.linkage(), mu)
     moved = move(size.linkage(), [0.0, pi], branch="+")
     for key, turned in zip(("I", "II"), abs(moved.angle("rocker") - moved.angle("coupler")).tolist(), strict=True):
         en, de = f"μ_{key}, by the general solver", f"μ_{key}, mit dem allgemeinen Löser"
         between = degrees(turned) % 360
-        way.check(en, de, way.number(f"μ_{key}"), min(between, 360 - between), "°")
-    way.mistake(
+        builder.check(en, de, builder.number(f"μ_{key}"), min(between, 360 - between), "°")
+    builder.mistake(
         "μ_min",
         max(folded),
         "That is the better of the two frame positions.",
         "Das ist die günstigere der beiden Steglagen.",
     )
     for value in folded:
-        way.mistake("μ_min", 180 - value, *_FOLD)
-    way.mistake("μ_min", min(deviations), *_IS_DEVIATION)
-    way.mistake("μ_min", max(deviations), *_IS_DEVIATION)
-    return way.done()
+        builder.mistake("μ_min", 180 - value, *_FOLD)
+    builder.mistake("μ_min", min(deviations), *_IS_DEVIATION)
+    builder.mistake("μ_min", max(deviations), *_IS_DEVIATION)
+    return builder.done()
 
 
-def _add_folded(way: SolutionBuilder, key: str, value: float) -> float:
+def _add_folded(builder: SolutionBuilder, key: str, value: float) -> float:
     name = Text(f"transmission angle, frame position {key}", f"Übertragungswinkel, Steglage {key}")
     if value <= 90:
-        way.keep(f"μ_{key}*", name, value, unit="°")
+        builder.keep(f"μ_{key}*", name, value, unit="°")
         return value
-    found = way.find(f"μ_{key}*", name, f"180° - μ_{key}", 180 - value, unit="°", values={f"μ_{key}": angle(value)})
-    way.mistake(f"μ_{key}*", value, *_FOLD)
+    found = builder.find(f"μ_{key}*", name, f"180° - μ_{key}", 180 - value, unit="°", values={f"μ_{key}": angle(value)})
+    builder.mistake(f"μ_{key}*", value, *_FOLD)
     return found
 
 
-def _add_rule(way: SolutionBuilder, mu: float) -> None:
-    way.keep(
+def _add_rule(builder: SolutionBuilder, mu: float) -> None:
+    builder.keep(
         "good", Text("good transmission (μ_min at least 40°)", "gute Kraftübertragung (μ_min mindestens 40°)"), mu >= 40
     )
     good = ("at least", "mindestens") if mu >= 40 else ("below", "unter")
-    way.say(
+    builder.say(
         f"μ_min is {good[0]} the 40° of the rule of thumb.",
         f"μ_min liegt {'bei ' if mu >= 40 else ''}{good[1]} 40°, der Faustregel für langsam laufende Getriebe.",
     )
 
 
-def _check_smallest(way: SolutionBuilder, linkage: Linkage, mu: float) -> None:
-    found = measures(linkage).transmission
-    way.check(
+def _check_smallest(builder: SolutionBuilder, linkage: Linkage, mu: float) -> None:
+    extremes = measures(linkage).transmission
+    builder.check(
         "Smallest transmission angle, from the solved motion",
         "Kleinster Übertragungswinkel, aus der durchgerechneten Bewegung",
         mu,
-        degrees(found.smallest.mu) if found else 0.0,
+        degrees(extremes.smallest.mu) if extremes else 0.0,
         "°",
     )
 
@@ -125,13 +125,13 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     36.869898
     """
     SliderCrank(a, b, e)  # refuses lengths that are none
-    way = SolutionBuilder(unit)
-    way.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
-    _add_slider_crank(way, a, b, e)
-    return way.done()
+    builder = SolutionBuilder(unit)
+    builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
+    _add_slider_crank(builder, a, b, e)
+    return builder.done()
 
 
-def _add_slider_crank(way: SolutionBuilder, a: float, b: float, e: float, mark: str = "") -> float:
+def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, mark: str = "") -> float:
     """Steps for one slider-crank; ``mark`` numbers its symbols. Returns the smallest transmission angle."""
     size = SliderCrank(a, b, e)
     if size.turning != ("a",):
@@ -139,33 +139,35 @@ def _add_slider_crank(way: SolutionBuilder, a: float, b: float, e: float, mark: 
     off = abs(e)
     rise = "(a + e)/b" if off else "a/b"
     if off and not mark:
-        way.say(
+        builder.say(
             "The joint A is farthest from the slider's line, by a + e, where the crank points away from it.",
             "Am weitesten, nämlich a + e, ist das Gelenk A von der Totlagengeraden entfernt, wenn die Kurbel von ihr "
             "weg zeigt.",
         )
     values = {"a": number(a), f"b{mark}": number(b), "e": number(off)}
     alpha = degrees(asin((a + off) / b))
-    worst = way.find(
+    worst = builder.find(
         f"α_max{mark}", _DEVIATION, f"arcsin({rise.replace('b', 'b' + mark)})", alpha, unit="°", values=values
     )
-    mu = way.find(
+    mu = builder.find(
         f"μ_min{mark}", _SMALLEST, f"90° - α_max{mark}", 90 - worst, unit="°", values={f"α_max{mark}": angle(worst)}
     )
-    _check_smallest(way, size.linkage(), mu)
-    way.mistake(f"μ_min{mark}", worst, *_IS_DEVIATION)
+    _check_smallest(builder, size.linkage(), mu)
+    builder.mistake(f"μ_min{mark}", worst, *_IS_DEVIATION)
     if off:
-        _add_other_extreme(way, a, b, off)
+        _add_other_extreme(builder, a, b, off)
         moved = move(size.linkage(), pi / 2 if e > 0 else -pi / 2)
         there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
-        way.check("μ_II, by the general solver", "μ_II, mit dem allgemeinen Löser", way.number("μ_II"), there, "°")
-        way.mistake(
+        builder.check(
+            "μ_II, by the general solver", "μ_II, mit dem allgemeinen Löser", builder.number("μ_II"), there, "°"
+        )
+        builder.mistake(
             "μ_min",
             90 - degrees(asin(a / b)),
             "The eccentricity counts too: sin α_max = (a + e)/b.",
             "Die Exzentrizität zählt mit: sin α_max = (a + e)/b.",
         )
-        way.mistake(
+        builder.mistake(
             "μ_min",
             degrees(acos((a - off) / b)),
             "On the worse side e is added to a: sin α_max = (a + e)/b.",
@@ -173,23 +175,23 @@ def _add_slider_crank(way: SolutionBuilder, a: float, b: float, e: float, mark: 
         )
     else:
         largest = Text("largest transmission angle, in the dead centres", "größter Übertragungswinkel, in den Totlagen")
-        way.keep(f"μ_max{mark}", largest, 90.0, unit="°")
-    found = measures(size.linkage()).transmission
-    way.check(
+        builder.keep(f"μ_max{mark}", largest, 90.0, unit="°")
+    extremes = measures(size.linkage()).transmission
+    builder.check(
         "Largest transmission angle, from the solved motion",
         "Größter Übertragungswinkel, aus der durchgerechneten Bewegung",
-        way.number(f"μ_max{mark}"),
-        degrees(found.largest.mu) if found else 0.0,
+        builder.number(f"μ_max{mark}"),
+        degrees(extremes.largest.mu) if extremes else 0.0,
         "°",
     )
     return mu
 
 
-def _add_other_extreme(way: SolutionBuilder, a: float, b: float, e: float) -> None:
+def _add_other_extreme(builder: SolutionBuilder, a: float, b: float, e: float) -> None:
     name = Text("deviation angle with the crank on the other side", "Ablenkwinkel mit der Kurbel auf der anderen Seite")
-    other = way.find("α_II", name, "arcsin((a - e)/b)", degrees(asin((a - e) / b)), unit="°", a=a, b=b, e=e)
+    other = builder.find("α_II", name, "arcsin((a - e)/b)", degrees(asin((a - e) / b)), unit="°", a=a, b=b, e=e)
     name = Text("transmission angle there", "Übertragungswinkel dort")
-    mu = way.find("μ_II", name, "90° - |α_II|", 90 - abs(other), unit="°", α_II=angle(other))
+    mu = builder.find("μ_II", name, "90° - |α_II|", 90 - abs(other), unit="°", α_II=angle(other))
     if a >= e:
         touches = isclose(a, e)
         text = Text(
@@ -204,24 +206,24 @@ def _add_other_extreme(way: SolutionBuilder, a: float, b: float, e: float) -> No
             "größter Übertragungswinkel: Dazwischen kreuzt das Gelenk A die Totlagengerade, da a größer ist als e; die "
             "Koppel liegt dort auf ihr",
         )
-        way.find("μ_max", _LARGEST, "90° - arcsin(0/b)", 90.0, unit="°", text=text if touches else crosses, b=b)
+        builder.find("μ_max", _LARGEST, "90° - arcsin(0/b)", 90.0, unit="°", text=text if touches else crosses, b=b)
     else:
-        way.find("μ_max", _LARGEST, "μ_II", mu, unit="°", μ_II=angle(mu))
+        builder.find("μ_max", _LARGEST, "μ_II", mu, unit="°", μ_II=angle(mu))
 
 
 def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
     """Two central slider-cranks with one crank: how the ratio a/b decides about the transmission angle."""
-    way = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit)
     found = []
     for mark, b in (("1", b1), ("2", b2)):
         SliderCrank(a, b)
-        way.find(f"λ{mark}", _RATIO, f"a/b{mark}", a / b, unit="", a=a, values={f"b{mark}": b})
-        found.append(_add_slider_crank(way, a, b, 0.0, mark))
+        builder.find(f"λ{mark}", _RATIO, f"a/b{mark}", a / b, unit="", a=a, values={f"b{mark}": b})
+        found.append(_add_slider_crank(builder, a, b, 0.0, mark))
     better = 1 if found[0] > found[1] else 2
-    way.say(
+    builder.say(
         f"Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the larger "
         "μ_min.",
         f"Schubkurbel {better} mit der längeren Koppel hat das kleinere Schubstangenverhältnis, den kleineren "
         "Ablenkwinkel und das größere μ_min.",
     )
-    return way.done()
+    return builder.done()

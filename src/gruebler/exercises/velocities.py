@@ -44,20 +44,20 @@ def four_bar(
     pose = size.motion(radians(phi), branch=side)
     if not pose.complete:
         raise LinkageError(pose.message)
-    way = SolutionBuilder(unit)
-    theta, psi = _directions(way, size, phi, side)
-    way.say(
+    builder = SolutionBuilder(unit)
+    theta, psi = _directions(builder, size, phi, side)
+    builder.say(
         "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the coupler; "
         "the triangle of velocities has the angles between them.",
         "Geschwindigkeiten: v_B = v_A + v_BA. v_A steht senkrecht auf der Kurbel, v_B auf der Schwinge, v_BA auf der "
         "Koppel; das Geschwindigkeitsdreieck hat die Winkel zwischen ihnen.",
     )
-    rates = _four_bar_rates(way, size, (phi, theta, psi), omega)
-    _four_bar_accelerations(way, size, (phi, theta, psi), (omega, *rates))
+    rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
+    _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
     moved = move(size.linkage(), [radians(phi)], speed=omega, branch="+" if side > 0 else "-")
-    _add_vectors(way, moved)
-    _check_four_bar(way, size, moved, phi)
-    return way.done()
+    _add_vectors(builder, moved)
+    _check_four_bar(builder, size, moved, phi)
+    return builder.done()
 
 
 def _directions(way: SolutionBuilder, size: FourBar, phi: float, side: int) -> tuple[float, float]:
@@ -97,82 +97,84 @@ def _directions(way: SolutionBuilder, size: FourBar, phi: float, side: int) -> t
 
 
 def _four_bar_rates(
-    way: SolutionBuilder, size: FourBar, angles: tuple[float, float, float], omega: float
+    builder: SolutionBuilder, size: FourBar, angles: tuple[float, float, float], omega: float
 ) -> tuple[float, float]:
     a, b, c = size.a, size.b, size.c
     phi, theta, psi = (radians(x) for x in angles)
     shown = dict(zip("φθψ", map(angle, angles), strict=True))
-    speed = way.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{way.unit}/s", a=a, ω=abs(omega))
+    speed = builder.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{builder.unit}/s", a=a, ω=abs(omega))
     name = Text("angular velocity of the rocker", "Winkelgeschwindigkeit der Schwinge")
     if min(abs(sin(psi - theta)), abs(sin(phi - theta))) < 1e-9:
         raise LinkageError(f"in the dead centre at φ = {angles[0]:g}° there is no transmission ratio")
     rocker = omega * a * sin(phi - theta) / (c * sin(psi - theta))
     formula = "ω·a·sin(φ - θ)/(c·sin(ψ - θ))"
-    way.find("ω_c", name, formula, rocker, unit="1/s", a=a, c=c, ω=omega, values=shown)
+    builder.find("ω_c", name, formula, rocker, unit="1/s", a=a, c=c, ω=omega, values=shown)
     coupler = omega * a * sin(phi - psi) / (b * sin(psi - theta))
     formula = "ω·a·sin(φ - ψ)/(b·sin(ψ - θ))"
-    way.find("ω_b", _COUPLER_RATE, formula, coupler, unit="1/s", a=a, b=b, ω=omega, values=shown)
-    way.say(*_TURNED)
+    builder.find("ω_b", _COUPLER_RATE, formula, coupler, unit="1/s", a=a, b=b, ω=omega, values=shown)
+    builder.say(*_TURNED)
     name = Text("velocity of the joint B", "Geschwindigkeit des Gelenkpunktes B")
-    way.find("v_B", name, "c·|ω_c|", c * abs(rocker), unit=f"{way.unit}/s", c=c, ω_c=rocker)
+    builder.find("v_B", name, "c·|ω_c|", c * abs(rocker), unit=f"{builder.unit}/s", c=c, ω_c=rocker)
     name = Text("velocity of B about A", "Geschwindigkeit von B um A")
-    way.find("v_BA", name, "b·|ω_b|", b * abs(coupler), unit=f"{way.unit}/s", b=b, ω_b=coupler)
+    builder.find("v_BA", name, "b·|ω_b|", b * abs(coupler), unit=f"{builder.unit}/s", b=b, ω_b=coupler)
     name = Text("transmission ratio in this pose", "Übersetzungsverhältnis in dieser Stellung")
-    ratio = way.find("i", name, "ω/ω_c", omega / rocker, unit="", ω=omega, ω_c=rocker)
-    way.mistake("i", 1 / ratio, "i is the input speed by the output speed.", "i ist Antriebs- durch Abtriebsdrehzahl.")
-    way.mistake(
+    ratio = builder.find("i", name, "ω/ω_c", omega / rocker, unit="", ω=omega, ω_c=rocker)
+    builder.mistake(
+        "i", 1 / ratio, "i is the input speed by the output speed.", "i ist Antriebs- durch Abtriebsdrehzahl."
+    )
+    builder.mistake(
         "v_B", speed, "v_A and v_B differ: the coupler turns.", "v_A und v_B sind verschieden: Die Koppel dreht sich."
     )
-    way.mistake(
+    builder.mistake(
         "v_B", c * abs(omega), "The rocker turns with ω_c, not with ω.", "Die Schwinge dreht mit ω_c, nicht mit ω."
     )
     return coupler, rocker
 
 
 def _four_bar_accelerations(
-    way: SolutionBuilder, size: FourBar, angles: tuple[float, float, float], rates: tuple[float, float, float]
+    builder: SolutionBuilder, size: FourBar, angles: tuple[float, float, float], rates: tuple[float, float, float]
 ) -> None:
     a, b, c = size.a, size.b, size.c
     phi, theta, psi = (radians(x) for x in angles)
     omega, coupler, rocker = rates
-    unit = f"{way.unit}/s²"
-    way.say(
+    unit = f"{builder.unit}/s²"
+    builder.say(
         "Accelerations: a_B = a_A + a_BA, each with a normal part towards the centre, r·ω², and a tangential one, r·α.",
         "Beschleunigungen: a_B = a_A + a_BA, jeweils mit einem Normalanteil r·ω² zum Drehpunkt hin und einem "
         "Tangentialanteil r·α.",
     )
-    a_a = way.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=unit, a=a, ω=omega)
+    a_a = builder.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=unit, a=a, ω=omega)
     name = Text("centripetal part of B about A", "Zentripetalanteil von B um A")
-    about = way.find("a_BAn", name, "b·ω_b²", b * coupler**2, unit=unit, b=b, ω_b=coupler)
+    about = builder.find("a_BAn", name, "b·ω_b²", b * coupler**2, unit=unit, b=b, ω_b=coupler)
     name = Text("centripetal part of B about B0", "Zentripetalanteil von B um B0")
-    normal = way.find("a_Bn", name, "c·ω_c²", c * rocker**2, unit=unit, c=c, ω_c=rocker)
+    normal = builder.find("a_Bn", name, "c·ω_c²", c * rocker**2, unit=unit, c=c, ω_c=rocker)
     shown: dict[str, float | str] = dict(zip("φθψ", map(angle, angles), strict=True))
     values = shown | {"a_A": a_a, "a_BAn": about, "a_Bn": normal, "b": b, "c": c}
     name = Text("angular acceleration of the rocker", "Winkelbeschleunigung der Schwinge")
     alpha_c = (a_a * cos(phi - theta) + about - normal * cos(psi - theta)) / (c * sin(psi - theta))
     formula = "(a_A·cos(φ - θ) + a_BAn - a_Bn·cos(ψ - θ))/(c·sin(ψ - θ))"
-    way.find("α_c", name, formula, alpha_c, unit="1/s²", values=values)
+    builder.find("α_c", name, formula, alpha_c, unit="1/s²", values=values)
     alpha_b = (a_a * cos(phi - psi) + about * cos(psi - theta) - normal) / (b * sin(psi - theta))
     formula = "(a_A·cos(φ - ψ) + a_BAn·cos(ψ - θ) - a_Bn)/(b·sin(ψ - θ))"
-    way.find("α_b", _COUPLER_ACCELERATION, formula, alpha_b, unit="1/s²", values=values)
+    builder.find("α_b", _COUPLER_ACCELERATION, formula, alpha_b, unit="1/s²", values=values)
     name = Text("tangential part of B about B0", "Tangentialanteil von B um B0")
-    tangential = way.find("a_Bt", name, "c·|α_c|", c * abs(alpha_c), unit=unit, c=c, α_c=alpha_c)
+    tangential = builder.find("a_Bt", name, "c·|α_c|", c * abs(alpha_c), unit=unit, c=c, α_c=alpha_c)
     name = Text("tangential part of B about A", "Tangentialanteil von B um A")
-    way.find("a_BAt", name, "b·|α_b|", b * abs(alpha_b), unit=unit, b=b, α_b=alpha_b)
+    builder.find("a_BAt", name, "b·|α_b|", b * abs(alpha_b), unit=unit, b=b, α_b=alpha_b)
     name = Text("acceleration of the joint B", "Beschleunigung des Gelenkpunktes B")
-    way.find("a_B", name, "√(a_Bn² + a_Bt²)", hypot(normal, tangential), unit=unit, a_Bn=normal, a_Bt=tangential)
-    way.mistake(
+    builder.find("a_B", name, "√(a_Bn² + a_Bt²)", hypot(normal, tangential), unit=unit, a_Bn=normal, a_Bt=tangential)
+    builder.mistake(
         "a_B",
         normal + tangential,
         "The parts are at right angles: add them by Pythagoras.",
         "Die Anteile stehen senkrecht aufeinander: nach Pythagoras addieren.",
     )
-    way.mistake("a_B", normal, "The tangential part is missing.", "Der Tangentialanteil fehlt.")
+    builder.mistake("a_B", normal, "The tangential part is missing.", "Der Tangentialanteil fehlt.")
 
 
-def _add_vectors(way: SolutionBuilder, moved: Motion) -> None:
+def _add_vectors(builder: SolutionBuilder, moved: Motion) -> None:
     """The vectors of the plans of velocities and accelerations, as the general solver has them."""
-    pins = {name: moved.linkage.named(name)[-1] for name in ("R(crank-coupler)", "R(coupler-rocker)")}
+    pins = {name: moved.linkage.points_named(name)[-1] for name in ("R(crank-coupler)", "R(coupler-rocker)")}
     a, b = pins.values()
     va, vb = (moved.complex_point(p, 1)[0] for p in (a, b))
     aa, ab = (moved.complex_point(p, 2)[0] for p in (a, b))
@@ -194,32 +196,32 @@ def _add_vectors(way: SolutionBuilder, moved: Motion) -> None:
         "Vektoren des Geschwindigkeits- und Beschleunigungsplans",
     )
     headers = (Text("vector", "Vektor"), Text("x", "x"), Text("y", "y"), Text("magnitude", "Betrag"))
-    way.table(title, headers, [(name, float(z.real), float(z.imag), float(abs(z))) for name, z in rows])
+    builder.table(title, headers, [(name, float(z.real), float(z.imag), float(abs(z))) for name, z in rows])
 
 
-def _check_four_bar(way: SolutionBuilder, size: FourBar, moved: Motion, phi: float) -> None:
-    speed = f"{way.unit}/s"
+def _check_four_bar(builder: SolutionBuilder, size: FourBar, moved: Motion, phi: float) -> None:
+    speed = f"{builder.unit}/s"
     a = size.a * cmath.exp(1j * radians(phi))
     b = complex(moved.complex_point("R(coupler-rocker)")[0])
-    v_a, v_b = (way.number(key) for key in ("v_A", "v_B"))
+    v_a, v_b = (builder.number(key) for key in ("v_A", "v_B"))
     # The pole of the coupler is where the lines of crank and rocker meet.
     u, w = a / abs(a), (b - size.d) / size.c
     cross = (np.conj(u) * w).imag
     if abs(cross) > 1e-9:
         pole = u * ((size.d * np.conj(w)).imag / (u * np.conj(w)).imag)
-        way.keep(
+        builder.keep(
             "P_x",
             Text("instant centre of the coupler, x", "Momentanpol der Koppel, x"),
             float(pole.real),
-            unit=way.unit,
+            unit=builder.unit,
         )
-        way.keep(
+        builder.keep(
             "P_y",
             Text("instant centre of the coupler, y", "Momentanpol der Koppel, y"),
             float(pole.imag),
-            unit=way.unit,
+            unit=builder.unit,
         )
-        way.check(
+        builder.check(
             "v_B by the instant centre P of the coupler, v_A·PB/PA",
             "v_B über den Momentanpol P der Koppel, v_A·PB/PA",
             v_b,
@@ -227,14 +229,14 @@ def _check_four_bar(way: SolutionBuilder, size: FourBar, moved: Motion, phi: flo
             speed,
         )
     vector = moved.complex_point("R(coupler-rocker)", 1)[0]
-    way.check("v_B by the general solver", "v_B mit dem allgemeinen Löser", v_b, float(abs(vector)), speed)
+    builder.check("v_B by the general solver", "v_B mit dem allgemeinen Löser", v_b, float(abs(vector)), speed)
     acceleration = float(abs(moved.complex_point("R(coupler-rocker)", 2)[0]))
-    a_b = way.number("a_B")
-    way.check("a_B by the general solver", "a_B mit dem allgemeinen Löser", a_b, acceleration, f"{way.unit}/s²")
+    a_b = builder.number("a_B")
+    builder.check("a_B by the general solver", "a_B mit dem allgemeinen Löser", a_b, acceleration, f"{builder.unit}/s²")
     for key, link in (("α_b", "coupler"), ("α_c", "rocker")):
-        value = way.number(key)
+        value = builder.number(key)
         en, de = f"{key} by the general solver", f"{key} mit dem allgemeinen Löser"
-        way.check(en, de, value, float(moved.angular(link, 2)[0]), "1/s²")
+        builder.check(en, de, value, float(moved.angular(link, 2)[0]), "1/s²")
 
 
 def slider_crank(
@@ -251,7 +253,7 @@ def slider_crank(
     size = SliderCrank(a, b, e)
     if not size.motion(radians(phi)).complete:
         raise LinkageError(size.motion(radians(phi)).message)
-    way = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit)
     crank = radians(phi)
     low = "e - a·sin φ" if e else "-a·sin φ"
     beta = atan2(e - a * sin(crank), sqrt(b**2 - (e - a * sin(crank)) ** 2))
@@ -261,15 +263,15 @@ def slider_crank(
     )
     values: dict[str, float | str] = {"a": a, "b": b, "e": e, "φ": angle(phi)}
     numerator = f"({low})" if e else low
-    way.find("β", name, f"arcsin({numerator}/b)", degrees(beta), unit="°", values=values)
+    builder.find("β", name, f"arcsin({numerator}/b)", degrees(beta), unit="°", values=values)
     values |= {"β": angle(degrees(beta)), "ω": omega}
-    way.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{unit}/s", a=a, ω=abs(omega))
+    builder.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{unit}/s", a=a, ω=abs(omega))
     rate = -omega * a * cos(crank) / (b * cos(beta))
-    way.find("ω_b", _COUPLER_RATE, "-ω·a·cos φ/(b·cos β)", rate, unit="1/s", values=values)
+    builder.find("ω_b", _COUPLER_RATE, "-ω·a·cos φ/(b·cos β)", rate, unit="1/s", values=values)
     name = Text(
         "velocity of the slider (negative: towards the crank)", "Geschwindigkeit des Kolbens (negativ: zur Kurbel hin)"
     )
-    v = way.find(
+    v = builder.find(
         "v_B",
         name,
         "-ω·a·sin(φ - β)/cos β",
@@ -277,42 +279,44 @@ def slider_crank(
         unit=f"{unit}/s",
         values=values,
     )
-    way.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=f"{unit}/s²", a=a, ω=omega)
+    builder.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=f"{unit}/s²", a=a, ω=omega)
     values["ω_b"] = rate
     alpha = (a * omega**2 * sin(crank) + b * rate**2 * sin(beta)) / (b * cos(beta))
-    way.find("α_b", _COUPLER_ACCELERATION, "(a·ω²·sin φ + b·ω_b²·sin β)/(b·cos β)", alpha, unit="1/s²", values=values)
+    builder.find(
+        "α_b", _COUPLER_ACCELERATION, "(a·ω²·sin φ + b·ω_b²·sin β)/(b·cos β)", alpha, unit="1/s²", values=values
+    )
     name = Text(
         "acceleration of the slider (negative: towards the crank)",
         "Beschleunigung des Kolbens (negativ: zur Kurbel hin)",
     )
     acceleration = -a * omega**2 * cos(crank) - b * rate**2 * cos(beta) - b * alpha * sin(beta)
     formula = "-a·ω²·cos φ - b·ω_b²·cos β - b·α_b·sin β"
-    way.find("a_B", name, formula, acceleration, unit=f"{unit}/s²", values=values, α_b=alpha)
-    way.keep("μ", Text("transmission angle", "Übertragungswinkel"), 90 - abs(degrees(beta)), unit="°")
+    builder.find("a_B", name, formula, acceleration, unit=f"{unit}/s²", values=values, α_b=alpha)
+    builder.keep("μ", Text("transmission angle", "Übertragungswinkel"), 90 - abs(degrees(beta)), unit="°")
     if either and not e:
-        _add_inner(way, size, phi, omega)
-    _check_slider(way, size, (phi, omega), (v, acceleration))
-    return way.done()
+        _add_inner(builder, size, phi, omega)
+    _check_slider(builder, size, (phi, omega), (v, acceleration))
+    return builder.done()
 
 
-def _add_inner(way: SolutionBuilder, size: SliderCrank, phi: float, omega: float) -> None:
+def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: float) -> None:
     """What changes if the angle is counted from the inner dead centre."""
     other = size.motion(pi + radians(phi), omega=omega)
     v, a = float(other.output.velocity), float(other.output.acceleration)
-    unit = way.unit
-    way.keep(
+    unit = builder.unit
+    builder.keep(
         "v_B_i",
         Text("velocity from the inner dead centre", "Geschwindigkeit ab der inneren Totlage"),
         v,
         unit=f"{unit}/s",
     )
-    way.keep(
+    builder.keep(
         "a_B_i",
         Text("acceleration from the inner dead centre", "Beschleunigung ab der inneren Totlage"),
         a,
         unit=f"{unit}/s²",
     )
-    way.say(
+    builder.say(
         f"Counted from the inner dead centre (crank and rod overlapping) it would be v_B = {number(v)} {unit}/s and "
         f"a_B = {number(a)} {unit}/s².",
         f"Ab der inneren Totlage (Decklage) gezählt wären es v_B = {number(v)} {unit}/s und a_B = {number(a)} "
@@ -329,9 +333,13 @@ def _check_slider(
     moved = move(size.linkage(), [radians(phi)], speed=omega)
     slide = "P(frame-slider)"
     way.check(
-        "v_B by the general solver", "v_B mit dem allgemeinen Löser", v, float(moved.slide(slide, 1)[0]), f"{unit}/s"
+        "v_B by the general solver",
+        "v_B mit dem allgemeinen Löser",
+        v,
+        float(moved.displacement(slide, 1)[0]),
+        f"{unit}/s",
     )
-    second = float(moved.slide(slide, 2)[0])
+    second = float(moved.displacement(slide, 2)[0])
     way.check("a_B by the general solver", "a_B mit dem allgemeinen Löser", acceleration, second, f"{unit}/s²")
     crank, lam = radians(phi), a / b
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))

@@ -138,7 +138,7 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
         assert sizes.places is not None
         places = _by_joint(mechanism, _aimed(mechanism, sizes.places), "places", slots=True)
         _refuse_rounded_axes(mechanism, places)
-        return Linkage.drawn(mechanism, places, points, unit=sizes.unit, outputs=chosen)
+        return Linkage.from_drawing(mechanism, places, points, unit=sizes.unit, outputs=chosen)
     assert sizes.elements is not None
     elements: dict[str, Mapping[str | int, object]] = {}
     for link, mine in sizes.elements.items():
@@ -147,7 +147,7 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
             raise LinkageError(f"elements.{link}: expected a table of joints, but found {_short(mine)}")
         elements[link] = _by_joint(mechanism, mine, f"elements.{link}")
     home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
-    return Linkage(mechanism, elements, points, unit=sizes.unit, home=home, outputs=chosen)
+    return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=home, outputs=chosen)
 
 
 def _door(

@@ -125,8 +125,8 @@ def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
             for link in chain.links
         },
     }
-    if linkage.home is not None:
-        document["home"] = {link: _plain(place) for link, place in linkage.home.items()}
+    if linkage.reference_pose is not None:
+        document["home"] = {link: _plain(place) for link, place in linkage.reference_pose.items()}
     return document
 
 

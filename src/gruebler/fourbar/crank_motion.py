@@ -94,7 +94,7 @@ class CrankMotion:
 class InvertedMotion(CrankMotion):
     """The poses of an inverted slider-crank: B is the foot of B0 on the guide through A."""
 
-    slide: CrankRates
+    displacement: CrankRates
     """The way r of the block along the guide, from A to B."""
 
 

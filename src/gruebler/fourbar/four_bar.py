@@ -73,10 +73,10 @@ class FourBar:
         if square <= 0:
             lengths = ", ".join(f"{name} = {value:g}" for name, value in given.items())
             raise LinkageError(f"no central crank-rocker has {lengths}: {missing}^2 would be {square:g}")
-        found = cls(**given, **{missing: math.sqrt(square)})
-        if found.dead_centres is None:
-            raise LinkageError(f"a^2 + d^2 = b^2 + c^2 asks for {missing} = {math.sqrt(square):g}: {found.type}")
-        return found
+        four_bar = cls(**given, **{missing: math.sqrt(square)})
+        if four_bar.dead_centres is None:
+            raise LinkageError(f"a^2 + d^2 = b^2 + c^2 asks for {missing} = {math.sqrt(square):g}: {four_bar.type}")
+        return four_bar
 
     @classmethod
     def central_for_swing(cls, swing: float, *, c: float, b: float | None = None, d: float | None = None) -> FourBar:

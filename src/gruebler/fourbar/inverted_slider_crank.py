@@ -183,7 +183,7 @@ class InvertedSliderCrank:
             mu=mu,
             branch=side,
             message=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
-            slide=block,
+            displacement=block,
         )
 
     def _add_rates(self, crank: CrankRates, theta: list[FloatArray], slide: list[FloatArray]) -> None:

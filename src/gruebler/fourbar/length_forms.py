@@ -20,8 +20,8 @@ _LETTER = {"revolute": "R", "prismatic": "P"}
 
 
 def linkage_on_mechanism(
-    way: str,
-    door: ClosedForm,
+    form: str,
+    lengths: ClosedForm,
     branch: int,
     mechanism: Mechanism | None,
     *,
@@ -33,21 +33,21 @@ def linkage_on_mechanism(
     The crank of a four-bar is the link driven at the frame, else the one that the chain joins to the frame first; that
     of the others is the link between two turning joints. Raises `LinkageError` for another structure.
     """
-    own = door.linkage(unit=unit)
+    own = lengths.linkage(unit=unit)
     if mechanism is None:
         mechanism, loop = own.mechanism, own.mechanism.chain.links
         outputs = own.outputs if outputs is None else outputs
     else:
-        loop = _loop(mechanism, way)
+        loop = _loop(mechanism, form)
     rank = dict(zip(own.mechanism.chain.links, loop, strict=True))
     elements: dict[str, dict[str | int, object]] = {link: {} for link in loop}
     for (number, link), element in own.elements.items():
         sides = {rank[one] for one in own.mechanism.chain.joints[number].links}
         mine = next(k for k, joint in enumerate(mechanism.chain.joints) if set(joint.links) == sides)
         elements[rank[link]][mine] = element
-    places = None if mechanism is own.mechanism and branch == 1 else _home(door, branch)
+    places = None if mechanism is own.mechanism and branch == 1 else _home(lengths, branch)
     home = None if places is None else dict(zip(loop, places, strict=True))
-    return Linkage(mechanism, elements, unit=unit, home=home, outputs=outputs or ())
+    return Linkage(mechanism, elements, unit=unit, reference_pose=home, outputs=outputs or ())
 
 
 def _loop(mechanism: Mechanism, way: str) -> tuple[str, ...]:

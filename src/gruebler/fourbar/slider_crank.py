@@ -215,7 +215,7 @@ class SliderCrank:
         time = float(self.motion(centres.outer.phi + phi_time).output.value)
         return StrokeMidpoint(way, time, float(self.phi_at(way)[0] - centres.outer.phi) % TURN, phi_time)
 
-    def phi_at(self, way: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def phi_at(self, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """The two crank angles, in 0..2 pi, at which the slider is at s = way; NaN where it never is.
 
         The first comes after the outer dead centre, the second before it (crank turning in the positive sense).
@@ -223,7 +223,7 @@ class SliderCrank:
         >>> [round(math.degrees(phi), 4) for phi in SliderCrank(a=20, b=50).phi_at(50)]
         [78.463, 281.537]
         """
-        s = as_numbers("way", way)
+        s = as_numbers("way", displacement)
         reach, line = np.hypot(s, self.e), np.arctan2(self.e, s)
         with np.errstate(invalid="ignore", divide="ignore"):
             cosine = (self.a**2 + reach**2 - self.b**2) / (2 * self.a * reach)

@@ -109,7 +109,7 @@ def ratio(train: Train, a: str, b: str, held: Iterable[str] = ()) -> Fraction:
     '7/2'
     """
     found = speeds(train, {**dict.fromkeys(held, 0), a: 1})
-    if a in (one.link for one in found.contradictions) or found.values[train.known(b)] == 0:
+    if a in (contradiction.link for contradiction in found.contradictions) or found.values[train.known(b)] == 0:
         raise GearError(f"{a} or {b} stands still: there is no ratio of {a} to {b}")
     value = found.values[b]
     if value is None:

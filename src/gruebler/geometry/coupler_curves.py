@@ -42,14 +42,14 @@ class CouplerCurve(Brief):
     Drive values are in radians (or the unit), those of a drive that turns fully from 0 to the period.
     """
 
-    trail: PointPath
+    point_path: PointPath
     tolerance: float
     """How far the polygon of `points` may be off, in the linkage's unit."""
 
     @property
     def closed(self) -> bool:
         """Whether the drive turns fully; else the path goes from one limit of the drive to the other."""
-        return self.trail.closed
+        return self.point_path.closed
 
     @property
     def points(self) -> Complexes:
@@ -59,7 +59,7 @@ class CouplerCurve(Brief):
     @property
     def drives(self) -> Reals:
         """The drive's values at `points`."""
-        return self.trail.drive(self._samples.parameters)
+        return self.point_path.drive(self._samples.parameters)
 
     @property
     def length(self) -> float:
@@ -79,26 +79,26 @@ class CouplerCurve(Brief):
     @cached_property
     def area(self) -> float | None:
         """The area that it goes round, counter-clockwise positive; None for a path between limits."""
-        return path_area(self.trail, self._samples) if self.closed else None
+        return path_area(self.point_path, self._samples) if self.closed else None
 
     @cached_property
     def cusps(self) -> tuple[Cusp, ...]:
         """Where the point stands still."""
-        return cusps(self.trail)
+        return cusps(self.point_path)
 
     @cached_property
     def inflections(self) -> tuple[Inflection, ...]:
         """Where the curvature is zero, without cusps."""
-        return inflections(self.trail, self.cusps)
+        return inflections(self.point_path, self.cusps)
 
     @cached_property
     def vertices(self) -> tuple[Vertex, ...]:
         """Where the curvature is extreme, without cusps."""
-        return vertices(self.trail, self.cusps, self.inflections)
+        return vertices(self.point_path, self.cusps, self.inflections)
 
     def turning_points(self, direction: float = 0.0) -> tuple[TurningPoint, ...]:
         """Where the path turns back along a direction: 0 in x, pi/2 in y."""
-        return turning_points(self.trail, direction)
+        return turning_points(self.point_path, direction)
 
     @property
     def retraced(self) -> bool:
@@ -115,33 +115,33 @@ class CouplerCurve(Brief):
 
         Raises `LinkageError` for a value outside the range of the drive.
         """
-        value, course = as_finite("drive", drive), self.trail.course
-        span, scale, unit = course.span, 1.0, f" {course.linkage.unit}"
-        if course.turning_drive:
+        value, cycle = as_finite("drive", drive), self.point_path.cycle
+        span, scale, unit = cycle.span, 1.0, f" {cycle.linkage.unit}"
+        if cycle.turning_drive:
             scale, unit = degrees(1), "°"
             if not span.low <= value <= span.high:
                 value = span.low + (value - span.low) % (span.period if span.full else 2 * pi)
         if not span.low <= value <= span.high:
             low, high, drive = span.low * scale, span.high * scale, drive * scale
             raise LinkageError(f"the drive goes from {low:.6g}{unit} to {high:.6g}{unit}, not to {drive:.6g}{unit}")
-        motion = course.at(np.array([value]), 1)
-        return tangent_contact(motion, self.trail.place, 0, highest)
+        motion = cycle.at(np.array([value]), 1)
+        return tangent_contact(motion, self.point_path.place, 0, highest)
 
     @cached_property
     def _samples(self) -> PathPolygon:
-        return path_polygon(self.trail, self.tolerance)
+        return path_polygon(self.point_path, self.tolerance)
 
     @cached_property
     def _length(self) -> tuple[float, float]:
-        return path_length(self.trail, self._samples, np.array([cusp.parameter for cusp in self.cusps]))
+        return path_length(self.point_path, self._samples, np.array([cusp.parameter for cusp in self.cusps]))
 
     @cached_property
     def _doubles(self) -> tuple[DoublePoint, ...] | None:
-        if any(goes_back(self.trail, cusp) for cusp in self.cusps):
+        if any(goes_back(self.point_path, cusp) for cusp in self.cusps):
             return None
         if not self.vertices and not self.cusps and self.closed:  # a smooth one has four, unless it is a circle
             return ()
-        return double_points(self.trail, self._samples, 2 * self.tolerance)
+        return double_points(self.point_path, self._samples, 2 * self.tolerance)
 
 
 def coupler_curve(

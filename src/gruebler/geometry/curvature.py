@@ -146,7 +146,7 @@ def _change(seen: RelativeMotion, arm: complex, speed: Reals, bend: Reals) -> Re
 def _moving(motion: Motion, name: str, reference: str | None) -> LinkPoint:
     """The point as one of a link that is not the reference."""
     fixed = motion.linkage.mechanism.frame if reference is None else reference
-    for place in reversed(motion.linkage.named(name)):
+    for place in reversed(motion.linkage.points_named(name)):
         if place.link != fixed:
             return place
     raise LinkageError(f"the point {name!r} lies on {fixed!r}: it does not move against it")

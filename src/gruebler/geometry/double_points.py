@@ -47,34 +47,38 @@ class _Pairs(NamedTuple):
         return _Pairs(self.one[which], self.other[which])
 
 
-def double_points(trail: PointPath, samples: PathPolygon, pad: float) -> tuple[DoublePoint, ...] | None:
+def double_points(point_path: PointPath, samples: PathPolygon, pad: float) -> tuple[DoublePoint, ...] | None:
     """The double points of a path; None if it is gone twice (everything is double).
 
     Args:
-        trail: the path.
+        point_path: the path.
         samples: its polygon.
         pad: by how much the polygon may be off.
 
     Two crossings nearer to one another than the polygon's tolerance may be taken for one, or for none; loops that lie
     within it may be missed. Error: of crossings some roundings by the sine of their angle; of touches the root of that.
     """
-    near = _near_sides(samples, trail.closed, pad)
+    near = _near_sides(samples, point_path.closed, pad)
     if not len(near.one):
         return ()
-    crossing, crossed = _newton(trail, near, _crossing_step)
-    z, w = trail.at(crossing.one, 1), trail.at(crossing.other, 1)
+    crossing, crossed = _newton(point_path, near, _crossing_step)
+    z, w = point_path.at(crossing.one, 1), point_path.at(crossing.other, 1)
     sine = np.abs(_cross(z[1], w[1])) / np.maximum(np.abs(z[1] * w[1]), 1e-300)
-    crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * trail.size) & (sine > _FLAT) & _apart(trail, crossing)
-    found = _told(trail, crossing.pick(crossed), touching=False)
+    crossed &= (np.abs(z[0] - w[0]) <= _CLOSED * point_path.size) & (sine > _FLAT) & _apart(point_path, crossing)
+    found = _told(point_path, crossing.pick(crossed), touching=False)
     rest = near.pick(~crossed)
     if len(rest.one):
-        touch, touched = _newton(trail, rest, _touching_step)
-        gap = np.abs(trail.at(touch.one, 0)[0] - trail.at(touch.other, 0)[0])
-        touched &= (gap <= _TOUCH * trail.size) & _apart(trail, touch)
-        touches = _told(trail, touch.pick(touched), touching=True)
+        touch, touched = _newton(point_path, rest, _touching_step)
+        gap = np.abs(point_path.at(touch.one, 0)[0] - point_path.at(touch.other, 0)[0])
+        touched &= (gap <= _TOUCH * point_path.size) & _apart(point_path, touch)
+        touches = _told(point_path, touch.pick(touched), touching=True)
         if len(touches) > _MOST_TOUCHES:
             return None
-        found += [one for one in touches if not any(_equal(trail, one.drives, other.drives) for other in found)]
+        found += [
+            double_point
+            for double_point in touches
+            if not any(_equal(point_path, double_point.drives, other.drives) for other in found)
+        ]
     return tuple(sorted(found))
 
 
@@ -127,15 +131,15 @@ def _between(p: Complexes, q: Complexes, a: Complexes, b: Complexes) -> tuple[Re
 # --- Newton's method ------------------------------------------------------------------------------------
 
 
-def _newton(trail: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
+def _newton(point_path: PointPath, start: _Pairs, step: _Step) -> tuple[_Pairs, Flags]:
     """Where it arrives, and whether it has come to rest."""
     s, t = start.one.copy(), start.other.copy()
     still = np.zeros(len(s), bool)
     for _ in range(_ROUNDS):
-        ds, dt = step(trail.at(s, 2), trail.at(t, 2))
+        ds, dt = step(point_path.at(s, 2), point_path.at(t, 2))
         most = np.maximum(np.abs(ds), np.abs(dt))
         scale = np.minimum(1.0, 0.1 / np.maximum(most, 1e-300))
-        s, t = _kept(trail, s + scale * ds), _kept(trail, t + scale * dt)
+        s, t = _kept(point_path, s + scale * ds), _kept(point_path, t + scale * dt)
         still = most < 1e-11
         if still.all():
             break
@@ -166,42 +170,42 @@ def _finite(step: Reals) -> Reals:
     return np.clip(np.nan_to_num(step, posinf=1.0, neginf=-1.0), -1.0, 1.0)
 
 
-def _kept(trail: PointPath, s: Reals) -> Reals:
+def _kept(point_path: PointPath, s: Reals) -> Reals:
     """Within the path; of a closed one in its period."""
-    if trail.closed:
-        return np.asarray(trail.start + (s - trail.start) % (trail.end - trail.start))
-    return np.clip(s, trail.start, trail.end)
+    if point_path.closed:
+        return np.asarray(point_path.start + (s - point_path.start) % (point_path.end - point_path.start))
+    return np.clip(s, point_path.start, point_path.end)
 
 
 # --- what is told ---------------------------------------------------------------------------------------
 
 
-def _apart(trail: PointPath, pairs: _Pairs) -> Flags:
+def _apart(point_path: PointPath, pairs: _Pairs) -> Flags:
     gap = np.abs(pairs.one - pairs.other)
-    if trail.closed:
-        gap = np.minimum(gap, trail.end - trail.start - gap)
+    if point_path.closed:
+        gap = np.minimum(gap, point_path.end - point_path.start - gap)
     return np.asarray(gap > _APART)
 
 
-def _told(trail: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
+def _told(point_path: PointPath, pairs: _Pairs, touching: bool) -> list[DoublePoint]:
     """Each once."""
     if not len(pairs.one):
         return []
-    z, w = trail.at(pairs.one, 1), trail.at(pairs.other, 1)
+    z, w = point_path.at(pairs.one, 1), point_path.at(pairs.other, 1)
     angle = np.abs(np.arctan2(_cross(z[1], w[1]), _dot(z[1], w[1])))
     angle = np.minimum(angle, np.pi - angle)
-    drives = np.sort(np.stack([trail.drive(pairs.one), trail.drive(pairs.other)]), axis=0)
+    drives = np.sort(np.stack([point_path.drive(pairs.one), point_path.drive(pairs.other)]), axis=0)
     out: list[DoublePoint] = []
     for k in np.lexsort(drives[::-1]):
         both = (float(drives[0, k]), float(drives[1, k]))
-        if not any(_equal(trail, both, one.drives) for one in out):
+        if not any(_equal(point_path, both, double_point.drives) for double_point in out):
             out.append(DoublePoint(both, complex(z[0, k]), float(angle[k]), touching))
     return out
 
 
-def _equal(trail: PointPath, one: tuple[float, float], other: tuple[float, float]) -> bool:
+def _equal(point_path: PointPath, one: tuple[float, float], other: tuple[float, float]) -> bool:
     """Whether two pairs of drive values are the same, also across the seam."""
-    period = trail.course.span.period
+    period = point_path.cycle.span.period
 
     def near(a: float, b: float) -> bool:
         gap = abs(a - b)

@@ -34,7 +34,7 @@ class BilingualName(NamedTuple):
     en: str
     de: str
 
-    def said(self, lang: str) -> str:
+    def in_language(self, lang: str) -> str:
         """The text in one language."""
         return self.de if lang == "de" else self.en
 
@@ -127,7 +127,7 @@ def _four_bar(*pins: complex, drive: str = "R(frame-crank)") -> Callable[[], Lin
         mechanism = Mechanism.parse(_FOUR_BAR + drive)
         names = mechanism.chain.joint_names()
         places: dict[str | int, object] = {n: (z.real, z.imag) for n, z in zip(names, pins, strict=False)}
-        return Linkage.drawn(mechanism, places, {_POINT: ("coupler", pins[4].real, pins[4].imag)}, unit="LE")
+        return Linkage.from_drawing(mechanism, places, {_POINT: ("coupler", pins[4].real, pins[4].imag)}, unit="LE")
 
     return build
 
@@ -153,7 +153,7 @@ def _peaucellier() -> Linkage:
         "R(arm2-bar2-bar4)": (middle, -half),
         "R(bar3-bar4)": (far, 0),
     }
-    return Linkage.drawn(mechanism, places, {_POINT: ("bar4", far, 0)}, unit="LE")
+    return Linkage.from_drawing(mechanism, places, {_POINT: ("bar4", far, 0)}, unit="LE")
 
 
 def _hart() -> Linkage:
@@ -174,7 +174,7 @@ def _hart() -> Linkage:
         "R(short2-long2)": corner["c"],
         "R(long2-short1)": corner["d"],
     }
-    return Linkage.drawn(mechanism, places, {_POINT: ("short2", (p + q) / 2, h / 2)}, unit="LE")
+    return Linkage.from_drawing(mechanism, places, {_POINT: ("short2", (p + q) / 2, h / 2)}, unit="LE")
 
 
 _LEG = 1.2

@@ -30,7 +30,7 @@ class Poles(Brief):
     direction: Complexes
     """(rows, links, links): unit; NaN where the pole is not at infinity. Its sign has no meaning."""
 
-    def of(self, one: str, other: str) -> Complexes:
+    def of(self, first: str, second: str) -> Complexes:
         """The pole of a pair of links; (rows,).
 
         >>> from gruebler.kinematics import move
@@ -39,11 +39,11 @@ class Poles(Brief):
         >>> found.of("frame", "coupler").round(6)[0], found.of("crank", "rocker").round(6)[0]
         (np.complex128(127.802871+182.521416j), np.complex128(-64.233472+0j))
         """
-        return self.at[:, self._number(one), self._number(other)]
+        return self.at[:, self._number(first), self._number(second)]
 
-    def towards(self, one: str, other: str) -> Complexes:
+    def towards(self, first: str, second: str) -> Complexes:
         """The direction of the pole of a pair of links where it lies at infinity, else NaN; (rows,)."""
-        return self.direction[:, self._number(one), self._number(other)]
+        return self.direction[:, self._number(first), self._number(second)]
 
     @property
     def at_infinity(self) -> NDArray[np.bool_]:

@@ -87,7 +87,7 @@ class TurningPoint(NamedTuple):
     parameter: float
 
 
-def cusps(trail: PointPath) -> tuple[Cusp, ...]:
+def cusps(point_path: PointPath) -> tuple[Cusp, ...]:
     """Where the velocity is zero, found as roots of its square's derivative: error of some roundings.
 
     >>> from gruebler.geometry.point_path import point_path
@@ -97,55 +97,55 @@ def cusps(trail: PointPath) -> tuple[Cusp, ...]:
     """
 
     def slowing(s: Reals) -> Reals:
-        _, v, a, j = trail.at(s)
+        _, v, a, j = point_path.at(s)
         return np.stack([_dot(v, a), np.abs(a) ** 2 + _dot(v, j)])
 
-    usual = _usual(trail)
-    found = find_zeros(slowing, trail.grid, _LEAST * usual**2)
+    usual = _usual(point_path)
+    zeros = find_zeros(slowing, point_path.grid, _LEAST * usual**2)
     out = []
-    for zero, z in _seen(trail, found):
+    for zero, z in _seen(point_path, zeros):
         if abs(z[1]) <= _STILL * usual:
             sine = abs(_cross(z[2], z[3])) / (abs(z[2]) * max(abs(z[3]), abs(z[2])) or 1.0)
-            out.append(Cusp(_drive(trail, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
+            out.append(Cusp(_drive(point_path, zero), z[0], float(np.angle(z[2])), bool(sine <= _PARALLEL), zero.at))
     return tuple(sorted(out))
 
 
-def goes_back(trail: PointPath, cusp: Cusp) -> bool:
+def goes_back(point_path: PointPath, cusp: Cusp) -> bool:
     """Whether the point goes back on its own way from a cusp: feet of perpendiculars onto the other side."""
-    before, behind = trail.at(cusp.parameter - _BESIDE, 0)[0], cusp.parameter + _BESIDE
+    before, behind = point_path.at(cusp.parameter - _BESIDE, 0)[0], cusp.parameter + _BESIDE
     for _ in range(20):
-        z, v, a = trail.at(behind, 2)
+        z, v, a = point_path.at(behind, 2)
         slope = np.abs(v) ** 2 + _dot(z - before, a)
         behind = behind - np.clip(_dot(z - before, v) / np.where(slope == 0, 1e-300, slope), -0.01, 0.01)
-    return bool((np.abs(trail.at(behind, 0)[0] - before) <= _BACK * trail.size).all())
+    return bool((np.abs(point_path.at(behind, 0)[0] - before) <= _BACK * point_path.size).all())
 
 
-def inflections(trail: PointPath, known: tuple[Cusp, ...]) -> tuple[Inflection, ...]:
+def inflections(point_path: PointPath, known: tuple[Cusp, ...]) -> tuple[Inflection, ...]:
     """Zeros of Im(conj(z') z''), multiple ones settled by the Taylor series; none of a straight path."""
 
     def bend(s: Reals) -> Reals:
-        _, v, a, j = trail.at(s)
+        _, v, a, j = point_path.at(s)
         return np.stack([_cross(v, a), _cross(v, j)])
 
-    found = _away(trail, find_zeros(bend, trail.grid, _LEAST * _usual(trail) ** 2), known)
-    settled = tuple(_settled(trail, zero) for zero in found)
+    zeros = _away(point_path, find_zeros(bend, point_path.grid, _LEAST * _usual(point_path) ** 2), known)
+    settled = tuple(_settled(point_path, zero) for zero in zeros)
     return tuple(
         sorted(
-            Inflection(_drive(trail, zero), z[0], float(np.angle(z[1])), zero.multiplicity + 2, zero.at)
-            for zero, z in _seen(trail, settled)
+            Inflection(_drive(point_path, zero), z[0], float(np.angle(z[1])), zero.multiplicity + 2, zero.at)
+            for zero, z in _seen(point_path, settled)
         )
     )
 
 
-def _settled(trail: PointPath, zero: Zero) -> Zero:
+def _settled(point_path: PointPath, zero: Zero) -> Zero:
     """The zero of the bend with its true multiplicity m: in the middle of m close ones, -g_(m-1)/(m g_m) from here."""
     try:
-        drive, g = float(trail.drive(np.array([zero.at]))[0]), _bend_series(trail, zero.at)
+        drive, g = float(point_path.drive(np.array([zero.at]))[0]), _bend_series(point_path, zero.at)
         for m in range(6, 1, -1):
             step = -g[m - 1] / (m * g[m]) if g[m] else 1.0
             if abs(step) < _NEAR and (m - zero.multiplicity) % 2 == 0:
-                at = trail.parameter(drive + step, zero.at)
-                there = np.abs(_bend_series(trail, at))
+                at = point_path.parameter(drive + step, zero.at)
+                there = np.abs(_bend_series(point_path, at))
                 if there[:m].max() <= _MANIFOLD and there[m] > 1e3 * _MANIFOLD:
                     return Zero(at, m, zero.rises)
     except LinkageError:  # no series: a change point
@@ -153,87 +153,89 @@ def _settled(trail: PointPath, zero: Zero) -> Zero:
     return zero
 
 
-def _bend_series(trail: PointPath, s: float) -> Reals:
+def _bend_series(point_path: PointPath, s: float) -> Reals:
     """Coefficients of Im(conj(z') z'') by the drive, in its natural size |z'| (|z'| + |z''|)."""
-    z = taylor_series(trail.course.at(trail.drive(np.array([s])), 0), _ORDER).point(trail.place)[0]
+    z = taylor_series(point_path.cycle.at(point_path.drive(np.array([s])), 0), _ORDER).point(point_path.place)[0]
     v = np.polynomial.polynomial.polyder(z)
     a = np.polynomial.polynomial.polyder(v)
     return np.asarray(np.convolve(np.conj(v), a).imag[: _ORDER - 1] / (abs(v[0]) * (abs(v[0]) + abs(a[0]))))
 
 
-def vertices(trail: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflection, ...] = ()) -> tuple[Vertex, ...]:
+def vertices(point_path: PointPath, known: tuple[Cusp, ...], flat: tuple[Inflection, ...] = ()) -> tuple[Vertex, ...]:
     """Sign changes of the curvature's derivative, flat inflections among them; none of a circle or a straight line."""
 
     def change(s: Reals) -> Reals:
-        _, v, a, j = trail.at(s)
+        _, v, a, j = point_path.at(s)
         return np.stack([np.abs(v) ** 2 * _cross(v, j) - 3 * _cross(v, a) * _dot(v, a)])
 
-    _, v, a, j = trail.at(trail.grid)
+    _, v, a, j = point_path.at(point_path.grid)
     natural = float(np.median(np.abs(v) ** 2 * (np.abs(v) * np.abs(j) + 3 * np.abs(a) ** 2)))
-    found = _away(trail, find_zeros(change, trail.grid, _LEAST * natural), known)
-    found = tuple(zero._replace(at=_nearest(zero.at, flat)) for zero in found)
+    zeros = _away(point_path, find_zeros(change, point_path.grid, _LEAST * natural), known)
+    zeros = tuple(zero._replace(at=_nearest(zero.at, flat)) for zero in zeros)
     return tuple(
         sorted(
             Vertex(
-                _drive(trail, zero),
+                _drive(point_path, zero),
                 z[0],
                 float(_cross(z[1], z[2]) / abs(z[1]) ** 3),
                 "minimum" if zero.rises else "maximum",
                 zero.at,
             )
-            for zero, z in _seen(trail, found)
+            for zero, z in _seen(point_path, zeros)
         )
     )
 
 
 def _nearest(at: float, flat: tuple[Inflection, ...]) -> float:
     """The flat inflection that this place is, exactly."""
-    return next((one.parameter for one in flat if one.flat and abs(one.parameter - at) < _NEAR), at)
+    return next(
+        (inflection.parameter for inflection in flat if inflection.flat and abs(inflection.parameter - at) < _NEAR), at
+    )
 
 
-def turning_points(trail: PointPath, direction: float = 0.0) -> tuple[TurningPoint, ...]:
+def turning_points(point_path: PointPath, direction: float = 0.0) -> tuple[TurningPoint, ...]:
     """Where the path turns back along a direction (radians; 0: in x, pi/2: in y)."""
     turn = np.exp(-1j * as_finite("direction", direction))
 
     def along(s: Reals) -> Reals:
-        return np.asarray((trail.at(s)[1:] * turn).real)
+        return np.asarray((point_path.at(s)[1:] * turn).real)
 
-    found = find_zeros(along, trail.grid, _LEAST * _usual(trail))
+    zeros = find_zeros(along, point_path.grid, _LEAST * _usual(point_path))
     kinds = {(1, True): "minimum", (1, False): "maximum", (3, True): "minimum", (3, False): "maximum"}
     return tuple(
         sorted(
-            TurningPoint(_drive(trail, zero), z[0], kinds.get((zero.multiplicity, zero.rises), "flat"), zero.at)
-            for zero, z in _seen(trail, found)
+            TurningPoint(_drive(point_path, zero), z[0], kinds.get((zero.multiplicity, zero.rises), "flat"), zero.at)
+            for zero, z in _seen(point_path, zeros)
         )
     )
 
 
-def _usual(trail: PointPath) -> float:
+def _usual(point_path: PointPath) -> float:
     """The usual velocity of the point."""
-    return max(float(np.median(np.abs(trail.at(trail.grid, 1)[1]))), 1e-12 * trail.size)
+    return max(float(np.median(np.abs(point_path.at(point_path.grid, 1)[1]))), 1e-12 * point_path.size)
 
 
-def _seen(trail: PointPath, found: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
+def _seen(point_path: PointPath, found: tuple[Zero, ...]) -> list[tuple[Zero, list[complex]]]:
     """Zeros with the point and its derivatives there."""
     if not found:
         return []
-    z = trail.at(np.array([zero.at for zero in found]))
+    z = point_path.at(np.array([zero.at for zero in found]))
     return [(zero, [complex(value) for value in z[:, k]]) for k, zero in enumerate(found)]
 
 
-def _away(trail: PointPath, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
-    period = trail.end - trail.start
+def _away(point_path: PointPath, found: tuple[Zero, ...], known: tuple[Cusp, ...]) -> tuple[Zero, ...]:
+    period = point_path.end - point_path.start
 
     def near(zero: Zero, cusp: Cusp) -> bool:
         gap = abs(zero.at - cusp.parameter)
-        return min(gap, period - gap if trail.closed else gap) < _NEAR
+        return min(gap, period - gap if point_path.closed else gap) < _NEAR
 
     return tuple(zero for zero in found if not any(near(zero, cusp) for cusp in known))
 
 
-def _drive(trail: PointPath, zero: Zero) -> float:
-    value = float(trail.drive(np.array([zero.at]))[0])
-    return trail.course.span.wrapped(value)
+def _drive(point_path: PointPath, zero: Zero) -> float:
+    value = float(point_path.drive(np.array([zero.at]))[0])
+    return point_path.cycle.span.wrapped(value)
 
 
 def _dot(a: Complexes | complex, b: Complexes | complex) -> Reals:

@@ -30,28 +30,28 @@ class PointPath(Brief):
     square root of the drive's way, which is smooth in s.
     """
 
-    course: DriveCycle
+    cycle: DriveCycle
     place: LinkPoint
 
     @property
     def closed(self) -> bool:
         """Whether the drive turns fully and the path comes back."""
-        return self.course.span.full
+        return self.cycle.span.full
 
     @property
     def start(self) -> float:
         """The parameter at the beginning."""
-        return float(self.course.grid[0]) if self.closed else 0.0
+        return float(self.cycle.grid[0]) if self.closed else 0.0
 
     @property
     def end(self) -> float:
         """The parameter at the end; of a closed path one period behind the beginning."""
-        return self.start + self.course.span.period if self.closed else pi
+        return self.start + self.cycle.span.period if self.closed else pi
 
     @property
     def size(self) -> float:
         """A length of the order of the linkage."""
-        return self.course.plan.lower.size
+        return self.cycle.plan.lower.size
 
     @cached_property
     def reach(self) -> float:
@@ -63,33 +63,33 @@ class PointPath(Brief):
     def grid(self) -> Reals:
         """Parameters between which events are looked for."""
         if self.closed:
-            return self.course.grid
+            return self.cycle.grid
         return pi * (np.arange(_CELLS) + 0.5) / _CELLS
 
     def drive(self, s: Reals) -> Reals:
         """The drive's values; of full turns from 0 to the period."""
-        span = self.course.span
+        span = self.cycle.span
         if self.closed:
             return np.asarray(s % span.period)
         return np.asarray(span.low + span.width * np.sin(np.clip(s, 0, pi) / 2) ** 2)
 
     def parameter(self, drive: float, near: float) -> float:
         """The parameter of a drive value: of a closed path the one next to another parameter."""
-        span = self.course.span
+        span = self.cycle.span
         if self.closed:
             return near + (drive - near + span.period / 2) % span.period - span.period / 2
         return 2 * asin(min(max((drive - span.low) / span.width, 0.0), 1.0) ** 0.5)
 
     def at(self, s: Reals, order: int = 3) -> Complexes:
         """The point and its derivatives by s; (order + 1, n)."""
-        span = self.course.span
+        span = self.cycle.span
         if self.closed:
-            motion = self.course.at(span.low + (s - span.low) % span.period, order)
+            motion = self.cycle.at(span.low + (s - span.low) % span.period, order)
             return np.array([motion.complex_point(self.place, k) for k in range(order + 1)])
         inside = np.clip(s, _EDGE, pi - _EDGE)
         beyond = s - inside
         upto = 3 if beyond.any() else order
-        motion = self.course.at(self.drive(inside), upto)
+        motion = self.cycle.at(self.drive(inside), upto)
         z = [motion.complex_point(self.place, k) for k in range(upto + 1)]
         out = _by_parameter(z, span.width / 2 * np.sin(inside), span.width / 2 * np.cos(inside))
         for k in range(order + 1 if beyond.any() else 0):
@@ -118,11 +118,11 @@ def point_path(
     """
     said = repr(point) if isinstance(point, str) else f"({point.x:g}, {point.y:g})"
     frame = linkage.mechanism.frame
-    places = [point] if isinstance(point, LinkPoint) else [p for p in linkage.named(point) if p.link != frame]
+    places = [point] if isinstance(point, LinkPoint) else [p for p in linkage.points_named(point) if p.link != frame]
     if not places or places[-1].link == frame:
         raise LinkageError(f"the point {said} lies on the frame {frame!r}: it has no path")
-    course = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
-    trail = PointPath(course, places[-1])
+    cycle = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
+    trail = PointPath(cycle, places[-1])
     if np.abs(trail.at(trail.grid, 1)[1]).max() <= _STILL * trail.size:
         raise LinkageError(f"the point {said} does not move: it has no path")
     return trail

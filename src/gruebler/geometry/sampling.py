@@ -40,7 +40,7 @@ def path_polygon(trail: PointPath, tolerance: float) -> PathPolygon:
             f"the tolerance must lie between {_FINEST * trail.reach:.3g} and {trail.reach:.3g} for this path, but is "
             f"{tolerance!r}"
         )
-    turns = max(trail.course.span.turns, 1)
+    turns = max(trail.cycle.span.turns, 1)
     s = np.linspace(trail.start, trail.end, _FIRST * turns + 1)
     z = trail.at(s, 1)
     suspect = np.ones(len(s) - 1, bool)
@@ -77,22 +77,22 @@ def _bows(left: Complexes, right: Complexes, middle: Complexes, width: Reals) ->
     return np.asarray(out + miss)
 
 
-def path_length(trail: PointPath, samples: PathPolygon, cusps: Reals) -> tuple[float, float]:
+def path_length(point_path: PointPath, samples: PathPolygon, cusps: Reals) -> tuple[float, float]:
     """The length of a path, and about its error: Gauss's rule between corners and cusps, with 8 nodes and with 5."""
     corners = np.union1d(samples.parameters, cusps)
-    whole, less = (_integral(trail, corners, nodes, speed=True) for nodes in (_NODES, 5))
+    whole, less = (_integral(point_path, corners, nodes, speed=True) for nodes in (_NODES, 5))
     return whole, abs(whole - less) + 1e-15 * whole
 
 
-def path_area(trail: PointPath, samples: PathPolygon) -> float:
+def path_area(point_path: PointPath, samples: PathPolygon) -> float:
     """The area that a closed path goes round, counter-clockwise positive; each part as often as round it."""
-    return _integral(trail, samples.parameters, _NODES, speed=False)
+    return _integral(point_path, samples.parameters, _NODES, speed=False)
 
 
-def _integral(trail: PointPath, corners: Reals, count: int, speed: bool) -> float:
+def _integral(point_path: PointPath, corners: Reals, count: int, speed: bool) -> float:
     nodes, weights = np.polynomial.legendre.leggauss(count)
     half = np.diff(corners)[:, None] / 2
     s = corners[:-1, None] + half * (1 + nodes)
-    z, velocity = trail.at(s.ravel(), 1)
+    z, velocity = point_path.at(s.ravel(), 1)
     values = np.abs(velocity) if speed else (np.conj(z) * velocity).imag / 2
     return float((half * weights * values.reshape(s.shape)).sum())

@@ -36,7 +36,7 @@ class TaylorSeries:
 
     def point(self, name: str | LinkPoint) -> Complexes:
         """The coefficients of a named point or joint, as x + iy; (rows, order + 1)."""
-        place = name if isinstance(name, LinkPoint) else self.motion.linkage.named(name)[-1]
+        place = name if isinstance(name, LinkPoint) else self.motion.linkage.points_named(name)[-1]
         (k,) = link_numbers(self.motion, [place.link])
         out: Complexes = self.places[:, k] + self.turns[:, k] * complex(place.x, place.y)
         return out

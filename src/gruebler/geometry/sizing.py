@@ -110,8 +110,8 @@ def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -
         from scipy.optimize import brentq
 
         def excess(wide: float) -> float:
-            made = path_piece(path, *window.ends(wide), window.direction)
-            return made.band - wanted * made.length
+            piece = path_piece(path, *window.ends(wide), window.direction)
+            return piece.band - wanted * piece.length
 
         beyond = float(curve.widths[last + 1])
         if excess(width) < 0 < excess(beyond):
@@ -150,13 +150,13 @@ def longest_in_band(path: Path, start: float, end: float, band: float, samples: 
         return path_piece(path, begin, float(brentq(excess, low, high, xtol=1e-10)), samples=fine)
 
     def shortness(begin: float) -> float:
-        made = filled(begin)
-        return 0.0 if made is None else -made.length
+        piece = filled(begin)
+        return 0.0 if piece is None else -piece.length
 
     ends = max(rough.start - step, start), rough.start + step
     best = minimize_scalar(shortness, bounds=ends, method="bounded", options={"xatol": 1e-7})
-    made = filled(float(best.x), fine=2001)
-    return rough if made is None or made.length < rough.length else made
+    piece = filled(float(best.x), fine=2001)
+    return rough if piece is None or piece.length < rough.length else piece
 
 
 def scale_for(path: Path, window: Window, length: float, tolerance: float) -> Sizing:
@@ -171,5 +171,5 @@ def scale_for(path: Path, window: Window, length: float, tolerance: float) -> Si
     3.8389
     """
     wanted = as_positive("length", length)
-    found = widest_piece(path, window, as_positive("tolerance", as_finite("tolerance", tolerance)) / wanted)
-    return Sizing(wanted / found.length, found)
+    piece = widest_piece(path, window, as_positive("tolerance", as_finite("tolerance", tolerance)) / wanted)
+    return Sizing(wanted / piece.length, piece)

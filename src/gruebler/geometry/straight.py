@@ -129,8 +129,8 @@ def piece_of_ratio(
     from scipy.optimize import brentq
 
     def excess(width: float) -> float:
-        made = path_piece(path, middle - width, middle + width, angle, samples)
-        return made.band - wanted * made.length
+        piece = path_piece(path, middle - width, middle + width, angle, samples)
+        return piece.band - wanted * piece.length
 
     high = float(halves[beyond[0]])
     low = _below(excess, float(halves[beyond[0] - 1]) or high / 2)

@@ -46,15 +46,15 @@ def symmetry(chain: Chain, *, frame: str | None = None, drives: Collection[int |
     from gruebler._numeric.labelling.canonical import canonical_form
 
     graph = coloured_graph(chain, frame, drives)
-    found = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour)
-    generators = tuple(_permutation(chain, graph, [int(v) for v in image]) for image in found.generators)
+    canonical_result = canonical_form(len(graph.vertex_colour), graph.vertex_colour, graph.edges, graph.edge_colour)
+    generators = tuple(_permutation(chain, graph, [int(v) for v in image]) for image in canonical_result.generators)
     links = range(chain.n)
     joints = range(len(chain.joints))
     flags = sorted((chain.index(link), k) for k, joint in enumerate(chain.joints) for link in joint.links)
     on_flags = [{(i, k): (g.links[i], g.joints[k]) for i, k in flags} for g in generators]
     return Symmetry(
         generators,
-        found.order,
+        canonical_result.order,
         tuple(
             tuple(chain.links[i] for i in orbit)
             for orbit in orbits(links, [dict(enumerate(g.links)) for g in generators])

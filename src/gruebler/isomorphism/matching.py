@@ -20,26 +20,26 @@ class Isomorphism:
     """joints[k] is the number, in the other chain, of the joint that corresponds to joint k."""
 
 
-def find_isomorphism(one: Chain, other: Chain) -> Isomorphism | None:
+def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
     """A correspondence of links and joints that keeps space, pairs and incidence, or None if there is none.
 
     >>> find_isomorphism(Chain.parse("R(a-b) R(b-c) P(c-a)"), Chain.parse("P(0-1) R(1-2) R(2-0)")).links["b"]
     '2'
     """
-    if one.space is not other.space or one.n != other.n or len(one.joints) != len(other.joints):
+    if first.space is not second.space or first.n != second.n or len(first.joints) != len(second.joints):
         return None
-    if code(one) != code(other):
+    if code(first) != code(second):
         return None
-    mine, yours = canonical_order(one), canonical_order(other)
-    links = {one.links[a]: other.links[b] for a, b in zip(mine.links, yours.links, strict=True)}
-    joints = dict(zip(mine.joints, yours.joints, strict=True))
-    return Isomorphism(links, tuple(joints[k] for k in range(len(one.joints))))
+    order, yours = canonical_order(first), canonical_order(second)
+    links = {first.links[a]: second.links[b] for a, b in zip(order.links, yours.links, strict=True)}
+    joints = dict(zip(order.joints, yours.joints, strict=True))
+    return Isomorphism(links, tuple(joints[k] for k in range(len(first.joints))))
 
 
-def is_isomorphic(one: Chain, other: Chain) -> bool:
+def is_isomorphic(first: Chain, second: Chain) -> bool:
     """Whether two chains have the same structure, names aside.
 
     >>> is_isomorphic(Chain.parse("R(a-b) R(b-c) P(c-a)"), Chain.parse("P(0-1) R(1-2) R(2-0)"))
     True
     """
-    return find_isomorphism(one, other) is not None
+    return find_isomorphism(first, second) is not None

@@ -211,7 +211,7 @@ class GroupSolver:
         first, second = (turns[self._group.owners] * self._group.lines).reshape(-1, 2).T
         return bool(((first.conj() * second).real > 0)[self._group.kinds == SLIDE].all())
 
-    def recall(self, found: Sequence[Reals], pose: Reals) -> int:
+    def index_of_known(self, found: Sequence[Reals], pose: Reals) -> int:
         """The number of the mode among those found that a pose is, -1 if it is new.
 
         Copies of a singular mode are known by the pose half way between them: it is closed, too.
@@ -312,7 +312,7 @@ def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, m
         if not solver.settle(unknowns):
             continue
         arrivals += 1
-        number = solver.recall(found, unknowns)
+        number = solver.index_of_known(found, unknowns)
         if number < 0 and solver.is_singular(unknowns) and solver.moves(unknowns):
             degenerate = True
             break

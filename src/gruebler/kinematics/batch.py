@@ -263,25 +263,25 @@ def move_many(
     return Motions(made, branch, path, kept, places, turns, rates, reached)
 
 
-def _starts(made: Designs, path: Reals, branch: str | None) -> tuple[Reals, Reals]:
+def _starts(designs: Designs, path: Reals, branch: str | None) -> tuple[Reals, Reals]:
     """Signs and unknowns at the first row; NaN for a design that cannot be assembled there."""
-    plan, count = made.plan, len(made)
+    plan, count = designs.plan, len(designs)
     labels = read_branch(plan, branch)
-    if not plan.larger and (branch is not None or plan.lower.home is None):
+    if not plan.higher_groups and (branch is not None or plan.lower.reference_pose is None):
         signs, unknowns = starting_state(plan, labels, path[0])
         return np.tile(signs, (count, 1)), np.tile(unknowns, (count, 1))
     signs = np.ones((count, len(plan.dyads)))
     unknowns = np.full((count, plan.unknowns), np.nan)
     for n in range(count):
         try:
-            signs[n], unknowns[n] = starting_configuration(cached_plan(made.linkage(n)), path[0], branch)
+            signs[n], unknowns[n] = starting_configuration(cached_plan(designs.linkage(n)), path[0], branch)
         except Unassembled:
             signs[n] = np.nan
     return signs, unknowns
 
 
 def _run(
-    made: Designs,
+    designs: Designs,
     path: Reals,
     speeds: Reals,
     starts: tuple[Reals, Reals],
@@ -291,14 +291,14 @@ def _run(
 ) -> None:
     from gruebler._numeric.motion.batch import run_designs
 
-    program = made.plan.program
-    longest = made.sizes[:, None] / program.size * program.most
-    turning = [d.direction.startswith("R") for d in made.plan.lower.mechanism.drives]
+    program = designs.plan.program
+    longest = designs.sizes[:, None] / program.size * program.most
+    turning = [d.direction.startswith("R") for d in designs.plan.lower.mechanism.drives]
     longest[:, turning] = program.most[turning]
 
-    sizes = made.points, made.lines, longest, made.sizes
-    workers = max(1, min(threads or os.cpu_count() or 1, len(made)))
-    cuts = [len(made) * k // workers for k in range(workers + 1)]
+    sizes = designs.points, designs.lines, longest, designs.sizes
+    workers = max(1, min(threads or os.cpu_count() or 1, len(designs)))
+    cuts = [len(designs) * k // workers for k in range(workers + 1)]
     with ThreadPoolExecutor(workers) as pool:
         jobs = [
             pool.submit(run_designs, program, sizes, path, speeds, *starts, kept, out, part) for part in pairwise(cuts)

@@ -28,7 +28,7 @@ Reals = NDArray[np.float64]
 
 def part_at_fault(plan: Plan, number: int) -> Dyad | HigherGroup:
     """What the kernel's number of a dyad (from 0) or larger group (-1, -2, ...) stands for."""
-    return plan.dyads[number] if number >= 0 else plan.larger[-1 - number]
+    return plan.dyads[number] if number >= 0 else plan.higher_groups[-1 - number]
 
 
 def labelled_groups(plan: Plan) -> tuple[Dyad | HigherGroup, ...]:

@@ -16,19 +16,19 @@ _SINGULAR = 1e-5  # below this root the linear equations of the rates lose too m
 _STEP = 0.04  # radians (or part of the size): how far from a change point rates are taken to find those at it
 
 
-def set_change_point_rates(made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals) -> tuple[int, ...]:
+def set_change_point_rates(plan: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals) -> tuple[int, ...]:
     """Put the limits of the rates where the linkage passes an exact change point: the linear equations fail there.
 
     Along a branch the rates are analytic in the drive. They are found at eight places around the row and interpolated
     by a polynomial of degree 7: relative error of the order of 1e-12 for motions that are smooth over 0.16 radians.
     Returns the rows without finite limits (the drive stands at its limit); their rates are NaN.
     """
-    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     small = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) < _SINGULAR
     broken = ~np.isfinite(motion.rates).all(axis=(0, 2))
     unbounded = []
     for row in np.flatnonzero(small | broken):
-        found = _limit(made, motion, path, speeds, signs, int(row))
+        found = _limit(plan, motion, path, speeds, signs, int(row))
         if found is not None:
             motion.places[1:, row], motion.rates[:, row] = found
         else:
@@ -38,14 +38,14 @@ def set_change_point_rates(made: Plan, motion: Motion, path: Reals, speeds: Real
 
 
 def _limit(
-    made: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals, row: int
+    plan: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals, row: int
 ) -> tuple[NDArray[np.complex128], Reals] | None:
     way = speeds[0, row].copy()
-    scale = np.array([1.0 if d.direction.startswith("R") else made.lower.size for d in made.linkage.mechanism.drives])
+    scale = np.array([1.0 if d.direction.startswith("R") else plan.lower.size for d in plan.linkage.mechanism.drives])
     if not way.any():  # at rest: any direction does
         way = scale.copy()
     length = float(np.abs(way / scale).max())
-    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     sound = (np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _SINGULAR) & (path != path[row]).any(axis=1)[
         : len(motion)
     ]
@@ -62,7 +62,7 @@ def _limit(
     beside = path[neighbour : neighbour + 1] if neighbour >= 0 else around[:1]
     around = np.concatenate([beside, around])
     still = np.repeat(speeds[:, row : row + 1], len(around), axis=1)
-    rows = run_rows(made.program, made, around, still, len(speeds), state, unknowns)
+    rows = run_rows(plan.program, plan, around, still, len(speeds), state, unknowns)
     if rows.reached < len(around):
         return None
     weights = np.array([-1, 8, -28, 56, 56, -28, 8, -1]) / 70

@@ -174,9 +174,9 @@ class Circuit(Brief):
         """A named point or a joint at the samples; (samples, 2)."""
         return self.samples.point(name)
 
-    def slide(self, joint: str | int) -> Reals:
+    def displacement(self, joint: str | int) -> Reals:
         """The way of a sliding joint at the samples; (samples,)."""
-        return self.samples.slide(joint)
+        return self.samples.displacement(joint)
 
     @property
     def drive(self) -> Reals:
@@ -204,8 +204,8 @@ class Circuit(Brief):
         ends = quantity(self.samples, 0)[[0, -1]]
         again = self.closed and abs(ends[1] - ends[0]) <= _AGAIN * np.abs(quantity(self.samples, 0)).max()
         samples = FunctionSamples(self.arcs, period=self.length if again else None, ends=True)
-        found = find_zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
-        return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in found))
+        zeros = find_zeros(lambda s: np.stack([quantity(p := self.at(s), 0), quantity(p, 1)]), samples)
+        return tuple(sorted(self._wrapped(zero.at) if again else zero.at for zero in zeros))
 
     def extremes(self, quantity: Quantity, natural: float = 1.0) -> tuple[Extremum, ...]:
         """All extremes of something along the curve, in order; values to rounding.
@@ -213,10 +213,10 @@ class Circuit(Brief):
         ``natural`` is the size that it usually has: 1 for an angle, the linkage's size for a length.
         """
         samples = FunctionSamples(self.arcs, period=self.length if self.closed else None)
-        found = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
-        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in found]
+        zeros = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
+        arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
         values = quantity(self.at(arcs), 0)
-        return tuple(sorted(Extremum(at, float(v), not z.rises) for at, z, v in zip(arcs, found, values, strict=True)))
+        return tuple(sorted(Extremum(at, float(v), not z.rises) for at, z, v in zip(arcs, zeros, values, strict=True)))
 
     def _wrapped(self, arc: float) -> float:
         """The same place of a closed circuit, from 0 to its length."""
@@ -236,7 +236,7 @@ class Circuit(Brief):
         return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
 
     @property
-    def stretches(self) -> tuple[MonotonePiece, ...]:
+    def monotone_pieces(self) -> tuple[MonotonePiece, ...]:
         """The pieces between limits of the drive, in order; the first one contains the first sample."""
         ends = [limit.arc for limit in self.drive_limits]
         if not self.closed:
@@ -262,9 +262,9 @@ class Circuit(Brief):
             arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
             slopes = np.zeros((1, self.system.unknowns))
             slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
-            found = self._poses(np.array([arc]), pose[None], slopes)
+            poses = self._poses(np.array([arc]), pose[None], slopes)
             driven = bool(self.system.lower.mechanism.drives)
-            yield ChangePoint(arc, float(found.drive()[0]) if driven else float("nan"), found, several)
+            yield ChangePoint(arc, float(poses.drive()[0]) if driven else float("nan"), poses, several)
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
@@ -325,40 +325,40 @@ def circuit(
     count = len(linkage.mechanism.drives)
     if count > 1:
         raise LinkageError(f"a circuit has one drive at most, but this linkage has {count}")
-    made = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
-    pose, tangent = _start(linkage, made, branch, drive)
-    found = Circuit(linkage, made, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
+    system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
+    pose, tangent = _start(linkage, system, branch, drive)
+    found = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0
     if lower.mechanism.drives:
         value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
         tangent = -tangent if ahead < 0 else tangent
         if lower.mechanism.drives[0].direction.startswith("R"):
             turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))
-    traced = trace_circuit(made, pose, tangent, float(step), float(most))
+    traced = trace_circuit(system, pose, tangent, float(step), float(most))
     if not traced.closed and traced.arcs[-1] < _SHAKY:
         raise LinkageError("the linkage cannot be moved from its start: it is shaky there, or the position is isolated")
-    return Circuit(linkage, made, traced, turned)
+    return Circuit(linkage, system, traced, turned)
 
 
 def _start(
-    linkage: Linkage, made: ClosureSystem, branch: str | Iterable[str] | None, drive: float | None
+    linkage: Linkage, system: ClosureSystem, branch: str | Iterable[str] | None, drive: float | None
 ) -> tuple[Reals, Reals]:
     """A pose and its tangent."""
-    lower = made.lower
-    if lower.home is not None and branch is None and drive is None:
-        rows = [lower.home[link] for link in made.bodies]
+    lower = system.lower
+    if lower.reference_pose is not None and branch is None and drive is None:
+        rows = [lower.reference_pose[link] for link in system.bodies]
         x = np.array([(p.x / lower.size, p.y / lower.size, p.angle) for p in rows]).ravel()
-        pose, tangent, _, rank = nearest_on_curve(made, made.with_arms(x))
-        return _movable(made, pose, tangent, rank)
+        pose, tangent, _, rank = nearest_on_curve(system, system.with_arms(x))
+        return _movable(system, pose, tangent, rank)
     best: tuple[Reals, Reals] | None = None
     largest = 0.0
     for value in _trial_values(lower) if drive is None else [drive]:
-        assembled = _assembled(linkage, made, value, branch)
+        assembled = _assembled(linkage, system, value, branch)
         if assembled is None:
             continue
-        pose, tangent, gauge, rank = nearest_on_curve(made, assembled)
+        pose, tangent, gauge, rank = nearest_on_curve(system, assembled)
         if drive is not None or abs(gauge) > largest:
-            best, largest = _movable(made, pose, tangent, rank), abs(gauge)
+            best, largest = _movable(system, pose, tangent, rank), abs(gauge)
         if largest > _SINGULAR:
             break
     if best is None:
@@ -367,11 +367,11 @@ def _start(
     return best
 
 
-def _movable(made: ClosureSystem, pose: Reals, tangent: Reals, rank: int) -> tuple[Reals, Reals]:
+def _movable(system: ClosureSystem, pose: Reals, tangent: Reals, rank: int) -> tuple[Reals, Reals]:
     """Pose and tangent, if there is one way to move on."""
-    if rank == made.unknowns:
+    if rank == system.unknowns:
         raise LinkageError("the linkage cannot move: its joints hold every link")
-    if rank < made.unknowns - 1:
+    if rank < system.unknowns - 1:
         raise LinkageError(
             "the circuit cannot start in a singular position (a change point, or more than one freedom); "
             "another drive value may help"
@@ -389,12 +389,14 @@ def _trial_values(lower: Linkage) -> Iterator[float]:
         yield reach * (2 * ((part + 0.637) % 1) - 1)
 
 
-def _assembled(linkage: Linkage, made: ClosureSystem, value: float, branch: str | Iterable[str] | None) -> Reals | None:
+def _assembled(
+    linkage: Linkage, system: ClosureSystem, value: float, branch: str | Iterable[str] | None
+) -> Reals | None:
     """The pose at a drive value, or None."""
     try:
         motion = move(linkage, [value], branch=branch)
     except LinkageError as error:
-        if made.redundant and made.lower.home is None:
+        if system.redundant and system.lower.reference_pose is None:
             raise LinkageError(
                 f"{error} With a home (Linkage.drawn) its circuit can be followed all the same."
             ) from None
@@ -402,8 +404,8 @@ def _assembled(linkage: Linkage, made: ClosureSystem, value: float, branch: str 
     if not len(motion):
         return None
     rows = []
-    for link in made.bodies:
+    for link in system.bodies:
         k = motion._link(link)
-        z = motion.places[0, 0, k] / made.lower.size
+        z = motion.places[0, 0, k] / system.lower.size
         rows.append((z.real, z.imag, float(np.angle(motion.turns[0, k]))))
-    return made.with_arms(np.array(rows).ravel())
+    return system.with_arms(np.array(rows).ravel())

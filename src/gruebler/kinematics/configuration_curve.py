@@ -153,10 +153,10 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
             ]
             continue
         sides = keys.index(ends[0]), keys.index(ends[1])
-        for found in contact_conditions(lower, joint.pair.name, keys, sides, (owners[0], owners[1])):
-            one, two, value = found.values
-            places = _at(lower, keys[found.sides[0]]), _at(lower, keys[found.sides[1]])
-            if found.kind == MESH:
+        for condition in contact_conditions(lower, joint.pair.name, keys, sides, (owners[0], owners[1])):
+            one, two, value = condition.values
+            places = _at(lower, keys[condition.sides[0]]), _at(lower, keys[condition.sides[1]])
+            if condition.kind == MESH:
                 arm = len(bodies) + len(free)
                 if number in held:
                     arm = -1 if held[number].link == frame else bodies.index(held[number].link)
@@ -164,15 +164,19 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
                     free.append((ends[0], ends[1]))
                     rows.append(_Row(PIN, (arm, owners[0]), ((0j, 1 + 0j), places[0])))
                     rows.append(_Row(RIDE, (arm, owners[1]), ((0j, 1 + 0j), places[1])))
-                turned = direction(lower.elements[keys[found.sides[0]]])
+                turned = direction(lower.elements[keys[condition.sides[0]]])
                 if number in held:
-                    turned -= held[number].direction + (pi if found.sides != sides else 0.0)
-                rows.append(_Row(TRAIN, found.owners, places, (one / size, two / size, 0.0, arm, turned), found.law))
-            elif found.kind == RACK:
-                rows.append(_Row(TRAVEL, found.owners, places, (one / size, two, 0.0, 0.0, 0.0)))
+                    turned -= held[number].direction + (pi if condition.sides != sides else 0.0)
+                rows.append(
+                    _Row(TRAIN, condition.owners, places, (one / size, two / size, 0.0, arm, turned), condition.law)
+                )
+            elif condition.kind == RACK:
+                rows.append(_Row(TRAVEL, condition.owners, places, (one / size, two, 0.0, 0.0, 0.0)))
             else:
-                law = found.law.scaled(size, found.kind == POLAR)
-                rows.append(_Row(found.kind, found.owners, places, (one / size, two, value / size, 0.0, 0.0), law))
+                law = condition.law.scaled(size, condition.kind == POLAR)
+                rows.append(
+                    _Row(condition.kind, condition.owners, places, (one / size, two, value / size, 0.0, 0.0), law)
+                )
     for a, b in still:
         owners = [-1 if link == frame else bodies.index(link) for link in (a, b)]
         rows.append(_Row(TRAIN, (owners[0], owners[1]), ((0j, 1 + 0j), (0j, 1 + 0j)), (1.0, -1.0, 0.0, -1.0, 0.0)))
@@ -218,7 +222,7 @@ def _direction(element: Element) -> complex:
     return rect(1, direction(element))
 
 
-def nearest_on_curve(made: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float, int]:
+def nearest_on_curve(system: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float, int]:
     """The nearest pose on the curve, tangent, gauge (`SampleBuffer`) and rank there; `LinkageError` if none is near.
 
     The error is raised for a pose that is off by more than 0.05, in sizes and radians.
@@ -228,22 +232,22 @@ def nearest_on_curve(made: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float
     from gruebler._numeric.work_estimates import sampling
 
     pose = x.copy()
-    _, matrix = made.linearised(pose)
+    _, matrix = system.linearised(pose)
     tangent = np.linalg.svd(matrix)[2][-1].copy()
-    arrived, miss, gauge, rank = for_work(settle_on_curve, sampling(made.unknowns, 1))(
-        made.conditions, pose, tangent, made.room
+    arrived, miss, gauge, rank = for_work(settle_on_curve, sampling(system.unknowns, 1))(
+        system.conditions, pose, tangent, system.room
     )
-    if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == made.unknowns):
+    if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == system.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
 
 
-def trace_circuit(made: ClosureSystem, pose: Reals, tangent: Reals, step: float, most: float) -> TracedCurve:
+def trace_circuit(system: ClosureSystem, pose: Reals, tangent: Reals, step: float, most: float) -> TracedCurve:
     """The circuit through a pose, forwards until it closes; if it does not, backwards as well."""
-    ahead = _follow(made, pose, tangent, step, most)
+    ahead = _follow(system, pose, tangent, step, most)
     if ahead.closed:
         return ahead
-    back = _follow(made, pose, -tangent, step, most)
+    back = _follow(system, pose, -tangent, step, most)
     length, last = back.arcs[-1], len(back.arcs) - 1
     changes = [c._replace(sample=last - 1 - c.sample) for c in reversed(back.changes)]
     changes += [c._replace(sample=last + c.sample) for c in ahead.changes]
@@ -258,28 +262,28 @@ def trace_circuit(made: ClosureSystem, pose: Reals, tangent: Reals, step: float,
     )
 
 
-def _follow(made: ClosureSystem, pose: Reals, tangent: Reals, longest: float, most: float) -> TracedCurve:
+def _follow(system: ClosureSystem, pose: Reals, tangent: Reals, longest: float, most: float) -> TracedCurve:
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.motion.tracing import CLOSED, FLIP, FULL, LONG, SHORTEST, settle_on_curve, trace_curve
     from gruebler._numeric.work_estimates import sampling
 
-    curve = _room(64, made.unknowns)
+    curve = _room(64, system.unknowns)
     curve.poses[0], curve.tangents[0] = pose, tangent
-    put = for_work(settle_on_curve, sampling(made.unknowns, 1))
-    curve.gauges[0] = put(made.conditions, curve.poses[0], curve.tangents[0], made.room)[2]
+    put = for_work(settle_on_curve, sampling(system.unknowns, 1))
+    curve.gauges[0] = put(system.conditions, curve.poses[0], curve.tangents[0], system.room)[2]
     count, step, changes = 1, longest / 4, list[ChangeSample]()
     while True:
-        follow = for_work(trace_curve, sampling(made.unknowns, len(curve.arcs) - count))
-        status, count, step = follow(made.conditions, curve, count, step, longest, most, made.room)
+        follow = for_work(trace_curve, sampling(system.unknowns, len(curve.arcs) - count))
+        status, count, step = follow(system.conditions, curve, count, step, longest, most, system.room)
         if status == FULL:
             curve = _larger(curve)
         elif status == FLIP:
             way = float(np.linalg.norm(curve.poses[count] - curve.poses[count - 1]))
             ends = curve.poses[count - 1], curve.poses[count]
-            found = _change(made, *ends) if way <= _SHORT else None
+            found = _change(system, *ends) if way <= _SHORT else None
             several = False
             if found is None and way <= _SHORT:
-                found, lost = _meeting(made, *ends, curve.tangents[count - 1])
+                found, lost = _meeting(system, *ends, curve.tangents[count - 1])
                 several = lost > 1
             if found is None:
                 step = way / 2
@@ -296,10 +300,10 @@ def _follow(made: ClosureSystem, pose: Reals, tangent: Reals, longest: float, mo
             break
     arcs, poses, tangents = (part[:count].copy() for part in curve[:3])
     samples = TracedCurve(arcs, poses, tangents, status == CLOSED, "", tuple(changes), 0.0)
-    if made.redundant:
-        samples = samples._replace(changes=_quiet_changes(made, samples, curve.gauges[:count]))
+    if system.redundant:
+        samples = samples._replace(changes=_quiet_changes(system, samples, curve.gauges[:count]))
     else:
-        touches = [*changes, *_touches(made, samples, curve.gauges[:count])]
+        touches = [*changes, *_touches(system, samples, curve.gauges[:count])]
         samples = samples._replace(changes=tuple(sorted(touches, key=lambda change: change.sample)))
     return samples._replace(ended="" if status == CLOSED else "long" if status == LONG else "singular")
 
@@ -353,7 +357,7 @@ def _change(made: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
     return None
 
 
-def _meeting(made: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
+def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tuple[Reals | None, int]:
     """The pose between two neighbouring samples in which other curves meet this one, and how many ranks are lost there.
 
     The pose is None if there is none.
@@ -367,8 +371,8 @@ def _meeting(made: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tup
 
     def at(part: float) -> tuple[Reals, float]:
         pose = one + part * (two - one)
-        for_work(settle_on_curve, sampling(made.unknowns, 1))(made.conditions, pose, tangent.copy(), made.room)
-        return pose, float(np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2])
+        for_work(settle_on_curve, sampling(system.unknowns, 1))(system.conditions, pose, tangent.copy(), system.room)
+        return pose, float(np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2])
 
     before, behind = at(0.0)[1], at(1.0)[1]
     place = before / max(before + behind, 1e-300)
@@ -384,12 +388,12 @@ def _meeting(made: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> tup
         place += width * shift
     weights = np.array([np.prod([(shift - v) / (u - v) for v in _BESIDE if v != u]) for u in _BESIDE])
     pose = weights @ np.array([one for one, _ in found])
-    singular = np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[: made.unknowns - 1]
+    singular = np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[: system.unknowns - 1]
     lost = int((singular < _LOST * values.min()).sum())
     return (np.asarray(pose) if lost and -_BORDER < place < 1 + _BORDER else None), lost
 
 
-def _touches(made: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iterator[ChangeSample]:
+def _touches(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iterator[ChangeSample]:
     """Change points at which the determinant is zero without a change of its sign."""
     size = np.abs(gauges)
     wide = np.concatenate([[np.inf], size, [np.inf]])
@@ -398,35 +402,35 @@ def _touches(made: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iterat
     for k in sorted({part for low in lowest.tolist() for part in (low - 1, low) if 0 <= part < len(size) - 1}):
         if gauges[k] * gauges[k + 1] < 0:
             continue
-        pose, _ = _meeting(made, samples.poses[k], samples.poses[k + 1], samples.tangents[k])
+        pose, _ = _meeting(system, samples.poses[k], samples.poses[k + 1], samples.tangents[k])
         if pose is not None and (last is None or np.abs(pose - last).max() > _BORDER):
             last = pose
             yield ChangeSample(pose, k, True)
 
 
-def _curvature(made: ClosureSystem, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
+def _curvature(system: ClosureSystem, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
     """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
     out, h = np.empty((len(x), len(x))), 1e-5
     for k in range(len(x)):
         for sign in (1, -1):
             moved = x.copy()
             moved[k] += sign * h
-            side = made.linearised(moved)[1][rows].T @ psi
+            side = system.linearised(moved)[1][rows].T @ psi
             out[:, k] = side if sign == 1 else (out[:, k] - side) / (2 * h)
     return out
 
 
-def _quiet_changes(made: ClosureSystem, samples: TracedCurve, gauges: Reals) -> tuple[ChangeSample, ...]:
+def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> tuple[ChangeSample, ...]:
     """Change points of a redundantly constrained linkage: there is no determinant; its shortest row has a minimum 0."""
     out = []
     for k in range(1, len(gauges) - 1):
         if gauges[k] < min(_SMALL, gauges[k - 1]) and gauges[k] <= gauges[k + 1]:
-            pose = _change(made, samples.poses[k - 1], samples.poses[k + 1])
+            pose = _change(system, samples.poses[k - 1], samples.poses[k + 1])
             several = False
             if pose is None:
-                pose, lost = _meeting(made, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
+                pose, lost = _meeting(system, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
                 several = lost > 1
-            if pose is None or np.linalg.svd(made.linearised(pose)[1], compute_uv=False)[made.unknowns - 2] > 1e-9:
+            if pose is None or np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2] > 1e-9:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
             out.append(ChangeSample(pose, k if ahead else k - 1, several))

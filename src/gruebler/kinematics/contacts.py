@@ -56,10 +56,10 @@ def contact_conditions(
         return [Condition(FACE, sides, owners, (0.0, float(side_of(lower, keys, sides)), 0.0), cam_law(other))]
     if isinstance(one, GenevaDriver | NonCircular):
         raw = Condition(MESH, sides, owners, (lower.size, -lower.size, 0.0), turn_law(one, other))
-        found = _phased(lower, keys, raw)
+        condition = _phased(lower, keys, raw)
         if isinstance(one, NonCircular):
-            _check_phase(lower, keys, found)
-        return [found]
+            _check_phase(lower, keys, condition)
+        return [condition]
     out = []
     if isinstance(other, Wheel):
         if isinstance(one, Line):
@@ -125,8 +125,10 @@ def law_at(law: PiecewiseLaw, angle: float) -> float:
 
 def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
     """The angles of a condition that counts whole turns, at home."""
-    assert lower.home is not None
-    angles = [lower.home[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides]
+    assert lower.reference_pose is not None
+    angles = [
+        lower.reference_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
+    ]
     if condition.kind == MESH:
         here, there = (_put(lower, keys, side) for side in condition.sides)
         along = phase(there - here)
@@ -151,16 +153,16 @@ def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:
 
 def _way(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> complex:
     """A centre at home, seen from a line: along it, and to the left of it."""
-    assert lower.home is not None
+    assert lower.reference_pose is not None
     number, link = keys[sides[0]]
     line = lower.elements[number, link]
     assert isinstance(line, Line)
     gap = _put(lower, keys, sides[1]) - _put(lower, keys, sides[0])
-    return gap * rect(1, -lower.home[link].angle - line.angle)
+    return gap * rect(1, -lower.reference_pose[link].angle - line.angle)
 
 
 def _put(lower: Linkage, keys: Keys, side: int) -> complex:
-    assert lower.home is not None
+    assert lower.reference_pose is not None
     number, link = keys[side]
     element = lower.elements[number, link]
-    return complex(*lower.home[link].put(element.x, element.y))
+    return complex(*lower.reference_pose[link].put(element.x, element.y))

@@ -28,9 +28,9 @@ def degrees(start: float, stop: float, step: float) -> Reals:
     return out
 
 
-def drive_path(made: Plan, drives: ArrayLike) -> Reals:
+def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     """(rows, drives) values, checked."""
-    wanted = len(made.linkage.mechanism.drives)
+    wanted = len(plan.linkage.mechanism.drives)
     try:
         path = np.array(drives, np.float64)
     except (TypeError, ValueError):

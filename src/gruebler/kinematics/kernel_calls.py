@@ -52,25 +52,25 @@ def without_first(rows: SolvedRows) -> SolvedRows:
     )
 
 
-def follow_path(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
+def follow_path(plan: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
     """Run the kernel so that a path that rests or turns back in a change point is retraced."""
-    rows = run_rows(made.program, made, path, speeds, order, signs, unknowns)
-    if _lingers(made, path, rows):
+    rows = run_rows(plan.program, plan, path, speeds, order, signs, unknowns)
+    if _lingers(plan, path, rows):
         kept, again = _without_rests(path)
-        rows = _there_and_back(made, path[kept], speeds[:, kept], order, signs, unknowns)
-        rows = _with_rests(rows, kept, again, made, path, speeds, order)
+        rows = _there_and_back(plan, path[kept], speeds[:, kept], order, signs, unknowns)
+        rows = _with_rests(rows, kept, again, plan, path, speeds, order)
     return rows
 
 
-def _lingers(made: Plan, path: Reals, rows: SolvedRows) -> bool:
+def _lingers(plan: Plan, path: Reals, rows: SolvedRows) -> bool:
     """Whether the path rests or turns back in a change point of a dyad, or rests where a larger group may have one."""
     ways = np.diff(path, axis=0)
     corners = np.flatnonzero((ways[1:] * ways[:-1] <= 0).all(axis=1)) + 1
     if not len(corners):
         return False
-    if made.larger and rows.status and (ways[np.append(corners, 0)] == 0).all(axis=1).any():
+    if plan.higher_groups and rows.status and (ways[np.append(corners, 0)] == 0).all(axis=1).any():
         return True
-    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     roots = rows.roots[corners[corners < len(rows.roots)]][:, branching]
     return bool((np.abs(roots).min(axis=1, initial=1.0) < _AT_CHANGE).any())
 
@@ -82,7 +82,7 @@ def _without_rests(path: Reals) -> tuple[Ints, Ints]:
 
 
 def _with_rests(
-    rows: SolvedRows, kept: Ints, again: Ints, made: Plan, path: Reals, speeds: Reals, order: int
+    rows: SolvedRows, kept: Ints, again: Ints, plan: Plan, path: Reals, speeds: Reals, order: int
 ) -> SolvedRows:
     """The rows of a path whose rests were left out; rates there are solved with the speeds that are given for them."""
     count = int(np.searchsorted(again, rows.reached))
@@ -90,8 +90,8 @@ def _with_rests(
     places, rates = rows.places[:, pick], rows.rates[:, pick]
     for row in np.setdiff1d(np.arange(count), kept) if order else ():
         one = run_rows(
-            made.program,
-            made,
+            plan.program,
+            plan,
             path[row : row + 1],
             np.ascontiguousarray(speeds[:, row : row + 1]),
             order,
@@ -113,13 +113,13 @@ def _with_rests(
     )
 
 
-def _there_and_back(made: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
+def _there_and_back(plan: Plan, path: Reals, speeds: Reals, order: int, signs: Reals, unknowns: Reals) -> SolvedRows:
     """Run the kernel; where one drive turns back in a change point, go on from before it, so that the path is retraced.
 
     In a change point a dyad's sign is that of the way onward; for the way back it is the one before.
     """
-    rows = run_rows(made.program, made, path, np.ascontiguousarray(speeds), order, signs, unknowns)
-    branching = [dyad.number for dyad in made.dyads if dyad.branching]
+    rows = run_rows(plan.program, plan, path, np.ascontiguousarray(speeds), order, signs, unknowns)
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
     if path.shape[1] > 1 or not branching or len(path) < 3:
         return rows
     steps = np.diff(path[:, 0])
@@ -136,7 +136,7 @@ def _there_and_back(made: Plan, path: Reals, speeds: Reals, order: int, signs: R
         rest = np.concatenate([path[before : before + 1], path[corner + 1 :]])
         rates = np.concatenate([speeds[:, before : before + 1], speeds[:, corner + 1 :]], axis=1)
         state = np.where(rows.roots[before] < 0, -1.0, 1.0)
-        back = run_rows(made.program, made, rest, rates, order, state, rows.unknowns[before].copy())
+        back = run_rows(plan.program, plan, rest, rates, order, state, rows.unknowns[before].copy())
         rows = _joined(rows, corner + 1, back, rows.whole[before])
     return rows
 
@@ -158,21 +158,21 @@ def _joined(rows: SolvedRows, count: int, back: SolvedRows, whole: NDArray[np.in
 
 
 def run_rows(
-    program: Program, made: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
+    program: Program, plan: Plan, path: Reals, speeds: Reals | None, order: int, signs: Reals, unknowns: Reals
 ) -> SolvedRows:
     """Run the kernel, with a row more wherever a driven slide passes its `Plan.shortest`; idle rollers are held."""
-    idle = made.held
-    if len(idle) and path.shape[1] < len(made.lower.mechanism.drives):
+    idle = plan.held
+    if len(idle) and path.shape[1] < len(plan.lower.mechanism.drives):
         path = np.ascontiguousarray(np.concatenate([path, np.tile(idle, (len(path), 1))], axis=1))
         if speeds is not None:
             speeds = np.concatenate([speeds, np.zeros((*speeds.shape[:2], len(idle)))], axis=2)
-    extra = _passed(made, path)
+    extra = _passed(plan, path)
     if len(extra):
-        return _with_extra_rows(program, made, path, speeds, order, signs, unknowns, extra)
+        return _with_extra_rows(program, plan, path, speeds, order, signs, unknowns, extra)
     from gruebler._numeric.motion.path import run_path
     from gruebler._numeric.motion.program import PoseBuffer
 
-    rows, links = len(path), len(made.lower.mechanism.chain.links)
+    rows, links = len(path), len(plan.lower.mechanism.chain.links)
     poses = PoseBuffer(
         np.empty((order + 1, links, rows), np.complex128),
         np.empty((links, rows), np.complex128),
@@ -189,12 +189,12 @@ def run_rows(
     return SolvedRows(status, count, at, fault, *found)
 
 
-def _passed(made: Plan, path: Reals) -> Reals:
+def _passed(plan: Plan, path: Reals) -> Reals:
     """The places on the path, in rows, where a driven slide passes its `Plan.shortest` between two rows."""
     places = []
-    for k, value in made.shortest if len(path) > 1 else ():
+    for k, value in plan.shortest if len(path) > 1 else ():
         before, behind = path[:-1, k] - value, path[1:, k] - value
-        far = np.minimum(np.abs(before), np.abs(behind)) > _AT_IT * made.lower.size
+        far = np.minimum(np.abs(before), np.abs(behind)) > _AT_IT * plan.lower.size
         rows = np.flatnonzero((before * behind < 0) & far)
         places.append(rows + before[rows] / (before[rows] - behind[rows]))
     return np.unique(np.concatenate(places)) if places else np.empty(0)
@@ -202,7 +202,7 @@ def _passed(made: Plan, path: Reals) -> Reals:
 
 def _with_extra_rows(
     program: Program,
-    made: Plan,
+    plan: Plan,
     path: Reals,
     speeds: Reals | None,
     order: int,
@@ -216,14 +216,14 @@ def _with_extra_rows(
     row, part = np.minimum(at.astype(int), len(path) - 2), at - np.minimum(at.astype(int), len(path) - 2)
     filled = path[row] + part[:, None] * (path[row + 1] - path[row])
     filled[asked] = path
-    for k, value in made.shortest:  # exactly there, so that it is not passed once more
-        near = ~asked & (np.abs(filled[:, k] - value) < 1e-9 * made.lower.size)
+    for k, value in plan.shortest:  # exactly there, so that it is not passed once more
+        near = ~asked & (np.abs(filled[:, k] - value) < 1e-9 * plan.lower.size)
         filled[near, k] = value
     fast = None
     if speeds is not None:
         fast = np.zeros((order, *filled.shape))
         fast[:, asked] = speeds[:order]
-    rows = run_rows(program, made, filled, fast, order, signs, unknowns)
+    rows = run_rows(program, plan, filled, fast, order, signs, unknowns)
     pick = np.flatnonzero(asked[: rows.reached])
     low = min(int(rows.at), len(at) - 1)
     high = min(low + 1, len(at) - 1)

@@ -113,7 +113,7 @@ class Motion(Brief):
     def complex_point(self, name: str | LinkPoint, order: int = 0) -> Complexes:
         """`point` as x + iy; (rows,)."""
         self._ordered(order)
-        place = name if isinstance(name, LinkPoint) else self.linkage.named(name)[-1]
+        place = name if isinstance(name, LinkPoint) else self.linkage.points_named(name)[-1]
         k = self._link(place.link)
         arm = self.turns[:, k] * complex(place.x, place.y)
         if order == 0:
@@ -127,12 +127,12 @@ class Motion(Brief):
             factor = 1j * (self.rates[2, :, k] - w**3) - 3 * w * self.rates[1, :, k]
         return self.places[order, :, k] + factor * arm
 
-    def slide(self, joint: str | int, order: int = 0) -> Reals:
+    def displacement(self, joint: str | int, order: int = 0) -> Reals:
         """The way of a sliding joint from the first link's point to the second's, or its derivative; (rows,)."""
         return _displacement(self, joint, order)
 
-    def home(self, row: int = 0) -> dict[str, Pose2D]:
-        """Where the links lie in a row, as a home for `Linkage.with_home`."""
+    def pose(self, row: int = 0) -> dict[str, Pose2D]:
+        """Where the links lie in a row, as a home for `Linkage.with_reference_pose`."""
         return {
             link: Pose2D(float(z.real), float(z.imag), float(self.angle(link)[row]))
             for link in self.linkage.mechanism.chain.links
@@ -140,7 +140,7 @@ class Motion(Brief):
         }
 
     @cached_property
-    def closure(self) -> float:
+    def closure_error(self) -> float:
         """The largest distance by which a joint of any pose is open, relative to the linkage's size."""
         return _closure_error(self)
 
@@ -172,7 +172,7 @@ class Motion(Brief):
 
 
 def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
-    """See `Motion.slide`."""
+    """See `Motion.displacement`."""
     mechanism = motion.linkage.mechanism
     number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
     if number is None or not sliding_joint(motion.linkage, number):
@@ -212,7 +212,7 @@ _LEADING = (CamDisc, GenevaDriver, NonCircular)
 
 
 def _closure_error(motion: Motion) -> float:
-    """See `Motion.closure`."""
+    """See `Motion.closure_error`."""
     lower = motion.plan.lower
     wheels = round_joints(lower.mechanism, lower.elements)
     largest = max(

@@ -80,14 +80,14 @@ def transfer_of(wheel: NonCircular, other: NonCircular) -> Transfer:
     """The transfer function of a wheel and the one that is its inverse; `LinkageError` for one that cannot be."""
     mean = Fraction(wheel.teeth, other.teeth) if wheel.teeth else Fraction(1)
     try:
-        made = _read(wheel.transfer, mean)
+        transfer = _read(wheel.transfer, mean)
     except GrueblerError as error:
         raise LinkageError(f"transfer: {error}") from None
     if max(mean.numerator, mean.denominator) > _LOBES:
         raise LinkageError(f"transfer: the mean ratio is one of numbers up to {_LOBES}, not {mean}")
-    _check_ratio(made)
-    _check_closed(made)
-    return made
+    _check_ratio(transfer)
+    _check_closed(transfer)
+    return transfer
 
 
 def _read(text: str, mean: Fraction) -> Transfer:

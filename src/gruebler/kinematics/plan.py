@@ -89,19 +89,22 @@ class Plan(Brief):
         return tuple(part for part in self.parts if isinstance(part, Dyad))
 
     @property
-    def larger(self) -> tuple[HigherGroup, ...]:
+    def higher_groups(self) -> tuple[HigherGroup, ...]:
         """The larger groups in solving order."""
         return tuple(part for part in self.parts if isinstance(part, HigherGroup))
 
     @property
     def wheels(self) -> bool:
         """Whether wheels or circles are in it, so that every motion is followed from the home."""
-        return any(part.contacts for part in self.larger)
+        return any(part.contacts for part in self.higher_groups)
 
     @cached_property
     def held(self) -> np.ndarray:
         """The values of the drives that hold idle rollers; they stand behind the others."""
-        home, drives = self.lower.home, range(len(self.linkage.mechanism.drives), len(self.lower.mechanism.drives))
+        home, drives = (
+            self.lower.reference_pose,
+            range(len(self.linkage.mechanism.drives), len(self.lower.mechanism.drives)),
+        )
         links = [self.lower.reference(k) for k in drives]
         return np.array([home[b].angle - home[a].angle if home is not None else 0.0 for a, b in links])
 
@@ -118,7 +121,7 @@ class Plan(Brief):
     @property
     def unknowns(self) -> int:
         """How many numbers describe a pose of the larger groups: 3 for each body, 2 for each of `windings`."""
-        return 3 * sum(len(part.roots) for part in self.larger) + 2 * len(self.windings)
+        return 3 * sum(len(part.roots) for part in self.higher_groups) + 2 * len(self.windings)
 
     def operation(self, dyad: Dyad) -> tuple[int, ...]:
         """The operation that places a dyad: kind, six elements, two links, its number."""
@@ -131,7 +134,7 @@ class Plan(Brief):
         points, lines = self.element_arrays(self.lower)
         flat = [c for group in self.conditions for c in group]
         laws, pieces = law_tables([c.law for c in flat])
-        roots = [root for part in self.larger for root in part.roots]
+        roots = [root for part in self.higher_groups for root in part.roots]
         return Program(
             _table(self.operations, 10),
             np.array([chain.index(link) for _, link in self.keys], np.int64),
@@ -141,7 +144,7 @@ class Plan(Brief):
             np.array([c.kind for c in flat], np.int64),
             np.array([side for c in flat for side in c.sides], np.int64),
             np.array([owner for c in flat for owner in c.owners], np.int64),
-            _starts(len(part.roots) for part in self.larger),
+            _starts(len(part.roots) for part in self.higher_groups),
             np.array([chain.index(root) for root in roots], np.int64),
             self.longest_steps,
             self.lower.size,
@@ -206,7 +209,7 @@ def _starts(lengths: Iterable[int]) -> np.ndarray:
 def plan(linkage: Linkage) -> Plan:
     """The plan of a linkage; `LinkageError` says what its drives leave free or hold twice."""
     lower = with_lower_pairs(linkage)
-    if lower.home is None and round_joints(lower.mechanism, lower.elements):
+    if lower.reference_pose is None and round_joints(lower.mechanism, lower.elements):
         raise LinkageError(
             "wheels roll from a known position: the linkage needs a home, or a drawing (Linkage.drawn, places)"
         )

@@ -48,22 +48,22 @@ class Poses(Brief):
 
     def complex_point(self, name: str | LinkPoint, order: int = 0) -> Complexes:
         """`point` as x + iy; (rows,)."""
-        place = name if isinstance(name, LinkPoint) else self.linkage.named(name)[-1]
+        place = name if isinstance(name, LinkPoint) else self.linkage.points_named(name)[-1]
         k = self._link(place.link)
         arm = np.exp(1j * self.turns[0, :, k]) * complex(place.x, place.y)
         factor = 1 if _order(order) == 0 else 1j * self.turns[1, :, k]
         out: Complexes = self.places[order, :, k] + factor * arm
         return out
 
-    def distance(self, one: str | LinkPoint, other: str | LinkPoint, order: int = 0) -> Reals:
+    def distance(self, first: str | LinkPoint, second: str | LinkPoint, order: int = 0) -> Reals:
         """The distance of two points, or its derivative (not where they coincide); (rows,)."""
-        gap = self.complex_point(other) - self.complex_point(one)
+        gap = self.complex_point(second) - self.complex_point(first)
         if _order(order) == 0:
             return np.abs(gap)
-        rate = self.complex_point(other, 1) - self.complex_point(one, 1)
+        rate = self.complex_point(second, 1) - self.complex_point(first, 1)
         return np.real(np.conj(gap) * rate) / np.abs(gap)
 
-    def slide(self, joint: str | int, order: int = 0, *, across: bool = False) -> Reals:
+    def displacement(self, joint: str | int, order: int = 0, *, across: bool = False) -> Reals:
         """The way of a sliding joint along its line, from the first link's point to the second's; (rows,).
 
         First is the frame, else the link named first, but a pin slides along the line of the other link. With
@@ -90,7 +90,7 @@ class Poses(Brief):
             return self.angle(other, order) - self.angle(first, order) + (self.turned if order == 0 else 0.0)
         return self._way(self.lower, drive.joint, first, other, order, 1)
 
-    def home(self, row: int = 0) -> dict[str, Pose2D]:
+    def pose(self, row: int = 0) -> dict[str, Pose2D]:
         """Where the links lie in one position, as a home for `Linkage`."""
         z, angle = self.places[0, row], self.turns[0, row]
         chain = self.lower.mechanism.chain
@@ -113,10 +113,10 @@ class Poses(Brief):
         line, far = linkage.elements[joint, first], linkage.elements[joint, other]
         k = self._link(first)
         direction = np.exp(1j * self.turns[0, :, k]) * along * _direction(line)
-        here, there = LinkPoint(first, line.x, line.y), LinkPoint(other, far.x, far.y)
-        gap = self.complex_point(there) - self.complex_point(here)
+        point, there = LinkPoint(first, line.x, line.y), LinkPoint(other, far.x, far.y)
+        gap = self.complex_point(there) - self.complex_point(point)
         if _order(order) == 1:
-            rate = self.complex_point(there, 1) - self.complex_point(here, 1)
+            rate = self.complex_point(there, 1) - self.complex_point(point, 1)
             gap = rate - 1j * self.turns[1, :, k] * gap
         return np.real(np.conj(direction) * gap)
 

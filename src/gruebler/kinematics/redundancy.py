@@ -92,7 +92,7 @@ def independent_part(linkage: Linkage) -> Independent:
     mechanism = linkage.mechanism
     if round_joints(mechanism, linkage.elements):
         raise LinkageError("redundant conditions are sought among pins and slides only, not where wheels touch")
-    if linkage.home is None:
+    if linkage.reference_pose is None:
         raise LinkageError(
             "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) it "
             "is moved along the conditions that are independent there. `gruebler freedoms` says what its sizes allow."
@@ -115,7 +115,7 @@ def independent_part(linkage: Linkage) -> Independent:
             "`gruebler freedoms` says which velocities there are."
         )
     chosen = _simplest(linkage, list(_releases(conditions, x)), forces)
-    return Independent(_released(linkage, chosen), tuple(sorted({one.joint for one in chosen})))
+    return Independent(_released(linkage, chosen), tuple(sorted({_release.joint for _release in chosen})))
 
 
 class ReferenceConditions:
@@ -175,7 +175,7 @@ class ReferenceConditions:
 
     def settled(self) -> Reals:
         """The closed position at home."""
-        home = self.linkage.home
+        home = self.linkage.reference_pose
         assert home is not None
         size = self.linkage.size
         start = np.array([(home[link].x / size, home[link].y / size, home[link].angle) for link in self.bodies]).ravel()
@@ -311,12 +311,12 @@ def _chosen(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> li
     while forces.shape[1]:
         here = [one.directed(forces) for one in releases]
         share = {}
-        for k, one in enumerate(here):
-            taken = joints.get(one.joint, set())
-            emptied = len(taken) + 1 >= len(linkage.mechanism.chain.joints[one.joint].links)
-            if one.link in taken or emptied or len(one.functional) > forces.shape[1]:
+        for k, _release in enumerate(here):
+            taken = joints.get(_release.joint, set())
+            emptied = len(taken) + 1 >= len(linkage.mechanism.chain.joints[_release.joint].links)
+            if _release.link in taken or emptied or len(_release.functional) > forces.shape[1]:
                 continue
-            share[k] = float(np.linalg.svd(one.functional @ forces, compute_uv=False)[-1])
+            share[k] = float(np.linalg.svd(_release.functional @ forces, compute_uv=False)[-1])
         largest = max(share.values(), default=0.0)
         if not largest > _RANK:
             raise LinkageError("Its redundant conditions are all at driven joints.")
@@ -333,7 +333,7 @@ def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> 
     """As many releases as leave the rest independent, exchanged one by one as long as its groups get smaller."""
     chosen = _chosen(linkage, releases, forces)
     cost = _cost(linkage, chosen)
-    others = [one for one in releases if not one.turned]
+    others = [_release for _release in releases if not _release.turned]
     for _ in range(len(chosen)):
         best = chosen
         for place, other in itertools.islice(itertools.product(range(len(chosen)), others), _TRIALS):
@@ -356,7 +356,7 @@ def _simplest(linkage: Linkage, releases: Sequence[_Release], forces: Reals) -> 
 def _links_taken(linkage: Linkage, chosen: Sequence[_Release]) -> bool:
     """Whether a joint would lose all its links."""
     joints = linkage.mechanism.chain.joints
-    taken = Counter(one.joint for one in chosen)
+    taken = Counter(_release.joint for _release in chosen)
     return any(many >= len(joints[number].links) for number, many in taken.items())
 
 
@@ -371,24 +371,28 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
     mechanism = linkage.mechanism
     names = mechanism.chain.joint_names()
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
-    home = {link: tuple(at) for link, at in (linkage.home or {}).items()}
+    home = {link: tuple(at) for link, at in (linkage.reference_pose or {}).items()}
     joints: list[Joint] = []
     number_of: dict[int, int] = {}
     slots: list[tuple[str, str, Line]] = []
     for number, joint in enumerate(mechanism.chain.joints):
         members: dict[str, Element] = {link: linkage.elements[number, link] for link in joint.links}
         kind = joint.pair
-        for one in (one for one in chosen if one.joint == number):
-            here = members.pop(one.link)
-            if one.pair is not None and joint.pair.name == "revolute":
-                block = f"block {names[number]} {one.link}"
+        for _release in (one for one in chosen if one.joint == number):
+            here = members.pop(_release.link)
+            if _release.pair is not None and joint.pair.name == "revolute":
+                block = f"block {names[number]} {_release.link}"
                 members[block] = Pin(0, 0)
                 elements[block] = {}
-                slots.append((one.link, block, Line(here.x, here.y, one.along)))
-                home[block] = (*linkage.home[one.link].put(here.x, here.y), home[one.link][2]) if linkage.home else ()
-            elif one.pair is not None:
-                kind = one.pair
-                members[one.link] = here if kind.name == "double_slide" else Pin(here.x, here.y)
+                slots.append((_release.link, block, Line(here.x, here.y, _release.along)))
+                home[block] = (
+                    (*linkage.reference_pose[_release.link].put(here.x, here.y), home[_release.link][2])
+                    if linkage.reference_pose
+                    else ()
+                )
+            elif _release.pair is not None:
+                kind = _release.pair
+                members[_release.link] = here if kind.name == "double_slide" else Pin(here.x, here.y)
         if len(members) > 1:
             number_of[number] = len(joints)
             for link, element in members.items():
@@ -404,6 +408,6 @@ def _released(linkage: Linkage, chosen: Sequence[_Release]) -> Linkage:
         elements,
         {name: tuple(point) for name, point in linkage.points.items()},  # type: ignore[misc]
         unit=linkage.unit,
-        home=home,  # type: ignore[arg-type]
+        reference_pose=home,  # type: ignore[arg-type]
         outputs=linkage.outputs,
     )

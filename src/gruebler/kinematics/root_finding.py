@@ -122,7 +122,7 @@ def find_zeros(jet: Jet, samples: FunctionSamples | Reals, least: float = 0.0) -
     """
     samples = samples if isinstance(samples, FunctionSamples) else FunctionSamples(samples)
     jet = _repeated(jet, samples)
-    found: list[Zero] = []
+    zeros: list[Zero] = []
     parts = _parts(jet, samples)
     gone = _vanishing(parts, samples, least)
     if all(gone):
@@ -131,8 +131,8 @@ def find_zeros(jet: Jet, samples: FunctionSamples | Reals, least: float = 0.0) -
     usual = np.quantile(np.abs(rows), 0.9, axis=1)
     for stretch in _runs(parts, gone, False, samples.period):
         whole = len(stretch) == len(parts) and samples.period is not None
-        found += _zeros_of(jet, stretch, samples, usual, samples.period if whole else None)
-    return tuple(sorted(found))
+        zeros += _zeros_of(jet, stretch, samples, usual, samples.period if whole else None)
+    return tuple(sorted(zeros))
 
 
 def sample_function(jet: Jet, samples: FunctionSamples) -> list[Reals]:

@@ -72,7 +72,7 @@ def move(
     >>> from gruebler.kinematics import degrees
     >>> from gruebler.fourbar import FourBar
     >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), degrees(0, 360, 1), speed=10)
-    >>> len(motion), motion.complete, bool(motion.closure < 1e-13)
+    >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
     (361, True, True)
     """
     made = linkage if isinstance(linkage, Plan) else cached_plan(linkage)
@@ -86,10 +86,15 @@ def move(
     except Unassembled as found:
         return _never(made, path, upto, found)
     rows = follow_path(made, path, speeds, upto, signs, unknowns)
-    if not rows.reached and made.larger and branch is None and made.lower.home is not None:
+    if not rows.reached and made.higher_groups and branch is None and made.lower.reference_pose is not None:
         rows = _from_home(made, path, speeds, upto)
     motion = motion_from_rows(made, path, rows)
-    if motion.stop is not None and motion.stop.reason == "open" and branch is None and made.lower.home is not None:
+    if (
+        motion.stop is not None
+        and motion.stop.reason == "open"
+        and branch is None
+        and made.lower.reference_pose is not None
+    ):
         # the start may be a change point of the independent part: the way from home tells the way on
         motion = motion_from_rows(made, path, _from_home(made, path, speeds, upto))
     if upto:
@@ -97,60 +102,60 @@ def move(
     return motion
 
 
-def starting_configuration(made: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
+def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
     """Signs of dyads and unknowns of larger groups at the first row."""
-    if not made.wheels and (branch is not None or made.lower.home is None or not labelled_groups(made)):
-        return starting_state(made, read_branch(made, branch), first)
-    begin = pose_at_reference(made, first)
+    if not plan.wheels and (branch is not None or plan.lower.reference_pose is None or not labelled_groups(plan)):
+        return starting_state(plan, read_branch(plan, branch), first)
+    begin = pose_at_reference(plan, first)
     if branch is not None:
-        begin = begin._replace(signs=_other_signs(made, begin.signs, read_branch(made, branch)))
+        begin = begin._replace(signs=_other_signs(plan, begin.signs, read_branch(plan, branch)))
     path = np.array([begin.drives, first])
-    rows = run_rows(made.program, made, path, None, 0, begin.signs, begin.unknowns)
+    rows = run_rows(plan.program, plan, path, None, 0, begin.signs, begin.unknowns)
     if rows.reached and branch is None:
-        check_reference(made, rows.places[0, 0], rows.turns[0])
+        check_reference(plan, rows.places[0, 0], rows.turns[0])
     if rows.reached < 2:
-        raise Unassembled(part_at_fault(made, rows.fault))
+        raise Unassembled(part_at_fault(plan, rows.fault))
     return np.where(rows.roots[1] < 0, -1.0, 1.0), rows.unknowns[1]
 
 
-def _other_signs(made: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
+def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
     """The signs of these labels, in a linkage with wheels: they may differ from the home's behind the last wheel."""
     out = signs.copy()
-    for part, label in zip(labelled_groups(made), labels, strict=True):
+    for part, label in zip(labelled_groups(plan), labels, strict=True):
         if isinstance(part, HigherGroup):
             raise LinkageError("branch: a linkage with wheels and a larger group is assembled as in its home only")
         out[part.number] = -1.0 if label == "-" else 1.0
-        behind = made.parts[made.parts.index(part) :]
+        behind = plan.parts[plan.parts.index(part) :]
         if out[part.number] != signs[part.number] and any(isinstance(p, HigherGroup) and p.contacts for p in behind):
             raise LinkageError("branch: what wheels depend on is assembled as in the home, where their teeth are known")
     return out
 
 
-def _from_home(made: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
+def _from_home(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
     """A path that starts in a change point: what is placed there, and the way on, is known from the way to it."""
-    begin = pose_at_reference(made, path[0])
+    begin = pose_at_reference(plan, path[0])
     path, speeds = np.concatenate([[begin.drives], path]), np.concatenate([speeds[:, :1], speeds], axis=1)
-    return without_first(follow_path(made, path, speeds, order, begin.signs, begin.unknowns))
+    return without_first(follow_path(plan, path, speeds, order, begin.signs, begin.unknowns))
 
 
-def _never(made: Plan, path: Reals, order: int, found: Unassembled) -> Motion:
+def _never(plan: Plan, path: Reals, order: int, failure: Unassembled) -> Motion:
     """A motion without rows."""
-    links = len(made.lower.mechanism.chain.links)
+    links = len(plan.lower.mechanism.chain.links)
     return Motion(
-        made.linkage,
-        made,
+        plan.linkage,
+        plan,
         path[:0],
         np.empty((order + 1, 0, links), np.complex128),
         np.empty((0, links), np.complex128),
         np.empty((order, 0, links)),
         np.empty((0, links), np.int32),
-        np.empty((0, len(made.dyads))),
-        np.empty((0, made.unknowns)),
-        _stop(made, 0.0, path[0], found.part, "start"),
+        np.empty((0, len(plan.dyads))),
+        np.empty((0, plan.unknowns)),
+        _stop(plan, 0.0, path[0], failure.part, "start"),
     )
 
 
-def motion_from_rows(made: Plan, path: Reals, rows: SolvedRows) -> Motion:
+def motion_from_rows(plan: Plan, path: Reals, rows: SolvedRows) -> Motion:
     """What the kernel wrote, as a motion."""
     stop = None
     if rows.status:
@@ -158,10 +163,10 @@ def motion_from_rows(made: Plan, path: Reals, rows: SolvedRows) -> Motion:
         drives = path[last]
         if len(path) > 1:
             drives = drives + (rows.at - last) * (path[last + 1] - drives)
-        stop = _stop(made, rows.at, drives, part_at_fault(made, rows.fault), _REASONS[rows.status])
+        stop = _stop(plan, rows.at, drives, part_at_fault(plan, rows.fault), _REASONS[rows.status])
     motion = Motion(
-        made.linkage,
-        made,
+        plan.linkage,
+        plan,
         path[: rows.reached],
         rows.places,
         rows.turns,
@@ -171,7 +176,7 @@ def motion_from_rows(made: Plan, path: Reals, rows: SolvedRows) -> Motion:
         rows.unknowns,
         stop,
     )
-    return _while_closed(motion) if made.released else motion
+    return _while_closed(motion) if plan.released else motion
 
 
 def _while_closed(motion: Motion) -> Motion:
@@ -204,8 +209,8 @@ def _while_closed(motion: Motion) -> Motion:
     )
 
 
-def _stop(made: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason: str) -> Stop:
-    group = made.decomposition.groups[part.group]
+def _stop(plan: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason: str) -> Stop:
+    group = plan.decomposition.groups[part.group]
     return Stop(at, tuple(float(v) for v in drives), group.links, group.form(), reason)
 
 

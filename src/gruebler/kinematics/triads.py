@@ -165,7 +165,7 @@ def _settled(legs: Sequence[_Leg], turns: Sequence[complex]) -> tuple[list[Reals
                 pose = trial
                 if not solver.settle_singular(pose):
                     continue
-            if solver.recall(found, pose) < 0:
+            if solver.index_of_known(found, pose) < 0:
                 found.append(pose)
     counts = [2 if solver.is_singular(pose) else 1 for pose in found]
     still = [k for k, pose in enumerate(found) if counts[k] == 1 or not solver.moves(pose)]

@@ -165,7 +165,7 @@ class Pose2D(NamedTuple):
         c, s = cos(self.angle), sin(self.angle)
         return self.x + c * x - s * y, self.y + s * x + c * y
 
-    def seen(self, x: float, y: float) -> tuple[float, float]:
+    def to_local(self, x: float, y: float) -> tuple[float, float]:
         """The coordinates in the link of a point that lies there."""
         c, s = cos(self.angle), sin(self.angle)
         return c * (x - self.x) + s * (y - self.y), c * (y - self.y) - s * (x - self.x)

@@ -66,8 +66,8 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
     blocks = [link for link in elements if link not in chain.links]
     made = Chain(joints, links=[*chain.links, *blocks], space=chain.space)
     home = None
-    if linkage.home is not None:
-        home = {link: tuple(at) for link, at in linkage.home.items()}
+    if linkage.reference_pose is not None:
+        home = {link: tuple(at) for link, at in linkage.reference_pose.items()}
         for number in split:
             block = f"block {chain.joint_names()[number]}"
             home[block] = _block_home(linkage, number)
@@ -77,7 +77,7 @@ def with_lower_pairs(linkage: Linkage) -> Linkage:
         elements,
         points,  # type: ignore[arg-type]
         unit=linkage.unit,
-        home=home,  # type: ignore[arg-type]
+        reference_pose=home,  # type: ignore[arg-type]
         outputs=linkage.outputs,
     )
 
@@ -135,17 +135,17 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
 
 def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
     """Where the block of a split joint lies at home: on the line, at the pin or where the lines cross."""
-    assert linkage.home is not None
+    assert linkage.reference_pose is not None
     first, second = linkage.mechanism.chain.joints[number].links
     one, other = linkage.elements[number, first], linkage.elements[number, second]
     lined, line = (first, one) if isinstance(one, Line) else (second, other)
     assert isinstance(line, Line)
-    turned = linkage.home[lined].angle
+    turned = linkage.reference_pose[lined].angle
     angle = turned + line.angle
     if isinstance(one, Pin) or isinstance(other, Pin):
         pinned, pin = (first, one) if isinstance(one, Pin) else (second, other)
-        return (*linkage.home[pinned].put(pin.x, pin.y), turned)
-    x, y = linkage.home[first].put(one.x, one.y)
-    u, v = linkage.home[second].put(other.x, other.y)
+        return (*linkage.reference_pose[pinned].put(pin.x, pin.y), turned)
+    x, y = linkage.reference_pose[first].put(one.x, one.y)
+    u, v = linkage.reference_pose[second].put(other.x, other.y)
     way = cos(angle) * (u - x) + sin(angle) * (v - y)
     return x + way * cos(angle), y + way * sin(angle), turned

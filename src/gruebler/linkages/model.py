@@ -63,13 +63,13 @@ class Linkage:
     70.0
     """
 
-    __slots__ = ("__dict__", "elements", "home", "mechanism", "outputs", "points", "unit")
+    __slots__ = ("__dict__", "elements", "mechanism", "outputs", "points", "reference_pose", "unit")
 
     mechanism: Mechanism
     elements: Mapping[tuple[int, str], Element]
     points: Mapping[str, LinkPoint]
     unit: str
-    home: Mapping[str, Pose2D] | None
+    reference_pose: Mapping[str, Pose2D] | None
     outputs: tuple[str, ...]
 
     def __init__(
@@ -79,7 +79,7 @@ class Linkage:
         points: Mapping[str, tuple[str, float, float]] | None = None,
         *,
         unit: str = "mm",
-        home: Mapping[str, tuple[float, float, float]] | None = None,
+        reference_pose: Mapping[str, tuple[float, float, float]] | None = None,
         outputs: Iterable[str] = (),
     ) -> None:
         chain = mechanism.chain
@@ -108,7 +108,11 @@ class Linkage:
         object.__setattr__(self, "elements", MappingProxyType(made))
         object.__setattr__(self, "points", MappingProxyType(named))
         object.__setattr__(self, "unit", unit)
-        object.__setattr__(self, "home", None if home is None else MappingProxyType(_home(mechanism, home)))
+        object.__setattr__(
+            self,
+            "reference_pose",
+            None if reference_pose is None else MappingProxyType(_home(mechanism, reference_pose)),
+        )
         object.__setattr__(self, "outputs", tuple(outputs))
 
     @staticmethod
@@ -133,7 +137,7 @@ class Linkage:
                         )
 
     @classmethod
-    def drawn(
+    def from_drawing(
         cls,
         mechanism: Mechanism,
         places: Mapping[str | int, object],
@@ -151,8 +155,8 @@ class Linkage:
         ways of slides are counted from pin to pin where the links have pins.
 
         >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
-        >>> drawn = Linkage.drawn(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
-        >>> drawn.length("1", 0, 1), drawn.home["1"].angle
+        >>> drawn = Linkage.from_drawing(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
+        >>> drawn.length("1", 0, 1), drawn.reference_pose["1"].angle
         (2.0, 1.5707963267948966)
         """
         return _from_drawing(mechanism, places, points or {}, unit=unit, outputs=tuple(outputs))
@@ -171,7 +175,7 @@ class Linkage:
         a, b = self.element(first, link), self.element(second, link)
         return hypot(a.x - b.x, a.y - b.y)
 
-    def named(self, name: str) -> tuple[LinkPoint, ...]:
+    def points_named(self, name: str) -> tuple[LinkPoint, ...]:
         """The point of that name, or of the joint of that name (on each of its links, the frame's first).
 
         Raises `LinkageError` for a name that is neither, with the nearest one that is.
@@ -217,9 +221,9 @@ class Linkage:
             raise LinkageError("the same sizes need the same chain and the same frame")
         return self._changed(mechanism=mechanism)
 
-    def with_home(self, home: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
+    def with_reference_pose(self, reference_pose: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
         """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
-        return self._changed(home=home)
+        return self._changed(reference_pose=reference_pose)
 
     def scaled(self, factor: float) -> Linkage:
         """Every length times a positive factor."""
@@ -236,9 +240,9 @@ class Linkage:
         return self._changed(
             elements=self._by_link(element),
             points={n: (p.link, p.x * factor, p.y * factor) for n, p in self.points.items()},
-            home=None
-            if self.home is None
-            else {k: (p.x * factor, p.y * factor, p.angle) for k, p in self.home.items()},
+            reference_pose=None
+            if self.reference_pose is None
+            else {k: (p.x * factor, p.y * factor, p.angle) for k, p in self.reference_pose.items()},
         )
 
     def mirrored(self) -> Linkage:
@@ -254,7 +258,9 @@ class Linkage:
         return self._changed(
             elements=self._by_link(element),
             points={n: (p.link, p.x, -p.y) for n, p in self.points.items()},
-            home=None if self.home is None else {k: (p.x, -p.y, -p.angle) for k, p in self.home.items()},
+            reference_pose=None
+            if self.reference_pose is None
+            else {k: (p.x, -p.y, -p.angle) for k, p in self.reference_pose.items()},
         )
 
     def _by_link(self, change: Callable[[Element], Element] = lambda e: e) -> dict[str, dict[str | int, object]]:
@@ -269,7 +275,7 @@ class Linkage:
             "elements": self._by_link(),
             "points": {n: tuple(p) for n, p in self.points.items()},
             "unit": self.unit,
-            "home": self.home,
+            "reference_pose": self.reference_pose,
             "outputs": self.outputs,
         } | other
         return Linkage(**given)
@@ -280,7 +286,7 @@ class Linkage:
         raise AttributeError(f"a linkage does not change; build another one instead of setting {name!r}")
 
     def _key(self) -> tuple[object, ...]:
-        home = None if self.home is None else tuple(sorted(self.home.items()))
+        home = None if self.reference_pose is None else tuple(sorted(self.reference_pose.items()))
         points = tuple(sorted(self.points.items()))
         return self.mechanism, tuple(sorted(self.elements.items())), points, self.unit, home, self.outputs
 
@@ -298,13 +304,13 @@ class Linkage:
         return f"<linkage {self.mechanism.text()}>"
 
     def __reduce__(self) -> tuple[object, ...]:
-        home = None if self.home is None else {k: tuple(p) for k, p in self.home.items()}
+        home = None if self.reference_pose is None else {k: tuple(p) for k, p in self.reference_pose.items()}
         points = {n: tuple(p) for n, p in self.points.items()}
         return _rebuilt, (self.mechanism, self._by_link(), points, self.unit, home, self.outputs)
 
 
 def _rebuilt(mechanism: Mechanism, elements: Any, points: Any, unit: str, home: Any, outputs: Any) -> Linkage:
-    return Linkage(mechanism, elements, points, unit=unit, home=home, outputs=outputs)
+    return Linkage(mechanism, elements, points, unit=unit, reference_pose=home, outputs=outputs)
 
 
 def joint_number(mechanism: Mechanism, joint: str | int) -> int:
@@ -363,12 +369,12 @@ def _from_drawing(
     unit: str,
     outputs: tuple[str, ...],
 ) -> Linkage:
-    """See `Linkage.drawn`."""
+    """See `Linkage.from_drawing`."""
     drawn = _drawn_elements(mechanism, places)
     home = {link: _link_coordinates(mechanism, link, drawn) for link in mechanism.chain.links}
     elements: dict[str, dict[str | int, object]] = {link: {} for link in mechanism.chain.links}
     for (number, link), element in drawn.items():
-        x, y = home[link].seen(element.x, element.y)
+        x, y = home[link].to_local(element.x, element.y)
         seen_there = element._replace(x=x, y=y)
         if not isinstance(seen_there, Pin | Wheel | Circle):
             seen_there = seen_there._replace(angle=seen_there.angle - home[link].angle)
@@ -378,8 +384,8 @@ def _from_drawing(
         if link not in home:
             raise LinkageError(f"the point {name!r}: there is no link {link!r}")
         pin = read_element([x, y], f"the point {name!r}")
-        seen[name] = (link, *home[link].seen(pin.x, pin.y))
-    return Linkage(mechanism, elements, seen, unit=unit, home=home, outputs=outputs)
+        seen[name] = (link, *home[link].to_local(pin.x, pin.y))
+    return Linkage(mechanism, elements, seen, unit=unit, reference_pose=home, outputs=outputs)
 
 
 def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) -> dict[tuple[int, str], Element]:

@@ -19,7 +19,7 @@ class Role(StrEnum):
     ROLLER = "wheel"
     COUPLER = "coupler"
 
-    def said(self, lang: str) -> str:
+    def in_language(self, lang: str) -> str:
         """The role in English (``en``) or German (``de``)."""
         return _GERMAN_ROLES[self] if lang == "de" else self.value
 

@@ -196,19 +196,19 @@ class _StressedPart:
 
     def minimal_supports(self) -> list[Overconstrained]:
         whole = np.eye(self.dimension, dtype=np.int64)
-        found: list[Overconstrained] = []
+        overconstraineds: list[Overconstrained] = []
         seen = {whole.tobytes()}
         todo = [whole]
         while todo:
             space = todo.pop()
             smaller = self._without_one_class(space)
             if not smaller:
-                found.append(self._describe(space, minimal=True))
+                overconstraineds.append(self._describe(space, minimal=True))
             todo += [sub for key, sub in smaller.items() if key not in seen]
             seen.update(smaller)
             if len(seen) > _BUDGET:
-                return [*found, self._describe(whole, minimal=False)]
-        return found
+                return [*overconstraineds, self._describe(whole, minimal=False)]
+        return overconstraineds
 
     def _without_one_class(self, space: Matrix) -> dict[bytes, Matrix]:
         """The subspaces, each once, that leave one class of links unloaded, where anything is left."""

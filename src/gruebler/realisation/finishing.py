@@ -36,11 +36,11 @@ class FinishedLinkage(NamedTuple):
     quality: float
 
 
-def finish_linkage(sketch: LayoutProgram, drawing: Reals, trial: LayoutTrial, unit: str) -> FinishedLinkage | None:
+def finish_linkage(program: LayoutProgram, drawing: Reals, trial: LayoutTrial, unit: str) -> FinishedLinkage | None:
     """The linkage of the coarsest rounding that moves as the drawing does, if there is one."""
-    straight = _straight(sketch, drawing)
-    scale = sketch.size(straight) / sketch.size(drawing)
-    drawn = Linkage.drawn(sketch.mechanism, joint_places(sketch.mechanism, sketch.slots, straight), unit=unit)
+    straight = _straight(program, drawing)
+    scale = program.size(straight) / program.size(drawing)
+    drawn = Linkage.from_drawing(program.mechanism, joint_places(program.mechanism, program.slots, straight), unit=unit)
     asked = max(FLOOR, _LOSS * _moved(drawn, trial, scale, 0.0)[1])
     for length, angle in _GRADES:
         linkage = _home_rounded(_rounded(drawn, length, radians(angle)), length)
@@ -57,7 +57,7 @@ def _moved(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) ->
     ranges = _ranges(linkage, trial, scale, length)
     motion = move(linkage, range_path(ranges, full=trial.full, rows=361))
     quality = motion_quality(motion, full=trial.full)
-    return ranges, quality if quality and motion.closure < _OPEN else 0.0
+    return ranges, quality if quality and motion.closure_error < _OPEN else 0.0
 
 
 def motion_quality(motion: Motion, *, full: bool) -> float:
@@ -68,9 +68,9 @@ def motion_quality(motion: Motion, *, full: bool) -> float:
     return float(conditioning(plan, plan.program, motion.places[0], motion.turns, motion.roots).min())
 
 
-def _straight(sketch: LayoutProgram, drawing: Reals) -> Reals:
+def _straight(program: LayoutProgram, drawing: Reals) -> Reals:
     """The frame's driven (else first) joint at the origin, its slide or its farthest pin along the x axis; scaled."""
-    mechanism, slides = sketch.mechanism, sketch.slides
+    mechanism, slides = program.mechanism, program.slides
     mine = [k for k, joint in enumerate(mechanism.chain.joints) if mechanism.frame in joint.links]
     driven = [drive.joint for drive in mechanism.drives if drive.joint in mine]
     pins = [k for k in [*driven, *mine] if k not in slides] or mine
@@ -81,7 +81,7 @@ def _straight(sketch: LayoutProgram, drawing: Reals) -> Reals:
         far = gaps[int(np.argmax(np.hypot(gaps[:, 0], gaps[:, 1])))]
         along = atan2(far[1], far[0])
     out = drawing.copy()
-    turn = np.exp(-1j * along) * _SIZE / sketch.size(drawing)
+    turn = np.exp(-1j * along) * _SIZE / program.size(drawing)
     z = ((drawing[:, 0] - origin[0]) + 1j * (drawing[:, 1] - origin[1])) * turn
     out[:, 0], out[:, 1], out[:, 2] = z.real, z.imag, drawing[:, 2] - along
     return out
@@ -94,20 +94,20 @@ def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
         x, y = _grid(e.x, length), _grid(e.y, length)
         turn = [radians(_grid(degrees(e.angle) % 360, degrees(angle)) % 360)] if isinstance(e, Line) else []
         elements[link][number] = (x, y, *turn)
-    assert linkage.home is not None
-    return Linkage(linkage.mechanism, elements, unit=linkage.unit, home=linkage.home)
+    assert linkage.reference_pose is not None
+    return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.reference_pose)
 
 
 def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
     """The linkage with a home position of sensible drive values that is closed; None if it cannot be assembled."""
-    home = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
+    reference = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
     turning = [drive.direction.startswith("R") for drive in linkage.mechanism.drives]
     values: list[float] = [
         radians(round(degrees(value))) if turns else _grid(value, length)
-        for value, turns in zip(home.drives, turning, strict=True)
+        for value, turns in zip(reference.drives, turning, strict=True)
     ]
     try:
-        motion = move(linkage, np.array([home.drives, values]))
+        motion = move(linkage, np.array([reference.drives, values]))
     except LinkageError:  # rounding has moved the joints too far apart
         return None
     if not motion.complete:
@@ -117,14 +117,14 @@ def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
         link: (*(_grid(v, 1e-9) for v in (z.real, z.imag)), radians(_grid(degrees(motion.angle(link)[-1]), 1e-7)))
         for link, z in zip(links, motion.places[0, -1], strict=False)
     }
-    return linkage._changed(home=at)
+    return linkage._changed(reference_pose=at)
 
 
 def _ranges(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -> Ranges:
     """The ranges of a drawing as values of the linkage's drives, their ends rounded inwards if a unit is given."""
-    home = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
+    reference = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
     out = []
-    for value, (low, high), drive in zip(home.drives, trial.ranges, linkage.mechanism.drives, strict=True):
+    for value, (low, high), drive in zip(reference.drives, trial.ranges, linkage.mechanism.drives, strict=True):
         turning = drive.direction.startswith("R")
         unit, factor = (radians(1) if length else 0.0, 1.0) if turning else (length, scale)
         start, end = value + factor * low, value + factor * high

@@ -181,7 +181,7 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
     chain = mechanism.chain
     check_drawable(chain)
     slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.name == "roll_slide")
-    made = plan(Linkage.drawn(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
+    made = plan(Linkage.from_drawing(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
     split = []
     for number, joint in enumerate(chain.joints):
         ways = {"roll_slide": (1, 1), "double_slide": (1, 1j)}.get(joint.pair.name, (1,))
@@ -209,7 +209,7 @@ def check_drawable(chain: Chain) -> None:
 def joint_places(
     mechanism: Mechanism, slots: tuple[tuple[int, str], ...], drawing: Reals
 ) -> dict[str | int, tuple[object, ...]]:
-    """A drawing as `Linkage.drawn` takes it."""
+    """A drawing as `Linkage.from_drawing` takes it."""
     out: dict[str | int, tuple[object, ...]] = {}
     owner = dict(slots)
     for number, joint in enumerate(mechanism.chain.joints):

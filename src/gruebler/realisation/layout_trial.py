@@ -40,31 +40,31 @@ class LayoutTrial(NamedTuple):
 _NOTHING = LayoutTrial(0.0, (), False, 0.0)
 
 
-def try_layout(sketch: LayoutProgram, drawing: Reals, wanted: float) -> LayoutTrial:
+def try_layout(program: LayoutProgram, drawing: Reals, target_quality: float) -> LayoutTrial:
     """Move a drawing and judge it.
 
     Args:
-        sketch: what is drawn.
+        program: what is drawn.
         drawing: (joints, 3).
-        wanted: the measure above which more is of no use.
+        target_quality: the measure above which more is of no use.
     """
-    beauty = _beauty(sketch, drawing)
+    beauty = _beauty(program, drawing)
     if beauty < 1e-3:
         return _NOTHING
-    setting = sketch.setting(drawing)
-    drives = sketch.mechanism.drives
+    setting = program.setting(drawing)
+    drives = program.mechanism.drives
     turning = all(drive.direction.startswith("R") for drive in drives)
     if turning:
         around = ((0.0, 2 * np.pi),) * len(drives)
-        quality = closed_path_quality(sketch, setting, range_path(around, full=True))
+        quality = closed_path_quality(program, setting, range_path(around, full=True))
         if quality >= FLOOR:
-            return LayoutTrial(1 + beauty * min(quality / wanted, 1.0), around, True, quality)
-    ranges, quality = _limited(sketch, setting) if len(drives) == 1 else _swinging(sketch, setting)
+            return LayoutTrial(1 + beauty * min(quality / target_quality, 1.0), around, True, quality)
+    ranges, quality = _limited(program, setting) if len(drives) == 1 else _swinging(program, setting)
     if not ranges:
         return _NOTHING
     unit = [2 * np.pi if d.direction.startswith("R") else 2 * _STROKE * setting.program.size for d in drives]
     share = min(min(1.0, (r[1] - r[0]) / u) for r, u in zip(ranges, unit, strict=True))
-    return LayoutTrial(share * beauty * (0.5 + 0.5 * min(quality / wanted, 1.0)), ranges, False, quality)
+    return LayoutTrial(share * beauty * (0.5 + 0.5 * min(quality / target_quality, 1.0)), ranges, False, quality)
 
 
 def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int = _ROWS) -> Reals:
@@ -80,10 +80,10 @@ def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int
     return np.stack([(a + b) / 2 + (b - a) / 2 * wave for (a, b), wave in zip(ranges, waves, strict=False)], axis=1)
 
 
-def _run(sketch: LayoutProgram, setting: KernelLayout, path: Reals) -> tuple[SolvedRows, Reals]:
+def _run(program: LayoutProgram, setting: KernelLayout, path: Reals) -> tuple[SolvedRows, Reals]:
     """The rows that are reached and their measures."""
-    rows = run_rows(setting.program, sketch.plan, path, None, 0, setting.signs, setting.unknowns)
-    return rows, conditioning(sketch.plan, setting.program, rows.places[0], rows.turns, rows.roots)
+    rows = run_rows(setting.program, program.plan, path, None, 0, setting.signs, setting.unknowns)
+    return rows, conditioning(program.plan, setting.program, rows.places[0], rows.turns, rows.roots)
 
 
 def returns_to_start(places: NDArray[np.complex128], turns: NDArray[np.complex128], size: float) -> bool:
@@ -91,22 +91,22 @@ def returns_to_start(places: NDArray[np.complex128], turns: NDArray[np.complex12
     return bool(abs(places[-1] - places[0]).max() < 1e-6 * size and abs(turns[-1] - turns[0]).max() < 1e-6)
 
 
-def closed_path_quality(sketch: LayoutProgram, setting: KernelLayout, path: Reals) -> float:
+def closed_path_quality(program: LayoutProgram, setting: KernelLayout, path: Reals) -> float:
     """The smallest measure on a closed path; 0 if it cannot be followed to its end or does not close."""
-    rows = run_rows(setting.program, sketch.plan, path, None, 0, setting.signs, setting.unknowns)
+    rows = run_rows(setting.program, program.plan, path, None, 0, setting.signs, setting.unknowns)
     if rows.reached < len(path) or not returns_to_start(rows.places[0], rows.turns, setting.program.size):
         return 0.0
-    return float(conditioning(sketch.plan, setting.program, rows.places[0], rows.turns, rows.roots).min())
+    return float(conditioning(program.plan, setting.program, rows.places[0], rows.turns, rows.roots).min())
 
 
-def _limited(sketch: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
+def _limited(program: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
     """How far one drive moves to both sides of the drawn position, and the smallest measure there."""
-    turning = sketch.mechanism.drives[0].direction.startswith("R")
+    turning = program.mechanism.drives[0].direction.startswith("R")
     most = 2 * np.pi if turning else _STROKE * setting.program.size
     ends, worst = [], 1.0
     for side in (-most, most):
         path = np.linspace(0.0, side, _ROWS).reshape(-1, 1)
-        _, measures = _run(sketch, setting, path)
+        _, measures = _run(program, setting, path)
         good = len(measures) if (measures >= FLOOR).all() else int(np.argmax(measures < FLOOR))
         if good < 2:
             return (), 0.0
@@ -117,27 +117,27 @@ def _limited(sketch: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[
     return ((ends[0], ends[1]),), worst
 
 
-def _swinging(sketch: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
+def _swinging(program: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
     """The widest of some ranges about the drawn position through which all drives move at once."""
     for swing in _SWINGS:
-        units = [np.pi if d.direction.startswith("R") else setting.program.size / 2 for d in sketch.mechanism.drives]
+        units = [np.pi if d.direction.startswith("R") else setting.program.size / 2 for d in program.mechanism.drives]
         ranges = tuple((-swing * unit, swing * unit) for unit in units)
-        quality = closed_path_quality(sketch, setting, range_path(ranges, full=False))
+        quality = closed_path_quality(program, setting, range_path(ranges, full=False))
         if quality >= FLOOR:
             return ranges, quality
     return (), 0.0
 
 
-def _beauty(sketch: LayoutProgram, drawing: Reals) -> float:
+def _beauty(program: LayoutProgram, drawing: Reals) -> float:
     """1 if no length is short, no joints are near each other, the frame is wide, and nothing crosses; else less."""
     z = drawing[:, 0] + 1j * drawing[:, 1]
-    size = sketch.size(drawing)
-    lengths = np.abs(z[sketch.pairs[:, 0]] - z[sketch.pairs[:, 1]])
-    gaps = np.abs(z[:, None] - z[None, :])[sketch.apart]
+    size = program.size(drawing)
+    lengths = np.abs(z[program.pairs[:, 0]] - z[program.pairs[:, 1]])
+    gaps = np.abs(z[:, None] - z[None, :])[program.apart]
     short = min(1.0, float(lengths.min(initial=np.inf)) / (_LENGTH * size))
     near = min(1.0, float(gaps.min(initial=np.inf)) / (_GAP * size))
-    wide = min(1.0, sketch.frame_width(drawing) / (_FRAME * size))
-    return float(short * near**0.5 * wide**0.5 * _CROSSING ** _crossed(z, sketch.crossings))
+    wide = min(1.0, program.frame_width(drawing) / (_FRAME * size))
+    return float(short * near**0.5 * wide**0.5 * _CROSSING ** _crossed(z, program.crossings))
 
 
 def _crossed(z: NDArray[np.complex128], quads: NDArray[np.int64]) -> int:

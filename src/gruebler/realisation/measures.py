@@ -46,7 +46,7 @@ def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complex
     if plan.conditions:
         points = places[:, program.links] + turns[:, program.links] * program.points
         lines = turns[:, program.links] * program.lines
-        for conditions, group in zip(plan.conditions, plan.larger, strict=True):
+        for conditions, group in zip(plan.conditions, plan.higher_groups, strict=True):
             matrix = _closing(conditions, len(group.roots), points, lines, _ARM * program.size)
             worst = np.minimum(worst, _SCALE * np.linalg.svd(matrix, compute_uv=False)[:, -1])
     return worst

@@ -23,7 +23,7 @@ _AGAIN = 3  # searches with other random numbers if the first finds no full turn
 
 
 def realise(
-    mechanism: Mechanism, *, seed: int = 0, budget: int = 1500, wanted: float = 0.5, unit: str = "mm"
+    mechanism: Mechanism, *, seed: int = 0, budget: int = 1500, target_quality: float = 0.5, unit: str = "mm"
 ) -> Realisation:
     """Dimensions with which a mechanism assembles and its drives turn fully, or at least move over a wide range.
 
@@ -32,7 +32,8 @@ def realise(
             chooses them.
         seed: of the random numbers; the same seed gives the same linkage.
         budget: how many drawings to try; up to three times as many if nothing turns fully.
-        wanted: the measure of conditioning above which more is not sought; 0.5 is a transmission angle of 30 degrees.
+        target_quality: the measure of conditioning above which more is not sought; 0.5 is a transmission angle of 30
+            degrees.
         unit: the name of the unit of lengths; the largest length on a link is about 100.
 
     An honest failure (drives that do not fix the motion, nothing found) is a result with ``found`` False and a
@@ -47,8 +48,8 @@ def realise(
     """
     _check("seed", seed, 0)
     _check("budget", budget, 1)
-    if isinstance(wanted, bool) or not isinstance(wanted, int | float) or not 0 < wanted <= 1:
-        raise LinkageError(f"wanted lies between 0 and 1, not {wanted!r}")
+    if isinstance(target_quality, bool) or not isinstance(target_quality, int | float) or not 0 < target_quality <= 1:
+        raise LinkageError(f"target_quality lies between 0 and 1, not {target_quality!r}")
     check_drawable(mechanism.chain)
     driven = mechanism if mechanism.drives else with_drives(mechanism)
     parts = decompose(driven)
@@ -59,11 +60,11 @@ def realise(
     turning = all(drive.direction.startswith("R") for drive in driven.drives)
     best, tries = None, 0
     for again in range(_AGAIN):
-        found = search_layouts(drawn, seed=seed + (again << 32), budget=budget, wanted=wanted)
-        tries += found.tries
-        done = finish_linkage(drawn, found.drawing, found.trial, unit) if found.trial.score else None
-        if done is not None and (best is None or found.trial.score > best[1].score):
-            best = done, found.trial
+        result = search_layouts(drawn, seed=seed + (again << 32), budget=budget, target_quality=target_quality)
+        tries += result.tries
+        done = finish_linkage(drawn, result.drawing, result.trial, unit) if result.trial.score else None
+        if done is not None and (best is None or result.trial.score > best[1].score):
+            best = done, result.trial
         if best is not None and (best[1].full or not turning):
             break
     if best is None:

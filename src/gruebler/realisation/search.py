@@ -28,21 +28,21 @@ class SearchResult(NamedTuple):
     tries: int
 
 
-def search_layouts(sketch: LayoutProgram, *, seed: int, budget: int, wanted: float) -> SearchResult:
+def search_layouts(program: LayoutProgram, *, seed: int, budget: int, target_quality: float) -> SearchResult:
     """The best drawing of at most `budget` tried; same seed, same drawing."""
     rng = np.random.default_rng(seed)
     kept: list[SearchResult] = []
-    goal = (2 if all(d.direction.startswith("R") for d in sketch.mechanism.drives) else 1) - _CLOSE
+    goal = (2 if all(d.direction.startswith("R") for d in program.mechanism.drives) else 1) - _CLOSE
     tries = turning = 0
     while tries < max(1, int(_DRAWING * budget)) and turning < _ENOUGH and not (kept and kept[0].trial.score > goal):
-        drawing = sketch.tied(_drawn(sketch, rng))
-        trial = try_layout(sketch, drawing, wanted)
+        drawing = program.tied(_drawn(program, rng))
+        trial = try_layout(program, drawing, target_quality)
         tries += 1
         turning += trial.full
         kept = sorted([*kept, SearchResult(drawing, trial, tries)], key=lambda f: (-f.trial.score, f.tries))[:_KEPT]
     for number, start in enumerate(kept):
         share = (budget - tries) // (len(kept) - number)
-        kept[number] = _improved(sketch, start, rng, share, wanted, goal) if start.trial.score else start
+        kept[number] = _improved(program, start, rng, share, target_quality, goal) if start.trial.score else start
         tries += kept[number].tries if start.trial.score else 0
         if kept[number].trial.score > goal:
             break
@@ -51,14 +51,14 @@ def search_layouts(sketch: LayoutProgram, *, seed: int, budget: int, wanted: flo
 
 
 def _improved(
-    sketch: LayoutProgram, start: SearchResult, rng: np.random.Generator, budget: int, wanted: float, goal: float
+    program: LayoutProgram, start: SearchResult, rng: np.random.Generator, budget: int, wanted: float, goal: float
 ) -> SearchResult:
     """Random changes, kept if they are better; their size follows their success."""
     drawing, best = start.drawing, start.trial
     step, idle, tries = 0.1, 0, 0
     while tries < budget and idle < _PATIENCE and best.score <= goal:
-        changed = sketch.tied(_changed(sketch, drawing, rng, step))
-        trial = try_layout(sketch, changed, wanted)
+        changed = program.tied(_changed(program, drawing, rng, step))
+        trial = try_layout(program, changed, wanted)
         tries, idle = tries + 1, idle + 1
         step = max(0.005, step * 0.97)
         if trial.score > best.score:
@@ -68,50 +68,50 @@ def _improved(
     return SearchResult(drawing, best, tries)
 
 
-def _drawn(sketch: LayoutProgram, rng: np.random.Generator) -> Reals:
+def _drawn(program: LayoutProgram, rng: np.random.Generator) -> Reals:
     """Joints in the unit square away from each other; one link of each turning drive made small about its joint."""
-    count = len(sketch.mechanism.chain.joints)
+    count = len(program.mechanism.chain.joints)
     out = np.empty((count, 3))
     out[:, 2] = rng.integers(0, 12, count) * np.pi / 12
     for k in range(count):
         trials = rng.uniform(0.0, 1.0, (6, 2))
         gaps = np.abs(trials[:, None, :] - out[None, :k, :2]).max(axis=2).min(axis=1, initial=1.0)
         out[k, :2] = trials[int(np.argmax(gaps))]
-    for drive in sketch.mechanism.drives:
+    for drive in program.mechanism.drives:
         if drive.direction.startswith("R"):
-            _shrink(sketch, out, drive.joint, _small_link(sketch, drive.between, rng), rng)
+            _shrink(program, out, drive.joint, _small_link(program, drive.between, rng), rng)
     return out
 
 
-def _small_link(sketch: LayoutProgram, between: tuple[str, str], rng: np.random.Generator) -> str | None:
+def _small_link(program: LayoutProgram, between: tuple[str, str], rng: np.random.Generator) -> str | None:
     """The moving link of a drive, or now and then the other; None: let chance decide for each joint."""
-    frame, chance = sketch.mechanism.frame, rng.uniform()
-    links = sorted(between, key=lambda link: (link == frame, len(_joints(sketch, link))))
-    straight = [link for link in links if not set(_joints(sketch, link)) & set(sketch.slides)]
+    frame, chance = program.mechanism.frame, rng.uniform()
+    links = sorted(between, key=lambda link: (link == frame, len(_joints(program, link))))
+    straight = [link for link in links if not set(_joints(program, link)) & set(program.slides)]
     if not straight or chance < 0.3:
         return None
     return straight[0] if chance < 0.8 or len(straight) == 1 else straight[1]
 
 
-def _joints(sketch: LayoutProgram, link: str) -> list[int]:
-    return [k for k, joint in enumerate(sketch.mechanism.chain.joints) if link in joint.links]
+def _joints(program: LayoutProgram, link: str) -> list[int]:
+    return [k for k, joint in enumerate(program.mechanism.chain.joints) if link in joint.links]
 
 
-def _shrink(sketch: LayoutProgram, drawing: Reals, pivot: int, link: str | None, rng: np.random.Generator) -> None:
+def _shrink(program: LayoutProgram, drawing: Reals, pivot: int, link: str | None, rng: np.random.Generator) -> None:
     """Draw the joints of a link, or each joint by chance, near a pivot."""
     centre = drawing[pivot, :2].copy()
     if link is None:
         factors = np.exp(rng.uniform(np.log(0.1), 0.0, len(drawing)))
         drawing[:, :2] = centre + factors[:, None] * (drawing[:, :2] - centre)
         return
-    mine = _joints(sketch, link)
+    mine = _joints(program, link)
     factor = np.exp(rng.uniform(np.log(0.05), np.log(0.4)))
     drawing[mine, :2] = centre + factor * (drawing[mine, :2] - centre)
 
 
-def _changed(sketch: LayoutProgram, drawing: Reals, rng: np.random.Generator, step: float) -> Reals:
+def _changed(program: LayoutProgram, drawing: Reals, rng: np.random.Generator, step: float) -> Reals:
     """One joint, all joints, or one link in size."""
-    out, size = drawing.copy(), sketch.size(drawing)
+    out, size = drawing.copy(), program.size(drawing)
     kind = rng.integers(0, 3)
     if kind == 0:
         k = int(rng.integers(0, len(out)))
@@ -121,8 +121,8 @@ def _changed(sketch: LayoutProgram, drawing: Reals, rng: np.random.Generator, st
         out[:, :2] += rng.normal(0.0, step * size, (len(out), 2))
         out[:, 2] += rng.normal(0.0, step, len(out))
     else:
-        links = sketch.mechanism.chain.links
-        mine = _joints(sketch, links[int(rng.integers(0, len(links)))])
+        links = program.mechanism.chain.links
+        mine = _joints(program, links[int(rng.integers(0, len(links)))])
         centre = out[mine[int(rng.integers(0, len(mine)))], :2].copy()
         out[mine, :2] = centre + np.exp(rng.normal(0.0, 5 * step)) * (out[mine, :2] - centre)
     return out

@@ -48,7 +48,7 @@ def closed_pose(
     closing = _planar(linkage)
     if at is not None or branch is not None:
         return closing, _at(linkage, closing, at, branch)
-    if linkage.home is None:
+    if linkage.reference_pose is None:
         return closing, _assembled(closing)
     return closing, _centred(closing, _settled(closing, _home(linkage)))
 
@@ -84,8 +84,8 @@ def _matrix(x: float, y: float, angle: float) -> Reals:
 
 
 def _home(linkage: Linkage) -> Reals:
-    assert linkage.home is not None
-    places = [linkage.home[link] for link in linkage.mechanism.chain.links]
+    assert linkage.reference_pose is not None
+    places = [linkage.reference_pose[link] for link in linkage.mechanism.chain.links]
     return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
 
 
@@ -113,7 +113,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
     if at is None:
         raise LinkageError("an assembly mode is one of several at a drive value, which is missing")
     _check_count(at, len(drives))
-    if linkage.home is not None and branch is None:
+    if linkage.reference_pose is not None and branch is None:
         home = _settled(closing, _home(linkage))
         sided = [_sided(linkage, k, value) for k, value in enumerate(at)]
         return _centred(closing, _driven(closing, home, sided, linkage.size))
@@ -176,11 +176,11 @@ def _assembled(closing: Closing) -> Reals:
         least = min(least, open_by)
         if open_by > _CLOSED:
             continue
-        here = instant_mobility(closing, pose, 1e-9)
-        margin = float(here.values[here.rank - 1]) / closing.unknowns
-        moving = driven.isdisjoint(here.immobile), -len(here.immobile)
-        found.append((here.mobility, moving, margin, pose))
-        if len(found) >= _ENOUGH or (not here.redundancy and not here.immobile and margin > _GOOD):
+        instant = instant_mobility(closing, pose, 1e-9)
+        margin = float(instant.values[instant.rank - 1]) / closing.unknowns
+        moving = driven.isdisjoint(instant.immobile), -len(instant.immobile)
+        found.append((instant.mobility, moving, margin, pose))
+        if len(found) >= _ENOUGH or (not instant.redundancy and not instant.immobile and margin > _GOOD):
             break
     if not found:
         raise LinkageError(

@@ -80,7 +80,7 @@ def read_place(raw: object, pair: Pair, space: Space, where: str) -> JointPlace:
         if key not in known:
             raise LinkageError(f"{where}: unknown key {key!r}; the keys are {', '.join(known)}")
     given = {key: value for key, value in given.items() if value is not None}
-    made = JointPlace(
+    joint_place = JointPlace(
         _vector(given.get("at", (0.0, 0.0, 0.0)), space, f"{where}, at"),
         _direction(given.get("x"), space, f"{where}, x"),
         _direction(given.get("y"), space, f"{where}, y"),
@@ -89,52 +89,52 @@ def read_place(raw: object, pair: Pair, space: Space, where: str) -> JointPlace:
         _radii(given.get("radii"), f"{where}, radii"),
         None if "pressure" not in given else _number(given["pressure"], f"{where}, pressure"),
     )
-    _fitting(made, pair, space, where)
-    return made
+    _fitting(joint_place, pair, space, where)
+    return joint_place
 
 
-def _fitting(made: JointPlace, pair: Pair, space: Space, where: str) -> None:
+def _fitting(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
     needed = _NEEDED[space][pair.name]
-    present = "".join(axis for axis in "xyz" if getattr(made, axis) is not None)
+    present = "".join(axis for axis in "xyz" if getattr(place, axis) is not None)
     turned = space is Space.PLANAR and bool(set(present) & set("xy"))
     enough = needed in present or turned if len(needed) < 2 else len(present) >= 2
     if not enough:
         raise LinkageError(f"{where}: a {pair.name} joint needs its {' and '.join(needed)} axis")
-    joint_axes(made, space, where)
-    if space is Space.SPHERICAL and any(made.at):
+    joint_axes(place, space, where)
+    if space is Space.SPHERICAL and any(place.at):
         raise LinkageError(f"{where}: on a sphere every joint is at its centre, the origin")
-    if made.pitch and pair.name != "helical":
+    if place.pitch and pair.name != "helical":
         raise LinkageError(f"{where}: a {pair.name} joint has no pitch")
     if pair.name not in _ROUND:
-        if made.radii is not None or made.pressure is not None:
+        if place.radii is not None or place.pressure is not None:
             raise LinkageError(f"{where}: a {pair.name} joint has no radii and no pressure angle")
         return
-    if made.radii is None:
+    if place.radii is None:
         raise LinkageError(f"{where}: a {pair.name} joint needs the two radii of its contact, inf for a flat one")
-    _check_contact(made, pair, space, where)
+    _check_contact(place, pair, space, where)
 
 
-def _check_contact(made: JointPlace, pair: Pair, space: Space, where: str) -> None:
-    assert made.radii is not None
-    first, second = made.radii
+def _check_contact(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
+    assert place.radii is not None
+    first, second = place.radii
     if first + second == 0 or first == second == inf:
         raise LinkageError(f"{where}: contours with the radii {first:g} and {second:g} touch all along, not in a point")
-    toothed = pair.name == "rolling" or made.pressure is not None
+    toothed = pair.name == "rolling" or place.pressure is not None
     if toothed and not isfinite(first + second):
         raise LinkageError(f"{where}: wheels that roll on each other need finite radii, not {first:g} and {second:g}")
-    if made.pressure is not None and (pair.name == "rolling" or not abs(made.pressure) < 1.5):
+    if place.pressure is not None and (pair.name == "rolling" or not abs(place.pressure) < 1.5):
         raise LinkageError(f"{where}: a pressure angle, below 1.5 radians, is for the teeth of a roll_slide joint")
-    if space is Space.SPHERICAL and not all(0 < abs(r) < np.pi for r in made.radii):
+    if space is Space.SPHERICAL and not all(0 < abs(r) < np.pi for r in place.radii):
         raise LinkageError(f"{where}: on a sphere the radii are angles of cones between 0 and pi")
 
 
-def joint_axes(made: JointPlace, space: Space, where: str = "joint") -> Reals:
+def joint_axes(place: JointPlace, space: Space, where: str = "joint") -> Reals:
     """The axes as columns of a rotation; those that are not given are chosen to complete it.
 
     >>> joint_axes(JointPlace(x=(0, 2, 0)), Space.PLANAR).tolist()
     [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
-    given = {k: np.array(v) / hypot(*v) for k, axis in enumerate("xyz") if (v := getattr(made, axis)) is not None}
+    given = {k: np.array(v) / hypot(*v) for k, axis in enumerate("xyz") if (v := getattr(place, axis)) is not None}
     if space is Space.PLANAR:
         given[2] = np.array([0.0, 0.0, 1.0])
     if not given:

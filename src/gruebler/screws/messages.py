@@ -201,7 +201,7 @@ def _column(lang: str) -> int:
     return LANGUAGES.index(lang)
 
 
-def explain_freedoms(found: Freedoms, lang: str = "en") -> str:
+def explain_freedoms(freedoms: Freedoms, lang: str = "en") -> str:
     """The whole report as lines of text.
 
     >>> from gruebler.screws import freedoms
@@ -214,10 +214,10 @@ def explain_freedoms(found: Freedoms, lang: str = "en") -> str:
     No constraint is redundant.
     Finite: 1, proved, for no constraint is redundant (theorem of implicit functions).
     """
-    return "\n".join(_lines(found, _column(lang)))
+    return "\n".join(_lines(freedoms, _column(lang)))
 
 
-def freedoms_summary(found: Freedoms, lang: str = "en") -> str:
+def freedoms_summary(freedoms: Freedoms, lang: str = "en") -> str:
     """The four numbers and the reasons.
 
     >>> from gruebler.screws import freedoms
@@ -226,17 +226,17 @@ def freedoms_summary(found: Freedoms, lang: str = "en") -> str:
     Laufgrad: gezählt 1, generisch 1, momentan 1, endlich 1.
     """
     column = _column(lang)
-    return "\n".join([_numbers(found, column), *_reasons(found, column)])
+    return "\n".join([_numbers(freedoms, column), *_reasons(freedoms, column)])
 
 
-def _lines(found: Freedoms, column: int) -> Iterator[str]:
+def _lines(freedoms: Freedoms, column: int) -> Iterator[str]:
     def say(key: str, **gaps: object) -> str:
         return SENTENCES[key][column].format(**gaps)
 
-    instant, followed = found.instant, found.finite
-    names = _names(found, column)
-    yield _numbers(found, column)
-    yield say("count", formula=found.report.count.formula())
+    instant, followed = freedoms.instant, freedoms.finite
+    names = _names(freedoms, column)
+    yield _numbers(freedoms, column)
+    yield say("count", formula=freedoms.report.count.formula())
     above, below = instant.gap
     yield say(
         "instant",
@@ -264,31 +264,31 @@ def _lines(found: Freedoms, column: int) -> Iterator[str]:
         open=followed.open,
         ways=ways,
     )
-    spinning = [" + ".join(idle.links) for idle in found.idle_parts]
+    spinning = [" + ".join(idle.links) for idle in freedoms.idle_parts]
     if spinning:
-        yield say("idle" if len(spinning) == 1 else "idles", link=", ".join(spinning), useful=found.useful)
-    yield from _reasons(found, column)
+        yield say("idle" if len(spinning) == 1 else "idles", link=", ".join(spinning), useful=freedoms.useful)
+    yield from _reasons(freedoms, column)
 
 
-def _names(found: Freedoms, column: int) -> tuple[str, ...]:
-    return found.report.chain.joint_names((Alphabet.INTERNATIONAL, Alphabet.GERMAN)[column])
+def _names(freedoms: Freedoms, column: int) -> tuple[str, ...]:
+    return freedoms.report.chain.joint_names((Alphabet.INTERNATIONAL, Alphabet.GERMAN)[column])
 
 
-def _numbers(found: Freedoms, column: int) -> str:
+def _numbers(freedoms: Freedoms, column: int) -> str:
     return SENTENCES["table"][column].format(
-        counted=found.counted, generic=found.generic, instant=found.instant.mobility, finite=found.mobility
+        counted=freedoms.counted, generic=freedoms.generic, instant=freedoms.instant.mobility, finite=freedoms.mobility
     )
 
 
-def _reasons(found: Freedoms, column: int) -> Iterator[str]:
-    for reason in found.reasons:
-        text = reason_text(found, reason, LANGUAGES[column], _names(found, column))
+def _reasons(freedoms: Freedoms, column: int) -> Iterator[str]:
+    for reason in freedoms.reasons:
+        text = reason_text(freedoms, reason, LANGUAGES[column], _names(freedoms, column))
         yield SENTENCES["reason"][column].format(text=text)
-    if found.mobility > found.generic and not found.reasons:
+    if freedoms.mobility > freedoms.generic and not freedoms.reasons:
         yield SENTENCES["unknown"][column]
 
 
-def reason_text(found: Freedoms, reason: Reason, lang: str, names: Sequence[str]) -> str:
+def reason_text(freedoms: Freedoms, reason: Reason, lang: str, names: Sequence[str]) -> str:
     """A reason as a sentence."""
     ends = 2 if reason.kind in ("cranks", "copies", "parallel", "concurrent", "centres", "locking") else 0
     return _REASONS[reason.kind][_column(lang)].format(
@@ -297,5 +297,5 @@ def reason_text(found: Freedoms, reason: Reason, lang: str, names: Sequence[str]
         links=", ".join(reason.links[ends:]),
         number=reason.number,
         joints=", ".join(names[k] for k in reason.joints),
-        count=group_count(reason, found.instant) if reason.kind.startswith("group") else "",
+        count=group_count(reason, freedoms.instant) if reason.kind.startswith("group") else "",
     )

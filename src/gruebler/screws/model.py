@@ -60,10 +60,10 @@ class SpatialLinkage:
         for number, name in enumerate(names):
             if number not in raw:
                 raise LinkageError(f"{name} has no place")
-        made = tuple(
+        joint_places = tuple(
             read_place(raw[number], joint.pair, chain.space, names[number]) for number, joint in enumerate(chain.joints)
         )
-        object.__setattr__(self, "joints", made)
+        object.__setattr__(self, "joints", joint_places)
 
     @property
     def places(self) -> tuple[JointPlace, ...]:

@@ -33,20 +33,20 @@ class ObstructionMap:
 
     def __call__(self, k: Reals) -> NearbyPose | None:
         """The point over k, or None if Newton's method does not close the other constraints so far away."""
-        found = self.instant
-        motion = k @ found.motions
+        instant = self.instant
+        motion = k @ instant.motions
         for _ in range(15):
-            value, by_motion = found.closing.along(found.pose, motion)
-            matrix = np.vstack([self._independent @ by_motion, found.motions])
-            rest = np.append(self._independent @ value, np.zeros(found.mobility))
-            held = np.vstack([np.zeros((found.rank, found.mobility)), np.eye(found.mobility)])
+            value, by_motion = instant.closing.along(instant.pose, motion)
+            matrix = np.vstack([self._independent @ by_motion, instant.motions])
+            rest = np.append(self._independent @ value, np.zeros(instant.mobility))
+            held = np.vstack([np.zeros((instant.rank, instant.mobility)), np.eye(instant.mobility)])
             try:
                 solved = np.linalg.solve(matrix, np.column_stack([rest, held]))
             except np.linalg.LinAlgError:
                 return None
             step = solved[:, 0]
             if abs(step).max() < 1e-13 or abs(rest).max() < 1e-15:
-                return NearbyPose(motion, found.stresses @ value, found.stresses @ by_motion @ solved[:, 1:])
+                return NearbyPose(motion, instant.stresses @ value, instant.stresses @ by_motion @ solved[:, 1:])
             motion = motion - step
             if not abs(motion).max() < 3:
                 return None
@@ -55,7 +55,7 @@ class ObstructionMap:
     def second(self, step: float = 1e-3) -> Reals | None:
         """The quadratic forms of the second order, (redundancy, mobility, mobility): F(k) = k·Q·k / 2 + ..."""
         ahead = [(self(step * k), self(-step * k)) for k in np.eye(self.instant.mobility)]
-        if any(one is None or other is None for one, other in ahead):
+        if any(nearby_pose is None or other is None for nearby_pose, other in ahead):
             return None
         slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
         out = np.stack(slopes, axis=2)

@@ -34,9 +34,9 @@ def reasons(instant: InstantMobility) -> tuple[Reason, ...]:
     """What is known about the redundant constraints of a pose; empty if none is redundant or nothing was recognised."""
     if not instant.redundancy:
         return ()
-    sketch = JointGeometry(instant)
-    found = tuple(reason for recogniser in _RECOGNISERS for reason in recogniser(sketch))
-    return found or tuple(_coaxial(sketch))
+    geometry = JointGeometry(instant)
+    found = tuple(reason for recogniser in _RECOGNISERS for reason in recogniser(geometry))
+    return found or tuple(_coaxial(geometry))
 
 
 def _group(s: JointGeometry) -> Iterator[Reason]:
@@ -100,9 +100,9 @@ def _pole(s: JointGeometry) -> Iterator[Reason]:
 
 def _is_bar(s: JointGeometry, link: str, ends: tuple[str, ...]) -> bool:
     """Whether a link has two turning joints of two links, one with each of the ends."""
-    mine = [s.chain.joints[k] for k in _joints(s, (link,))]
-    turning = all(j.pair.name == "revolute" and len(j.links) == 2 for j in mine)
-    return turning and sorted(name for j in mine for name in j.links if name != link) == sorted(ends)
+    joints = [s.chain.joints[k] for k in _joints(s, (link,))]
+    turning = all(j.pair.name == "revolute" and len(j.links) == 2 for j in joints)
+    return turning and sorted(name for j in joints for name in j.links if name != link) == sorted(ends)
 
 
 def _coaxial(s: JointGeometry) -> Iterator[Reason]:

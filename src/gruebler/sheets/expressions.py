@@ -92,7 +92,7 @@ class Expression:
         """Whether the values are equal: exactly if both are known as sums of roots, else to 1000 binary places."""
         if self.exact is not None and other.exact is not None:
             return dict(self.exact) == dict(other.exact)
-        mine, others = (_bracketed(one.text, one.steps, 4096) for one in (self, other))
+        mine, others = (_bracketed(expression.text, expression.steps, 4096) for expression in (self, other))
         return mine[0] - others[1] <= 1 << 3096 and others[0] - mine[1] <= 1 << 3096
 
 

@@ -46,19 +46,19 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
     items.append(TextLine(_RIGHT, 50, words["sheet"].format(id=sheet.id), 10, role="faint", anchor="end"))
     items.append(HorizontalRule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
     y = 82.0
-    for line in _wrapped(sheet.record.title.said(lang), _RIGHT - _LEFT, 18 * 1.06):
+    for line in _wrapped(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
         items.append(TextLine(_LEFT, y, line, 18, bold=True))
         y += 23
     for task in sheet.record.tasks:
-        items.append(TextLine(_LEFT, y, f"–  {task.said(lang)}", _BODY))
+        items.append(TextLine(_LEFT, y, f"–  {task.in_language(lang)}", _BODY))
         y += _LEAD
     y = _pictures(items, sheet, y, lang) + 22
     left = _features(items, sheet, y, lang)
     y = max(left, _paragraphs(items, words["explanation"], explanation_paragraphs(sheet, lang), _MIDDLE, y)) + 14
     _straightness(items, sheet, y, lang)
     _footer(items, sheet, lang)
-    about = " ".join(f"{label}: {value}." for label, value in sheet.features.said(lang))
-    return Page(tuple(items), sheet.record.title.said(lang), about, lang)
+    about = " ".join(f"{label}: {value}." for label, value in sheet.features.described(lang))
+    return Page(tuple(items), sheet.record.title.in_language(lang), about, lang)
 
 
 # --- sections ---------------------------------------------------------------------------------------
@@ -85,7 +85,7 @@ def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """Access features and dimensions, in the left column; the y below them."""
     words = messages(lang)
     y = _heading(items, words["features"], _LEFT, y, _MIDDLE - _GAP)
-    for label, value in sheet.features.said(lang):
+    for label, value in sheet.features.described(lang):
         items += [TextLine(_LEFT, y, label, _BODY), TextLine(_LEFT + 110, y, value, _BODY)]
         y += _LEAD
     y = _heading(items, words["dimensions"].format(unit=sheet.dimensions[0].symbol), _LEFT, y + 10, _MIDDLE - _GAP)
@@ -95,25 +95,25 @@ def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     return y
 
 
-def _dimension(told: StatedValue, y: float, lang: str) -> Iterable[Item]:
-    yield TextLine(_LEFT, y, told.symbol, _BODY)
-    yield TextLine(_LEFT + 28, y, with_subscripts("".join(told.of)), _BODY, role="faint")
-    if told.exact is not None:
-        yield TextLine(_LEFT + 110, y, told.exact.typeset, _BODY)
-    yield TextLine(_MIDDLE - _GAP, y, f"{LocalNumber(told.derived, lang):.6f}", _BODY, anchor="end")
+def _dimension(value: StatedValue, y: float, lang: str) -> Iterable[Item]:
+    yield TextLine(_LEFT, y, value.symbol, _BODY)
+    yield TextLine(_LEFT + 28, y, with_subscripts("".join(value.of)), _BODY, role="faint")
+    if value.exact is not None:
+        yield TextLine(_LEFT + 110, y, value.exact.typeset, _BODY)
+    yield TextLine(_MIDDLE - _GAP, y, f"{LocalNumber(value.derived, lang):.6f}", _BODY, anchor="end")
 
 
 def _straightness(items: list[Item], sheet: Sheet, y: float, lang: str) -> None:
     """The diagram, and beside it the example and the values."""
-    words, guide, found = messages(lang), sheet.record.guide, sheet.example
+    words, guide, sized_mechanism = messages(lang), sheet.record.guide, sheet.example
     left, right = _MIDDLE + 38, _MIDDLE + 38 - _GAP
     below = _heading(items, words["diagram"], _LEFT, y, right)
     centre = f"{LocalNumber(guide.centre, lang):g}°"
     items.append(TextLine(_LEFT, below, words["ratio"].format(centre=centre), 10, role="faint"))
     _fitted(items, _diagram(sheet, lang), _LEFT, below + 6, right - _LEFT, HEIGHT - 88 - below)
     said = {
-        "length": LocalNumber(found.length, lang),
-        "tolerance": LocalNumber(found.tolerance, lang),
+        "length": LocalNumber(sized_mechanism.length, lang),
+        "tolerance": LocalNumber(sized_mechanism.tolerance, lang),
         "unit": guide.unit,
     }
     y = _paragraphs(items, words["example"].format(**said), example_lines(sheet, lang), left, y, apart=0)
@@ -129,7 +129,7 @@ def _diagram(sheet: Sheet, lang: str) -> Figure:
         curve.lengths[shown],
         at=(piece.end - piece.start, piece.ratio, piece.length),
         lang=lang,
-        title=sheet.record.title.said(lang),
+        title=sheet.record.title.in_language(lang),
         size=_FIELD,
     )
 
@@ -137,7 +137,7 @@ def _diagram(sheet: Sheet, lang: str) -> Figure:
 def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
     words = messages(lang)
     lines = [f"[{k}] {text}" for k, text in enumerate(sheet.record.literature, 1)]
-    lines.append(words["source"].format(source=sheet.record.source.said(lang)))
+    lines.append(words["source"].format(source=sheet.record.source.in_language(lang)))
     y = HEIGHT - 42 - 12 * (len(lines) - 1)
     items.append(HorizontalRule(_LEFT, y - 13, _RIGHT - _LEFT))
     for line in lines:

@@ -79,9 +79,9 @@ class LocalNumber(float):
 
     def __new__(cls, value: float, lang: str) -> LocalNumber:
         """The number in a language."""
-        made = super().__new__(cls, value)
-        made.lang = lang
-        return made
+        local_number = super().__new__(cls, value)
+        local_number.lang = lang
+        return local_number
 
     def __format__(self, form: str) -> str:
         """As a float, but for the comma and the minus sign."""
@@ -92,8 +92,8 @@ class LocalNumber(float):
 class _ValueSlot:
     """A value in a text: exact without a form, else with so many digits."""
 
-    def __init__(self, told: StatedValue, lang: str) -> None:
-        self.exact, self.number = told.exact, LocalNumber(told.derived, lang)
+    def __init__(self, value: StatedValue, lang: str) -> None:
+        self.exact, self.number = value.exact, LocalNumber(value.derived, lang)
 
     def __format__(self, form: str) -> str:
         return self.exact.typeset if not form and self.exact is not None else format(self.number, form)
@@ -101,24 +101,24 @@ class _ValueSlot:
 
 def explanation_paragraphs(sheet: Sheet, lang: str) -> list[str]:
     """The paragraphs of the explanation, with derived values in their places."""
-    values = {told.id: _ValueSlot(told, lang) for told in sheet.quantities}
-    return [text.said(lang).format_map(values).replace(" = ", _EQUALS) for text in sheet.record.explanation]
+    values = {value.id: _ValueSlot(value, lang) for value in sheet.quantities}
+    return [text.in_language(lang).format_map(values).replace(" = ", _EQUALS) for text in sheet.record.explanation]
 
 
 def value_lines(sheet: Sheet, lang: str) -> list[str]:
     """Each value of the mechanism that the sheet tells: symbol, exact, decimal, and what the source has instead."""
     out = []
-    for told, row in zip(sheet.quantities, sheet.record.quantities, strict=True):
+    for value, row in zip(sheet.quantities, sheet.record.quantities, strict=True):
         if row.rocker is not None:
             continue
-        said = f"{LocalNumber(told.derived, lang):.6f}" + told.unit
-        if told.exact is not None and told.exact.text.isdigit():
-            said = f"{told.exact.text}: {told.name.said(lang)}" if told.name else told.exact.text
-        elif told.exact is not None:
-            said = f"{told.exact.typeset} = {said}"
-        if not told.is_as_printed and told.printed is not None:
-            said += f" ({messages(lang)['printed'].format(text=told.printed.typeset)})"
-        out.append(f"{told.symbol} = {said}")
+        said = f"{LocalNumber(value.derived, lang):.6f}" + value.unit
+        if value.exact is not None and value.exact.text.isdigit():
+            said = f"{value.exact.text}: {value.name.in_language(lang)}" if value.name else value.exact.text
+        elif value.exact is not None:
+            said = f"{value.exact.typeset} = {said}"
+        if not value.is_as_printed and value.printed is not None:
+            said += f" ({messages(lang)['printed'].format(text=value.printed.typeset)})"
+        out.append(f"{value.symbol} = {said}")
     return out
 
 

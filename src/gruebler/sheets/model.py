@@ -186,7 +186,7 @@ class Sheet(Brief):
     @property
     def wrong(self) -> tuple[StatedValue, ...]:
         """Values that do not hold: not exact, or neither printed right nor explained."""
-        return tuple(told for told in (*self.dimensions, *self.quantities, *self.example_values) if not told.holds)
+        return tuple(value for value in (*self.dimensions, *self.quantities, *self.example_values) if not value.holds)
 
     @property
     def path(self) -> Path:
@@ -214,7 +214,7 @@ class Sheet(Brief):
         Raises `LinkageError` if no window is so straight.
         """
         sizing = scale_for(self.path, self.window, length, tolerance)
-        lengths = tuple((told.symbol, told.derived * sizing.factor) for told in self.dimensions)
+        lengths = tuple((value.symbol, value.derived * sizing.factor) for value in self.dimensions)
         return SizedMechanism(length, tolerance, sizing, lengths)
 
     @cached_property
@@ -225,13 +225,13 @@ class Sheet(Brief):
     @cached_property
     def example_values(self) -> tuple[StatedValue, ...]:
         """What comes out of the task, beside what the source prints of it."""
-        found, guide, scale = self.example, self.record.guide, self.record.dimensions[0].symbol
-        start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
+        sized_mechanism, guide, scale = self.example, self.record.guide, self.record.dimensions[0].symbol
+        start, end = (math.degrees(angle) for angle in sized_mechanism.sizing.piece[:2])
         rows = (
             ("phi_G", "φ_G", end - start, "°", _EXAMPLE["phi_G"]),
             ("phi_A", "φ_A", start, "°", _EXAMPLE["phi_A"]),
-            ("ratio", f"L/{scale}", found.ratio, "", _EXAMPLE["ratio"]),
-            ("scale", scale, found.scale, f" {guide.unit}", _EXAMPLE["scale"]),
+            ("ratio", f"L/{scale}", sized_mechanism.ratio, "", _EXAMPLE["ratio"]),
+            ("scale", scale, sized_mechanism.scale, f" {guide.unit}", _EXAMPLE["scale"]),
         )
         return tuple(
             StatedValue(key, symbol, value, None, _expression(guide.printed.get(key)), name=name, unit=unit)

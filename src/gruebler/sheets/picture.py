@@ -23,26 +23,26 @@ def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
     """The linkage in the sheet's pose with joints and marked points by their names, tangent g and axis of symmetry."""
     pose = math.radians(sheet.record.picture.pose)
     point = sheet.record.names[sheet.record.point]
-    plain = draw_linkage(sheet.linkage, pose, curves=[point], lang=lang, name=sheet.record.title.said(lang))
-    stage = posed_linkage(sheet.linkage, pose)
-    by = _offset(plain, stage)
-    shapes = [*plain.shapes, *(_moved(shape, by) for shape in _lines(sheet, stage))]
+    plain = draw_linkage(sheet.linkage, pose, curves=[point], lang=lang, name=sheet.record.title.in_language(lang))
+    posed = posed_linkage(sheet.linkage, pose)
+    by = _offset(plain, posed)
+    shapes = [*plain.shapes, *(_moved(shape, by) for shape in _lines(sheet, posed))]
     motion = sheet.motion(sheet.record.picture.pose)
     for name in sheet.record.names:
         if name != sheet.record.point:
-            at = stage.local(sheet.place(motion, name)).plus(by)
+            at = posed.local(sheet.place(motion, name)).plus(by)
             shapes.append(note_near(at, with_subscripts(name), "value", shapes))
     for name, degrees in sheet.record.picture.marks.items():
-        at = stage.local(sheet.place(sheet.motion(degrees), sheet.record.point)).plus(by)
+        at = posed.local(sheet.place(sheet.motion(degrees), sheet.record.point)).plus(by)
         shapes.append(CircleShape(at, 3.0, "dot"))
         shapes.append(note_near(at, name, "value", shapes))
     return figure_of(shapes, plain.title, plain.description)
 
 
-def _offset(figure: Figure, stage: PosedLinkage) -> Point:
+def _offset(figure: Figure, posed: PosedLinkage) -> Point:
     """How the figure was moved against the stage: by the places of its turning joints."""
-    names = stage.linkage.mechanism.chain.joint_names()
-    pins = [stage.place(stage.linkage.named(name)[0]) for name in names if name.startswith("R")]
+    names = posed.linkage.mechanism.chain.joint_names()
+    pins = [posed.place(posed.linkage.points_named(name)[0]) for name in names if name.startswith("R")]
     rings = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
     return Point(
         min(ring.x for ring in rings) - min(pin.x for pin in pins),
@@ -50,13 +50,13 @@ def _offset(figure: Figure, stage: PosedLinkage) -> Point:
     )
 
 
-def _lines(sheet: Sheet, stage: PosedLinkage) -> list[Shape]:
+def _lines(sheet: Sheet, posed: PosedLinkage) -> list[Shape]:
     """The tangent g along the piece of the example, and the axis across it."""
     piece, window = sheet.example.sizing.piece, sheet.window
     touch = sheet.place(sheet.motion(math.degrees(window.centre)), sheet.record.point)
     along = cmath.rect(1.0, window.direction)
     half = 0.75 * piece.length * sheet.unit_length
-    ends = [stage.local(touch + side * half * along) for side in (-1, 1)]
+    ends = [posed.local(touch + side * half * along) for side in (-1, 1)]
     shapes: list[Shape] = [
         Polylines((tuple(ends),), "measure"),
         TextShape(ends[1].plus(ends[1].minus(ends[0]).unit, 9.0), "g", "value"),
@@ -65,7 +65,7 @@ def _lines(sheet: Sheet, stage: PosedLinkage) -> list[Shape]:
     if name is not None:
         foot = sheet.place(sheet.motion(math.degrees(window.centre)), name)
         marks = [sheet.place(sheet.motion(at), sheet.record.point) for at in sheet.record.picture.marks.values()]
-        low, high = stage.local(foot), stage.local(max([touch, *marks], key=lambda z: abs(z - foot)))
+        low, high = posed.local(foot), posed.local(max([touch, *marks], key=lambda z: abs(z - foot)))
         way = high.minus(low).unit
         shapes.insert(0, _dashed(low.plus(way, -_BEYOND), high.plus(way, _BEYOND)))
     return shapes

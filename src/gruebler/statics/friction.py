@@ -73,21 +73,21 @@ def slider_friction(size: SliderCrank, phi: npt.ArrayLike, load: float, coeffici
     return SliderFriction(alpha, coupler, coupler * sine, mu * np.abs(coupler * sine))
 
 
-def slide_friction(held: Statics, joint: str | int, coefficient: float) -> SlideFriction:
+def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> SlideFriction:
     """Side force and friction of any sliding joint, from the equilibrium without friction.
 
     Raises `LinkageError` for a joint that does not slide and for a linkage with several drives.
     """
-    linkage = held.motion.linkage
+    linkage = statics.motion.linkage
     number, mu = joint_number(linkage.mechanism, joint), _coefficient(coefficient)
     if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
         raise LinkageError(f"{linkage.mechanism.chain.joint_names()[number]} does not slide along one line")
     if len(linkage.mechanism.drives) != 1:
         raise LinkageError(f"friction is told for one drive; this linkage has {len(linkage.mechanism.drives)}")
-    side: Reals = np.hypot(*held.force(number).T)
+    side: Reals = np.hypot(*statics.force(number).T)
     rate = np.full(len(side), np.nan)
-    for rows, moved in with_velocities(held.motion, np.ones(1)):
-        rate[rows] = np.abs(moved.slide(number, 1))
+    for rows, moved in with_velocities(statics.motion, np.ones(1)):
+        rate[rows] = np.abs(moved.displacement(number, 1))
     return SlideFriction(side, mu * side, mu * side * rate)
 
 

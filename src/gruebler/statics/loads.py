@@ -83,7 +83,7 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
 
 
 def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
-    place = name if isinstance(name, LinkPoint) else motion.linkage.named(name)[-1]
+    place = name if isinstance(name, LinkPoint) else motion.linkage.points_named(name)[-1]
     links = motion.linkage.mechanism.chain.links
     if place.link not in links:
         raise LinkageError(f"a force acts on a link, but there is no link {place.link!r}; they are {', '.join(links)}")

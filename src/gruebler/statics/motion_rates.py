@@ -36,7 +36,7 @@ def drive_speed(motion: Motion) -> Reals:
     """The speed of the only drive in a motion with velocities; (rows,)."""
     drive = motion.plan.lower.mechanism.drives[0]
     if not drive.direction.startswith("R"):
-        return motion.slide(drive.joint, 1)
+        return motion.displacement(drive.joint, 1)
     one, other = motion.plan.lower.reference(0)
     out: Reals = motion.angular(other) - motion.angular(one)
     return out

@@ -79,8 +79,11 @@ class Statics(Brief):
     def load(self) -> Reals:
         """What all loads together come to at most, as an effort of each drive (a torque, or a force); (drives,)."""
         size, mechanism = self.motion.plan.lower.size, self.motion.linkage.mechanism
-        force = sum(float(np.abs(one.force).max() + np.abs(one.moment).max() / size) for one in self.wrenches) or 1.0
-        return np.array([force * (size if one.direction.startswith("R") else 1.0) for one in mechanism.drives])
+        force = (
+            sum(float(np.abs(wrench.force).max() + np.abs(wrench.moment).max() / size) for wrench in self.wrenches)
+            or 1.0
+        )
+        return np.array([force * (size if drive.direction.startswith("R") else 1.0) for drive in mechanism.drives])
 
     def force(self, joint: str | int, link: str | None = None) -> Reals:
         """The force of a joint on one of its links (without a name: the last that is not the frame); (rows, 2).

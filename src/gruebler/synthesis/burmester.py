@@ -59,12 +59,12 @@ class BurmesterCurves:
 
     def nearest(self, pivot: complex) -> GuidingDyad:
         """The dyad whose pivot on the body is nearest to a place, exact."""
-        given, origin, size = Displacements.of(self.task.origins, self.task.turns)
+        displacements, origin, size = Displacements.of(self.task.origins, self.task.turns)
         moving = np.concatenate([piece.moving for piece in self.pieces])
         fixed = np.concatenate([piece.fixed for piece in self.pieces])
         k = int(np.argmin(np.abs(moving - pivot)))
         x, m = (moving[k] - origin) / size, (fixed[k] - origin) / size
-        return _sharpened(given, x, m).moved(size, origin)
+        return _sharpened(displacements, x, m).moved(size, origin)
 
 
 def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
@@ -74,8 +74,8 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
     """
     if len(task) != 4:
         raise SynthesisError(f"Burmester's curves belong to four positions, not to {len(task)}")
-    given, origin, size = Displacements.of(task.origins, task.turns)
-    cubic = circle_point_cubics(given)[0]
+    displacements, origin, size = Displacements.of(task.origins, task.turns)
+    cubic = circle_point_cubics(displacements)[0]
     if np.abs(cubic).max() < _NOTHING:
         raise SynthesisError(
             "every point of the body can be a pivot: the four positions belong to a rotation, a translation or "
@@ -83,13 +83,13 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
         )
     real = _real_cubic(cubic)
     pieces = []
-    for curve in _traced(real, _known_point(given, real), points):
-        fixed, good = _centres(given, curve)
+    for curve in _traced(real, _known_point(displacements, real), points):
+        fixed, good = _centres(displacements, curve)
         for part in _runs(good):
             moving = curve[part]
             if len(moving) > 1:
                 pieces.append(CurvePiece(moving * size + origin, fixed[part] * size + origin))
-    sliding = tuple(dyad.moved(size, origin) for dyad in sliding_dyads(given))
+    sliding = tuple(dyad.moved(size, origin) for dyad in sliding_dyads(displacements))
     return BurmesterCurves(task, tuple(pieces), sliding)
 
 

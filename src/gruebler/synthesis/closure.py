@@ -135,11 +135,11 @@ class DesignClosure:
         weights = self._weights(size)
         good = np.zeros(len(q), bool)
         for _ in range(steps):
-            made = self.slopes(q, p)
-            good = np.abs(made.gaps).max(axis=1) < 1e-12 * size
+            closure_slopes = self.slopes(q, p)
+            good = np.abs(closure_slopes.gaps).max(axis=1) < 1e-12 * size
             if good.all():
                 break
-            step = self._least(made.by_pose * weights, made.gaps)
+            step = self._least(closure_slopes.by_pose * weights, closure_slopes.gaps)
             q = q - weights * step
         return q, good
 
@@ -154,9 +154,9 @@ class DesignClosure:
     def tangents(self, q: Reals, p: Reals, *, size: float) -> tuple[Reals, Reals]:
         """How the poses move by the one freedom, (rows, unknowns), and with the dimensions, (rows, unknowns, sizes)."""
         weights = self._weights(size)
-        made = self.slopes(q, p)
-        matrix = made.by_pose * weights
-        by_sizes = -weights[:, None] * (np.linalg.pinv(matrix, rcond=1e-10) @ made.by_sizes)
+        closure_slopes = self.slopes(q, p)
+        matrix = closure_slopes.by_pose * weights
+        by_sizes = -weights[:, None] * (np.linalg.pinv(matrix, rcond=1e-10) @ closure_slopes.by_sizes)
         _, _, basis = np.linalg.svd(matrix)
         return weights * basis[:, -1, :], np.asarray(by_sizes)
 
@@ -176,6 +176,6 @@ class DesignClosure:
             elements,
             points,
             unit=self.linkage.unit,
-            home={link: tuple(place) for link, place in places.items()},  # type: ignore[misc]
+            reference_pose={link: tuple(place) for link, place in places.items()},  # type: ignore[misc]
             outputs=self.linkage.outputs,
         )

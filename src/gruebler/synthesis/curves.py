@@ -262,12 +262,12 @@ def fit_curve(
     reduced = (z - middle) / size
     out: list[Fit] = []
     for kind in kinds:
-        found = (
+        _starts = (
             _neighbours(kind, reduced, closed, starts)
             if timing is None
             else _timed_neighbours(kind, reduced, timing, starts)
         )
-        out += _improved(kind, reduced, found, timing, turning=closed)
+        out += _improved(kind, reduced, _starts, timing, turning=closed)
     out.sort(key=lambda fit: fit.error)
     chosen: list[Fit] = []
     for fit in out:
@@ -415,14 +415,14 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     timing = np.array(task.crank_angles) if task.crank_angles else None
     fits = fit_curve(task.z, closed=task.closed, timing=timing, number=4 * number)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
-    made: list[Design] = []
+    designs: list[Design] = []
     for k, fit in enumerate(fits):
-        made += _judged(task, replace(demands, tolerance=limit), fit)
+        designs += _judged(task, replace(demands, tolerance=limit), fit)
         if progress is not None:
             progress(k + 1, len(fits))
-        if sum(design.verdict.accepted for design in made) == number:
+        if sum(design.verdict.accepted for design in designs) == number:
             break
-    accepted, rejected = ranked(made)
+    accepted, rejected = ranked(designs)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = f"So many points are met by least squares; accepted is what comes nearer than {limit:g} of the size."
     return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", 0, len(fits), len(fits)), (note,))
@@ -454,9 +454,9 @@ def _judged(task: PathTask, demands: Demands, fit: Fit) -> list[Design]:
         size = _extent(task.z)
         if not task.crank_angles:
             return Targets((Probe("P"),), task.z[:, None], size)
-        assert linkage.home is not None
+        assert linkage.reference_pose is not None
         timing = np.array(task.crank_angles)
-        crank = size * np.exp(1j * (linkage.home["crank"].angle + timing - timing[0]))
+        crank = size * np.exp(1j * (linkage.reference_pose["crank"].angle + timing - timing[0]))
         return Targets((Probe("P"), Probe(link="crank", length=size)), np.stack([task.z, crank], axis=1), size)
 
     return [best_of(linkages[:1] if task.crank_angles else linkages, targets, demands, fit.kind.name)]

@@ -177,9 +177,9 @@ def synthesise_dead_centres(
     family = dead_centre_family(task)
     steps = np.unique(np.linspace(0, len(family.members) - 1, number).astype(int))
     chosen = [family.best, *(family.members[k] for k in steps)]
-    made = [_design(task, member, wanted) for member in chosen]
-    accepted = tuple(sorted((d for d in made if d.verdict.accepted), key=lambda d: -d.verdict.transmission))
-    rejected = tuple(d for d in made if not d.verdict.accepted)
+    designs = [_design(task, member, wanted) for member in chosen]
+    accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: -d.verdict.transmission))
+    rejected = tuple(d for d in designs if not d.verdict.accepted)
     low, high = family.range
     what = "coupler length" if abs(task.angle - pi) < 1e-12 else "crank length"
     unit = "rocker" if task.swing is not None else "stroke"
@@ -189,7 +189,9 @@ def synthesise_dead_centres(
         f"{f' ({unit} 1)' if task.swing is not None else ''}; the best minimum transmission angle is "
         f"{degrees(family.best.transmission):.2f} degrees."
     )
-    return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", None, len(made), len(made)), (note,))
+    return SynthesisResult(
+        task, accepted, rejected, SolutionCount("linkages", None, len(designs), len(designs)), (note,)
+    )
 
 
 def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Design:

@@ -122,10 +122,10 @@ def dyad_of_moving_pivot(given: Displacements, x: complex, /) -> GuidingDyad:
 
 def dyad_of_fixed_pivot(given: Displacements, m: complex, /) -> GuidingDyad:
     """The dyad of two displacements whose pivot on the frame is given: RR, or RP; errors as above."""
-    found = dyad_of_moving_pivot(given.inverse, m)
-    if found.form == "PR":
-        return GuidingDyad("RP", m, m, found.direction)
-    return GuidingDyad("RR", found.fixed, m)
+    guiding_dyad = dyad_of_moving_pivot(given.inverse, m)
+    if guiding_dyad.form == "PR":
+        return GuidingDyad("RP", m, m, guiding_dyad.direction)
+    return GuidingDyad("RR", guiding_dyad.fixed, m)
 
 
 def _centre(places: Complexes) -> complex:

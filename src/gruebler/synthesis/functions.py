@@ -336,17 +336,17 @@ def _judged_function(
     joint(dyad.form[1], "coupler", side, dyad.fixed if dyad.form == "RP" else dyad.moving, dyad.direction)
     joint("R" if side == "rocker" else "P", "frame", side, far)
     mechanism = Mechanism.parse(f"{' '.join(parts)}; frame=frame; drive={parts[0]}")
-    linkage = Linkage.drawn(mechanism, places, unit=task.unit, outputs=[side])
+    linkage = Linkage.from_drawing(mechanism, places, unit=task.unit, outputs=[side])
     return judge_design(linkage, _function_targets(task, linkage, side), demands, form)
 
 
 def _function_targets(task: FunctionTask, linkage: Linkage, side: str) -> Targets:
-    assert linkage.home is not None
+    assert linkage.reference_pose is not None
     phi, out = _arrays(task)
     phi, out = phi - phi[0], out - out[0]
-    crank = np.exp(1j * (linkage.home["crank"].angle + phi))
+    crank = np.exp(1j * (linkage.reference_pose["crank"].angle + phi))
     if side == "rocker":
-        rocker = np.exp(1j * (linkage.home["rocker"].angle + out))
+        rocker = np.exp(1j * (linkage.reference_pose["rocker"].angle + out))
         return Targets((Probe(link="crank"), Probe(link="rocker")), np.stack([crank, rocker], axis=1), 1.0)
     size = float(np.ptp(out)) or 1.0
     probes = (Probe(link="crank", length=size), Probe(joint=3))
@@ -359,7 +359,7 @@ def coordination_of(design: Design, task: FunctionTask, law: FunctionLaw) -> Coo
     The starts are those of x at the begin of the interval.
     """
     linkage = design.linkage
-    chain, home = linkage.mechanism.chain, linkage.home
+    chain, home = linkage.mechanism.chain, linkage.reference_pose
     if home is None or any(joint.pair.name != "revolute" for joint in chain.joints[:3]):
         return None
     places = [

@@ -72,7 +72,7 @@ class Probe(NamedTuple):
         if self.point:
             return poses.complex_point(self.point, order)
         if self.joint >= 0:
-            return poses.slide(self.joint, order).astype(np.complex128)
+            return poses.displacement(self.joint, order).astype(np.complex128)
         out: Complexes = self.length * np.exp(1j * poses.angle(self.link)) * (1j * poses.angle(self.link, 1)) ** order
         return out
 
@@ -81,7 +81,7 @@ class Probe(NamedTuple):
         if self.point:
             return motion.complex_point(self.point)
         if self.joint >= 0:
-            return motion.slide(self.joint).astype(np.complex128)
+            return motion.displacement(self.joint).astype(np.complex128)
         out: Complexes = self.length * np.exp(1j * motion.angle(self.link))
         return out
 
@@ -133,7 +133,7 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     >>> from gruebler.fourbar import FourBar
     >>> bar = FourBar(1, 3, 2.5, 3.5).linkage({"P": (1.2, 0.8)})
     >>> motion = move(bar, np.radians([10.0, 35.0, 60.0]))
-    >>> bar = bar.with_home(motion.home(0))
+    >>> bar = bar.with_reference_pose(motion.pose(0))
     >>> judge_design(bar, point_targets("P", motion.complex_point("P"), 1.0), Demands(), "four-bar").verdict.accepted
     True
     """

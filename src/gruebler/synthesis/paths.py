@@ -81,8 +81,8 @@ def synthesise_path(
 def _as_positions(task: PathTask, demands: Demands) -> SynthesisResult:
     """Every point has its coupler angle: positions."""
     rows = [(*p, a) for p, a in zip(task.points, task.angles, strict=True) if a is not None]
-    found = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands)
-    return SynthesisResult(task, found.designs, found.rejected, found.count, found.notes)
+    result = synthesise_positions(PositionTask(tuple(rows), unit=task.unit), demands)
+    return SynthesisResult(task, result.designs, result.rejected, result.count, result.notes)
 
 
 class _Reduced(NamedTuple):
@@ -107,9 +107,9 @@ def _exact(
 ) -> SynthesisResult:
     made, found = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
-    for one, two in _dyad_pairs(problem, found):
-        one, two = (d.moved(made.size, made.origin) for d in (one, two))  # noqa: PLW2901
-        designs += _judged(task, demands, one, two, made.first)
+    for guiding_dyad, two in _dyad_pairs(problem, found):
+        guiding_dyad, two = (d.moved(made.size, made.origin) for d in (guiding_dyad, two))  # noqa: PLW2901
+        designs += _judged(task, demands, guiding_dyad, two, made.first)
     cognates = 3 if problem.poses == 0 and not problem.given_pivots else 1
     what = "cognate triples" if cognates == 3 else "four-bars"
     accepted, rejected = ranked(designs)
@@ -217,10 +217,10 @@ def _judged(task: PathTask, demands: Demands, one: GuidingDyad, two: GuidingDyad
 def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
     if not any(angle is not None for angle in task.angles):
         return point_targets("P", task.z, task.size)
-    assert linkage.home is not None
+    assert linkage.reference_pose is not None
     start = task.angles[first]
     assert start is not None
-    home = linkage.home["coupler"].angle
+    home = linkage.reference_pose["coupler"].angle
     angles = [None if a is None else home + a - start for a in task.angles]
     return position_targets("P", "coupler", task.z, angles, task.size)
 
@@ -230,7 +230,9 @@ def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
     problem = PROBLEMS[4 if task.fixed_pivots else 0]
     made, found = _best_reference(task, problem, [], None, None)
     pairs = _dyad_pairs(problem, found)
-    return [(one.moved(made.size, made.origin), two.moved(made.size, made.origin)) for one, two in pairs]
+    return [
+        (guiding_dyad.moved(made.size, made.origin), two.moved(made.size, made.origin)) for guiding_dyad, two in pairs
+    ]
 
 
 def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
@@ -276,9 +278,9 @@ def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: Gui
         linkage = linkage_of_dyads(own, other, complex(task.z[0]), task.unit)
     except LinkageError:
         return []
-    assert linkage.home is not None
+    assert linkage.reference_pose is not None
     timing = np.array(task.crank_angles)
-    crank = task.size * np.exp(1j * (linkage.home["crank"].angle + timing - timing[0]))
+    crank = task.size * np.exp(1j * (linkage.reference_pose["crank"].angle + timing - timing[0]))
     probes = (Probe("P"), Probe(link="crank", length=task.size))
     targets = Targets(probes, np.stack([task.z, crank], axis=1), task.size)
     return [judge_design(linkage, targets, demands, f"RR-{other.form}")]

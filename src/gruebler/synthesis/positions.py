@@ -52,15 +52,15 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
 
     Raises `SynthesisError` where a chosen pivot serves no dyad or any.
     """
-    given, origin, size = Displacements.of(task.origins, task.turns)
+    displacements, origin, size = Displacements.of(task.origins, task.turns)
     count = len(task)
     if count == 5:
-        return tuple(dyad.moved(size, origin) for dyad in all_dyads(given).real)
+        return tuple(dyad.moved(size, origin) for dyad in all_dyads(displacements).real)
     if count == 4:
         curves = burmester_curves(task)
         return curves.dyads(number) if curves.pieces else curves.sliding
     if count > 5:
-        return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(given))
+        return tuple(dyad.moved(size, origin) for dyad in _fitted_dyads(displacements))
     chosen: list[tuple[Callable[[Displacements, complex], GuidingDyad], complex]]
     chosen = [(dyad_of_moving_pivot, complex(*p)) for p in task.moving_pivots]
     chosen += [(dyad_of_fixed_pivot, complex(*p)) for p in task.fixed_pivots]
@@ -71,10 +71,12 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         chosen = [(dyad_of_moving_pivot, complex(centre + reach * complex(a, b))) for a in steps for b in steps]
     out = []
     if count == 2:
-        given = Displacements(np.append(given.q, _halfway(given.q[0])), np.append(given.t, _halved(given)))
+        displacements = Displacements(
+            np.append(displacements.q, _halfway(displacements.q[0])), np.append(displacements.t, _halved(displacements))
+        )
     for made, pivot in chosen:
         try:
-            out.append(made(given, (pivot - origin) / size).moved(size, origin))
+            out.append(made(displacements, (pivot - origin) / size).moved(size, origin))
         except SynthesisError:
             if task.moving_pivots or task.fixed_pivots:
                 raise
@@ -117,8 +119,8 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
     notes = []
     found = len(dyads)
     if len(task) == 5:
-        given, *_ = Displacements.of(task.origins, task.turns)
-        found = all_dyads(given).found
+        displacements, *_ = Displacements.of(task.origins, task.turns)
+        found = all_dyads(displacements).found
     else:
         family = {
             2: "every point of the body and every point of the frame is a pivot of infinitely many dyads",
@@ -150,10 +152,10 @@ def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ..
 
 def _judged_pairs(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> list[Design]:
     out = []
-    for one, two in combinations(dyads, 2):
-        form = f"{one.form}-{two.form}"
+    for guiding_dyad, two in combinations(dyads, 2):
+        form = f"{guiding_dyad.form}-{two.form}"
         try:
-            linkages = four_bar_linkages(one, two, complex(task.origins[0]), unit=task.unit)
+            linkages = four_bar_linkages(guiding_dyad, two, complex(task.origins[0]), unit=task.unit)
         except LinkageError:
             continue  # two dyads with a common pivot are no linkage
         out.append(best_of(linkages, partial(_targets, task), demands, form))
@@ -161,8 +163,8 @@ def _judged_pairs(task: PositionTask, demands: Demands, dyads: Sequence[GuidingD
 
 
 def _targets(task: PositionTask, linkage: Linkage) -> Targets:
-    assert linkage.home is not None
-    first = linkage.home["coupler"].angle
+    assert linkage.reference_pose is not None
+    first = linkage.reference_pose["coupler"].angle
     return position_targets("P", "coupler", task.origins, first + task.angles - task.angles[0], task.size)
 
 
@@ -205,7 +207,7 @@ def linkage_of_dyads(one: GuidingDyad, two: GuidingDyad, point: complex, unit: s
             places[name] = (at.real, at.imag, *angle)
     mechanism = Mechanism.parse(f"{parts[0]} {parts[1]} {parts[3]} {parts[2]}; frame=frame; drive={parts[0]}")
     points = {"P": ("coupler", point.real, point.imag)}
-    return Linkage.drawn(mechanism, places, points, unit=unit, outputs=[second])
+    return Linkage.from_drawing(mechanism, places, points, unit=unit, outputs=[second])
 
 
 def _fitted_dyads(given: Displacements) -> list[GuidingDyad]:
@@ -274,8 +276,8 @@ def _apart(one: GuidingDyad, other: GuidingDyad) -> bool:
 def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDyad]) -> SynthesisResult:
     """More than five positions: the pairs of fitted dyads, judged by how near they come to each position."""
     tolerance = demands.tolerance if demands.tolerance > 1e-6 else NEAR
-    made = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
-    accepted, rejected = ranked(made)
+    designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
+    accepted, rejected = ranked(designs)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = (
         f"More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted."

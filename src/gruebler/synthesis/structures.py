@@ -116,8 +116,8 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
 
 def _fitted(task: PathTask, demands: Demands, link: str, job: tuple[Mechanism, int]) -> list[Design]:
     mechanism, seed = job
-    made = fit_structure(task, mechanism, demands, seed=seed, link=link)
-    return [] if made is None else [made]
+    design = fit_structure(task, mechanism, demands, seed=seed, link=link)
+    return [] if design is None else [design]
 
 
 def fit_structure(

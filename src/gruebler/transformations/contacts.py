@@ -45,9 +45,9 @@ def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | 
     if chain.joints[joint].pair.name != "roll_slide":
         raise TransformationError(f"{chain.joints[joint]} is not a roll-slide joint")
     (name,) = new_link_names(chain, 1, None if link is None else [link])
-    sketch = ChainBuilder(chain)
-    sketch.joints[joint : joint + 1] = [(one, [a, name]), (other, [name, *rest])]
-    return Step("replace_roll_slide", {"joint": joint, "pairs": word, "link": name}, chain, sketch.done([name]))
+    builder = ChainBuilder(chain)
+    builder.joints[joint : joint + 1] = [(one, [a, name]), (other, [name, *rest])]
+    return Step("replace_roll_slide", {"joint": joint, "pairs": word, "link": name}, chain, builder.done([name]))
 
 
 def restore_roll_slide(chain: Chain, link: str) -> Step:

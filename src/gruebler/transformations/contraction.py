@@ -79,16 +79,16 @@ def expand(
             "the two parts are joined by a new joint of a given pair, or at a joint of the link that does not move"
         )
     (name,) = new_link_names(chain, 1, None if new is None else [new])
-    sketch = ChainBuilder(chain)
+    builder = ChainBuilder(chain)
     for number in joints:
-        carriers = sketch.joints[number][1]
+        carriers = builder.joints[number][1]
         carriers[carriers.index(link)] = name
     where: dict[str, object] = {"link": link, "joints": list(joints), "new": name}
     if at is None:
         joining = pair if isinstance(pair, Pair) else pairs.pair(pair or "revolute")
-        sketch.add(joining, [link, name])
+        builder.add(joining, [link, name])
         where["pair"] = joining.name
     else:
-        sketch.attach(at, chain.joints[at].pair, [name])
+        builder.attach(at, chain.joints[at].pair, [name])
         where["at"] = at
-    return Step("expand", where, chain, sketch.done([name]))
+    return Step("expand", where, chain, builder.done([name]))

@@ -60,12 +60,12 @@ def insert_dyad(chain: Chain, form: str, between: Sequence[Attachment], links: S
     one, other = _two(between)
     check_not_on_one_link(chain, [one, other], "dyad")
     x, y = new_link_names(chain, 2, links)
-    sketch = ChainBuilder(chain)
-    sketch.attach(one, first, [x])
-    sketch.add(middle, [x, y])
-    sketch.attach(other, last, [y], last=True)
+    builder = ChainBuilder(chain)
+    builder.attach(one, first, [x])
+    builder.add(middle, [x, y])
+    builder.attach(other, last, [y], last=True)
     where = {"form": word, "between": [one, other], "links": [x, y]}
-    return Step("insert_dyad", where, chain, sketch.done([x, y]))
+    return Step("insert_dyad", where, chain, builder.done([x, y]))
 
 
 def remove_dyad(chain: Chain, links: Sequence[str]) -> Step:
@@ -76,8 +76,8 @@ def remove_dyad(chain: Chain, links: Sequence[str]) -> Step:
     >>> print(remove_dyad(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"), ["4", "5"]).chain)
     R(0-1) R(1-2) R(2-3) R(3-0)
     """
-    found = dyad_at(chain, links)
-    return Step("remove_dyad", {"links": list(links)}, chain, found.rest)
+    insertion = dyad_at(chain, links)
+    return Step("remove_dyad", {"links": list(links)}, chain, insertion.rest)
 
 
 def insert_coupler(chain: Chain, between: Sequence[Attachment], pairs: str = "RR", link: str | None = None) -> Step:
@@ -97,11 +97,11 @@ def insert_coupler(chain: Chain, between: Sequence[Attachment], pairs: str = "RR
     one, other = _two(between)
     check_not_on_one_link(chain, [one, other], "coupler")
     (x,) = new_link_names(chain, 1, None if link is None else [link])
-    sketch = ChainBuilder(chain)
-    sketch.attach(one, first, [x])
-    sketch.attach(other, last, [x], last=True)
+    builder = ChainBuilder(chain)
+    builder.attach(one, first, [x])
+    builder.attach(other, last, [x], last=True)
     where = {"between": [one, other], "pairs": letters_of_pairs((first, last)), "link": x}
-    return Step("insert_coupler", where, chain, sketch.done([x]))
+    return Step("insert_coupler", where, chain, builder.done([x]))
 
 
 def remove_coupler(chain: Chain, link: str) -> Step:

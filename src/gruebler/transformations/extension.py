@@ -87,7 +87,7 @@ def grow_family(start: Chain, links: int, forms: Iterable[str] = ("RRR",)) -> It
         following: dict[str, Chain] = {}
         for chain in level.values():
             for form in wanted:
-                for found in extend(chain, dyad=form):
-                    following.setdefault(found.code, found.chain)
+                for extension in extend(chain, dyad=form):
+                    following.setdefault(extension.code, extension.chain)
         level = following
     yield from (chain for chain in level.values() if chain.n == links)

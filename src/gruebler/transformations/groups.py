@@ -45,16 +45,16 @@ def insert_group(
     names = new_link_names(chain, len(group.links), links)
     new = dict(zip(group.links, names, strict=True))
     outside = dict(zip(group.places, at, strict=True))
-    sketch = ChainBuilder(chain)
+    builder = ChainBuilder(chain)
     for joint in group.chain.joints:
         mine = [new[link] for link in joint.links if link in new]
         place = next((outside[link] for link in joint.links if link in outside), None)
         if place is None:
-            sketch.add(joint.pair, mine)
+            builder.add(joint.pair, mine)
         else:
-            sketch.attach(place, joint.pair, mine)
+            builder.attach(place, joint.pair, mine)
     where = {"group": str(group), "at": list(at), "links": names}
-    return Step("insert_group", where, chain, sketch.done(names))
+    return Step("insert_group", where, chain, builder.done(names))
 
 
 def remove_group(chain: Chain, links: Sequence[str]) -> Step:

@@ -119,13 +119,13 @@ def explain_step(step: Step, lang: str) -> str:
     return words[step.kind].format(**values)
 
 
-def explain_derivation(way: Derivation, lang: str) -> str:
+def explain_derivation(derivation: Derivation, lang: str) -> str:
     """A line for the start, for each step, and for the chain at the end."""
     words, alphabet = _GROWTH[lang], _alphabet(lang)
-    lines = [words["start"].format(chain=way.start.text(alphabet))]
-    lines += [f"{number}. {step.explain(lang)}" for number, step in enumerate(way.steps, 1)]
-    if way.steps:
-        lines.append(words["end"].format(chain=way.chain.text(alphabet)))
+    lines = [words["start"].format(chain=derivation.start.text(alphabet))]
+    lines += [f"{number}. {step.explain(lang)}" for number, step in enumerate(derivation.steps, 1)]
+    if derivation.steps:
+        lines.append(words["end"].format(chain=derivation.chain.text(alphabet)))
     return "\n".join(lines)
 
 

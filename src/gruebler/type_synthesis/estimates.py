@@ -16,11 +16,11 @@ _FRAME = 3e-4
 _DRIVEN = 1e-3  # a frame with its drives, whether they fix the motion
 
 
-def expected_seconds_of_variants(wanted: Requirements, *, mechanisms: bool, drives: bool) -> float:
+def expected_seconds_of_variants(requirements: Requirements, *, mechanisms: bool, drives: bool) -> float:
     """About how long `variants` takes, to a factor of three or so; symmetry makes it shorter.
 
     Args:
-        wanted: the requirements.
+        requirements: the requirements.
         mechanisms: whether frames are distinguished.
         drives: whether drives are, too.
 
@@ -35,15 +35,20 @@ def expected_seconds_of_variants(wanted: Requirements, *, mechanisms: bool, driv
     from gruebler.enumeration.estimates import expected_chains
     from gruebler.enumeration.request import Request
 
-    links = wanted.links + wanted.roll_slide
-    chains, _ = expected_chains(Request(links, wanted.mobility, "all", None, wanted.multiple_joints))
-    simple = (joint_count(links, wanted.mobility) or 0) - 2 * (wanted.multiple_joints + wanted.roll_slide)
-    left = max(0, simple - wanted.prismatic)
-    typed = (
-        chains * comb(links, wanted.roll_slide) * comb(max(0, simple), wanted.prismatic) * comb(left, wanted.rolling)
+    links = requirements.links + requirements.roll_slide
+    chains, _ = expected_chains(Request(links, requirements.mobility, "all", None, requirements.multiple_joints))
+    simple = (joint_count(links, requirements.mobility) or 0) - 2 * (
+        requirements.multiple_joints + requirements.roll_slide
     )
-    seconds = chains * _CHAIN + typed * (_TYPED + _RANK * (wanted.prismatic > 0))
+    left = max(0, simple - requirements.prismatic)
+    typed = (
+        chains
+        * comb(links, requirements.roll_slide)
+        * comb(max(0, simple), requirements.prismatic)
+        * comb(left, requirements.rolling)
+    )
+    seconds = chains * _CHAIN + typed * (_TYPED + _RANK * (requirements.prismatic > 0))
     if drives:
         # A link has two or three joints, each of which can be driven when it is the frame.
-        return seconds + typed * comb(3 * wanted.links, max(1, wanted.mobility)) * _DRIVEN
-    return seconds + typed * wanted.links * _FRAME * mechanisms
+        return seconds + typed * comb(3 * requirements.links, max(1, requirements.mobility)) * _DRIVEN
+    return seconds + typed * requirements.links * _FRAME * mechanisms

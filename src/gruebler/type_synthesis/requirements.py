@@ -92,9 +92,9 @@ class Requirements:
 
     def fits_frame(self, chain: Chain, frame: str) -> bool:
         """Whether this link may be the frame."""
-        mine = chain.joints_of(frame)
-        return (self.frame_joints is None or len(mine) == self.frame_joints) and all(
-            sum(wanted.fits(joint, frame) for joint in mine) >= number for wanted, number in self.at_frame
+        joints = chain.joints_of(frame)
+        return (self.frame_joints is None or len(joints) == self.frame_joints) and all(
+            sum(wanted.fits(joint, frame) for joint in joints) >= number for wanted, number in self.at_frame
         )
 
     def fits_driven(self, driven: DrivenMechanism) -> bool:

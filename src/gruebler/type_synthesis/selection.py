@@ -16,7 +16,7 @@ from gruebler.type_synthesis.requirements import JointLocation, Requirements
 __all__ = ["typed_chains", "variants"]
 
 
-def typed_chains(wanted: Requirements) -> Iterator[Chain]:
+def typed_chains(requirements: Requirements) -> Iterator[Chain]:
     """All typed chains with the wanted links, mobility and pairs, in which every joint moves.
 
     The chains of revolutes with one more link for each contact are enumerated, contacts are put in the place of binary
@@ -25,46 +25,49 @@ def typed_chains(wanted: Requirements) -> Iterator[Chain]:
     """
     from gruebler.enumeration import chains
 
-    if wanted.links < 3:
-        raise GrueblerError(f"a chain has at least three links, not {wanted.links}")
-    kinds = {pair("prismatic"): wanted.prismatic, pair("rolling"): wanted.rolling}
+    if requirements.links < 3:
+        raise GrueblerError(f"a chain has at least three links, not {requirements.links}")
+    kinds = {pair("prismatic"): requirements.prismatic, pair("rolling"): requirements.rolling}
     base = chains(
-        wanted.links + wanted.roll_slide, wanted.mobility, fractionated="all", multiple_joints=wanted.multiple_joints
+        requirements.links + requirements.roll_slide,
+        requirements.mobility,
+        fractionated="all",
+        multiple_joints=requirements.multiple_joints,
     )
     for chain in base:
-        for touching in with_contacts(chain, wanted.roll_slide):
+        for touching in with_contacts(chain, requirements.roll_slide):
             if sum(kinds.values()) > sum(j.pair.name == "revolute" and j.count == 1 for j in touching.joints):
                 continue
             for typed in assignments(touching, {k: number for k, number in kinds.items() if number}):
-                if wanted.assortment in (None, typed.assortment) and (
-                    not wanted.prismatic or every_joint_moves(typed, wanted.mobility)
+                if requirements.assortment in (None, typed.assortment) and (
+                    not requirements.prismatic or every_joint_moves(typed, requirements.mobility)
                 ):
                     yield typed
 
 
-def variants(wanted: Requirements) -> Iterator[Chain | DrivenMechanism]:
+def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
     """Everything that answers the requirements: typed chains, or mechanisms where frame, drive or output matter.
 
     Drives fix the motion: as many as the mobility, none against another.
     """
-    for chain in typed_chains(wanted):
-        if not wanted.about_mechanisms:
+    for chain in typed_chains(requirements):
+        if not requirements.about_mechanisms:
             yield chain
-        elif not wanted.about_drives:
-            yield from (DrivenMechanism(m) for m in inversions(chain) if wanted.fits_frame(chain, m.frame))
+        elif not requirements.about_drives:
+            yield from (DrivenMechanism(m) for m in inversions(chain) if requirements.fits_frame(chain, m.frame))
         else:
-            yield from _driven(chain, wanted)
+            yield from _driven(chain, requirements)
 
 
-def _driven(chain: Chain, wanted: Requirements) -> Iterator[DrivenMechanism]:
-    if wanted.drives and len(wanted.drives) != wanted.mobility:
-        raise GrueblerError(f"mobility {wanted.mobility} takes as many drives, not {len(wanted.drives)}")
-    at_frame = all(d.place is JointLocation.FRAME for d in wanted.drives)
-    with_output = wanted.output is not None or wanted.output_at_drive is not None
+def _driven(chain: Chain, requirements: Requirements) -> Iterator[DrivenMechanism]:
+    if requirements.drives and len(requirements.drives) != requirements.mobility:
+        raise GrueblerError(f"mobility {requirements.mobility} takes as many drives, not {len(requirements.drives)}")
+    at_frame = all(d.place is JointLocation.FRAME for d in requirements.drives)
+    with_output = requirements.output is not None or requirements.output_at_drive is not None
     fixed: dict[Mechanism, bool] = {}
-    for driven in driven_mechanisms(chain, drives=wanted.mobility, at_frame=at_frame, output=with_output):
+    for driven in driven_mechanisms(chain, drives=requirements.mobility, at_frame=at_frame, output=with_output):
         mechanism = driven.mechanism
-        if wanted.fits_frame(chain, mechanism.frame) and wanted.fits_driven(driven):
+        if requirements.fits_frame(chain, mechanism.frame) and requirements.fits_driven(driven):
             if mechanism not in fixed:
                 fixed[mechanism] = check_drives(mechanism).fixed
             if fixed[mechanism]:

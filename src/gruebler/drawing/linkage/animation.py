@@ -49,7 +49,7 @@ class AnimationOptions(TypedDict, total=False):
 class Scene(NamedTuple):
     """A linkage through a full turn of its drive, or to and fro, in pixels."""
 
-    stage: PosedLinkage
+    posed: PosedLinkage
     pieces: tuple[BodyPart, ...]
     still: tuple[Shape, ...]
     """Curves."""
@@ -63,8 +63,8 @@ class Scene(NamedTuple):
     @property
     def rows(self) -> list[int]:
         """The poses in the order in which they come, evenly in time; the last is the first again."""
-        there = [*range(len(self.stage.path))]
-        return there if self.stage.goes_round else there + there[-2::-1]
+        there = [*range(len(self.posed.path))]
+        return there if self.posed.goes_round else there + there[-2::-1]
 
 
 def scene(
@@ -94,18 +94,18 @@ def scene(
     """
     if not 0 < seconds <= _LONGEST:
         raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
-    stage = posed_linkage(linkage, branch=branch, between=between, drives=drives)
-    turns = stage.driven().span.turns
-    pieces = (*body_parts(stage), *drive_parts(stage))
-    rows = range(0, len(stage.path), 2)
-    poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(stage, part, stage.path, row)]
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(stage, one)]
+    posed = posed_linkage(linkage, branch=branch, between=between, drives=drives)
+    turns = posed.driven().span.turns
+    pieces = (*body_parts(posed), *drive_parts(posed))
+    rows = range(0, len(posed.path), 2)
+    poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(posed, part, posed.path, row)]
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, one)]
     still = tuple(curve)
     corner, size = bounds([*poses, *still], MARGIN)
-    words = _WORDS[lang][stage.goes_round].format(turns=turns)
+    words = _WORDS[lang][posed.goes_round].format(turns=turns)
     described = f"{describe(linkage.mechanism, lang)} {words}"
     page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
-    return Scene(stage, pieces, still, corner, page, seconds * (turns if stage.goes_round else 1))
+    return Scene(posed, pieces, still, corner, page, seconds * (turns if posed.goes_round else 1))
 
 
 def animated_svg(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
@@ -139,7 +139,7 @@ class _Motion:
     """Writes parts as groups that move for ever."""
 
     def __init__(self, shown: Scene) -> None:
-        self.stage = shown.stage
+        self.stage = shown.posed
         self.rows = shown.rows
         self.timing = f'dur="{shown.seconds:g}s" repeatCount="indefinite"'
 

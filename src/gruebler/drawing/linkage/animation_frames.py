@@ -42,13 +42,13 @@ def animated_frames(
 
 def _figure(shown: Scene, row: int) -> Figure:
     """The scene in one pose."""
-    stage, by = shown.stage, Point(-shown.corner.x, -shown.corner.y)
+    posed, by = shown.posed, Point(-shown.corner.x, -shown.corner.y)
     below, above = (
         [
             shape
             for part in shown.pieces
             if (part.layer >= PINS) == pins
-            for shape in shapes_at_pose(stage, part, stage.path, row)
+            for shape in shapes_at_pose(posed, part, posed.path, row)
         ]
         for pins in (False, True)
     )

@@ -35,18 +35,18 @@ def animated_page(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
 
 def _settings(shown: Scene) -> PageSettings:
     """Those of a linkage."""
-    stage = shown.stage
-    ends = stage.path.drives[[0, -1]]
+    posed = shown.posed
+    ends = posed.path.drives[[0, -1]]
     rising = np.flatnonzero(ends[1] > ends[0])
     if not len(rising):  # a path on which no drive grows: the part of it
         return PageSettings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
-    turning = stage.linkage.mechanism.drives[rising[0]].direction.startswith("R")
+    turning = posed.linkage.mechanism.drives[rising[0]].direction.startswith("R")
     low, high = (math.degrees(q) if turning else float(q) for q in ends[:, rising[0]])
     return PageSettings(
         low=round(low, 6),
         high=round(high, 6),
         seconds=shown.seconds,
-        round=stage.goes_round,
+        round=posed.goes_round,
         places=1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
-        unit="°" if turning else f" {stage.linkage.unit}",
+        unit="°" if turning else f" {posed.linkage.unit}",
     )

@@ -23,47 +23,47 @@ _BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
 _RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
 
 
-def velocity_arrows(sheet: LayerContext) -> list[Shape]:
+def velocity_arrows(context: LayerContext) -> list[Shape]:
     """Velocities of joints and named points for a drive of speed 1."""
-    return _arrows(sheet.stage, 1, "velocity")
+    return _arrows(context.posed, 1, "velocity")
 
 
-def acceleration_arrows(sheet: LayerContext) -> list[Shape]:
+def acceleration_arrows(context: LayerContext) -> list[Shape]:
     """Accelerations of joints and named points for a drive of even speed 1."""
-    return _arrows(sheet.stage, 2, "acceleration")
+    return _arrows(context.posed, 2, "acceleration")
 
 
-def _rates(stage: PosedLinkage, order: int) -> list[tuple[complex, complex]]:
+def _rates(posed: PosedLinkage, order: int) -> list[tuple[complex, complex]]:
     """Places of joints and named points, each once, with their velocities or accelerations."""
-    stage.driven()
+    posed.driven()
     pairs = {}
-    for place in _moving_points(stage):
-        at, rate = (complex(stage.pose.complex_point(place, k)[0]) for k in (0, order))
+    for place in _moving_points(posed):
+        at, rate = (complex(posed.pose.complex_point(place, k)[0]) for k in (0, order))
         pairs[round(at.real, 9), round(at.imag, 9)] = at, rate
     return list(pairs.values())
 
 
-def _longest(stage: PosedLinkage, rates: Sequence[tuple[complex, complex]]) -> float:
+def _longest(posed: PosedLinkage, rates: Sequence[tuple[complex, complex]]) -> float:
     """The length of the longest one; 0 if nothing moves, or infinitely fast."""
     longest = max((abs(rate) for _, rate in rates), default=0.0)
-    return longest if _REST * stage.lower.size < longest < math.inf else 0.0
+    return longest if _REST * posed.lower.size < longest < math.inf else 0.0
 
 
-def _arrows(stage: PosedLinkage, order: int, style: str) -> list[Shape]:
-    rates = _rates(stage, order)
-    longest = _longest(stage, rates)
+def _arrows(posed: PosedLinkage, order: int, style: str) -> list[Shape]:
+    rates = _rates(posed, order)
+    longest = _longest(posed, rates)
     shapes: list[Shape] = []
     for at, rate in rates if longest else ():
         if abs(rate) > _LEAST * longest:
             way = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
-            tip = stage.local(at).plus(way.unit, max(way.length - 7.0, 1.0))
-            shapes += arrow(stage.local(at), tip, style, f"{style}-head")
+            tip = posed.local(at).plus(way.unit, max(way.length - 7.0, 1.0))
+            shapes += arrow(posed.local(at), tip, style, f"{style}-head")
     return shapes
 
 
-def _moving_points(stage: PosedLinkage) -> list[LinkPoint]:
+def _moving_points(posed: PosedLinkage) -> list[LinkPoint]:
     """Named points, and turning joints away from the frame."""
-    lower, mechanism = stage.lower, stage.lower.mechanism
+    lower, mechanism = posed.lower, posed.lower.mechanism
     places = list(lower.points.values())
     for number, joint in enumerate(mechanism.chain.joints):
         if joint.pair.name == "revolute" and mechanism.frame not in joint.links:
@@ -81,17 +81,17 @@ class _ScaleBar(NamedTuple):
     style: str
 
 
-def scale_bars(sheet: LayerContext, layers: Sequence[str]) -> list[Shape]:
+def scale_bars(context: LayerContext, layers: Sequence[str]) -> list[Shape]:
     """Bars of round numbers of units for arrows and lengths, one below the other, below all that is drawn."""
-    corner, size = bounds(sheet.drawn, 0.0)
+    corner, size = bounds(context.drawn, 0.0)
     shapes: list[Shape] = []
-    bars = [bar for key in layers if (bar := _bar(sheet.stage, key)) is not None]
+    bars = [bar for key in layers if (bar := _bar(context.posed, key)) is not None]
     for k, bar in enumerate(bars):
         number = _round(bar.most)
         left = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
         right = left.plus(_RIGHT, number * bar.pixels / bar.most)
         ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (left, right)]
-        words = as_text(number, bar.unit, sheet.lang)
+        words = as_text(number, bar.unit, context.lang)
         shapes += [
             Polylines(((left, right), *ends), bar.style),
             TextShape(right.plus(_RIGHT, 9.0), words, "value", "start"),
@@ -99,15 +99,15 @@ def scale_bars(sheet: LayerContext, layers: Sequence[str]) -> list[Shape]:
     return shapes
 
 
-def _bar(stage: PosedLinkage, key: str) -> _ScaleBar | None:
-    unit = stage.linkage.unit
+def _bar(posed: PosedLinkage, key: str) -> _ScaleBar | None:
+    unit = posed.linkage.unit
     if key == "scale":
-        return _ScaleBar(_LENGTH, _LENGTH / stage.scale, unit, "measure")
+        return _ScaleBar(_LENGTH, _LENGTH / posed.scale, unit, "measure")
     order = {"velocities": 1, "accelerations": 2}.get(key, 0)
-    longest = _longest(stage, _rates(stage, order)) if order else 0.0
+    longest = _longest(posed, _rates(posed, order)) if order else 0.0
     if not longest:
         return None
-    by = f"{'rad' if stage.driven().turning_drive else unit}{'²' if order == 2 else ''}"
+    by = f"{'rad' if posed.driven().turning_drive else unit}{'²' if order == 2 else ''}"
     return _ScaleBar(_LONGEST, longest, f"{unit}/{by}", ("velocity", "acceleration")[order - 1])
 
 

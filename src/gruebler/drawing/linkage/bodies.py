@@ -74,42 +74,42 @@ class Slide(NamedTuple):
 # --- sliding joints ------------------------------------------------------------------------------
 
 
-def slides(stage: PosedLinkage) -> tuple[Slide, ...]:
+def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
     """The sliding joints, with how far their blocks go on the path of the stage."""
-    chain = stage.lower.mechanism.chain
-    return tuple(_slide(stage, k) for k, joint in enumerate(chain.joints) if joint.pair.name == "prismatic")
+    chain = posed.lower.mechanism.chain
+    return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.name == "prismatic")
 
 
-def _slide(stage: PosedLinkage, number: int) -> Slide:
-    lower = stage.lower
-    guide, block = _guide_and_block(stage, number)
+def _slide(posed: PosedLinkage, number: int) -> Slide:
+    lower = posed.lower
+    guide, block = _guide_and_block(posed, number)
     line, own = lower.elements[number, guide], lower.elements[number, block]
     assert isinstance(line, Line)
     assert isinstance(own, Line)
     middle = _foot(lower, block, own)
     start, along = complex(line.x, line.y), cmath.rect(1, line.angle)
-    places = np.concatenate([_seen(motion, guide, block, middle) for motion in (stage.path, stage.pose)])
+    places = np.concatenate([_seen(motion, guide, block, middle) for motion in (posed.path, posed.pose)])
     ways = ((places - start) * along.conjugate()).real
     low, high = float(ways.min()), float(ways.max())
     sign = "block"
-    if block not in stage.linkage.mechanism.chain.links and pins_of(lower, block):
+    if block not in posed.linkage.mechanism.chain.links and pins_of(lower, block):
         sign = "slot"
     elif _is_cylinder(lower, number, guide, start, along, low, high):
         sign = "cylinder"
     return Slide(number, guide, block, sign, middle, along, start + low * along, start + high * along)
 
 
-def _guide_and_block(stage: PosedLinkage, number: int) -> tuple[str, str]:
+def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
     """The frame is the guide, a link that stands for a pin in a slot the block; else the one with fewer joints is.
 
     Of two links alike the one that is called so is the block, else the one named second.
     """
-    mechanism, given = stage.lower.mechanism, stage.linkage.mechanism.chain.links
+    mechanism, given = posed.lower.mechanism, posed.linkage.mechanism.chain.links
     chain = mechanism.chain
 
     def rank(link: str) -> tuple[bool, bool, int, bool]:
         joints = sum(link in joint.links for joint in chain.joints)
-        points = sum(point.link == link for point in stage.lower.points.values())
+        points = sum(point.link == link for point in posed.lower.points.values())
         return (
             link not in given,
             link != mechanism.frame,
@@ -161,35 +161,35 @@ def _is_cylinder(
 # --- bodies --------------------------------------------------------------------------------------
 
 
-def body_parts(stage: PosedLinkage) -> tuple[BodyPart, ...]:
+def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
     """All parts of the linkage, from below."""
-    found = slides(stage)
-    frame = stage.lower.mechanism.frame
-    links = [link for link in stage.lower.mechanism.chain.links if link != frame]
-    bodies = {link: _body(stage, link, found) for link in links}
-    made = [BodyPart(FRAME, *part) for part in round_parts(stage)]
-    made += [BodyPart(FRAME, frame, tuple(_ground(stage, found)))]
+    found = slides(posed)
+    frame = posed.lower.mechanism.frame
+    links = [link for link in posed.lower.mechanism.chain.links if link != frame]
+    bodies = {link: _body(posed, link, found) for link in links}
+    made = [BodyPart(FRAME, *part) for part in round_parts(posed)]
+    made += [BodyPart(FRAME, frame, tuple(_ground(posed, found)))]
     made += [
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
     ]
-    made += [BodyPart(BODIES, frame, tuple(_pedestal(stage, pin))) for pin in _covered(stage, found)]
-    made += [_block(stage, slide) for slide in found if slide.sign != "slot"]
-    made += _pin_parts(stage)
+    made += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in _covered(posed, found)]
+    made += [_block(posed, slide) for slide in found if slide.sign != "slot"]
+    made += _pin_parts(posed)
     return tuple(part for part in made if part.shapes)
 
 
-def corners_of(stage: PosedLinkage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
+def corners_of(posed: PosedLinkage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
     """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
-    lower = stage.lower
+    lower = posed.lower
     nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
     nodes += [slide.middle for slide in found if slide.block == link and slide.sign != "cylinder"]
     for slide in found:
         if slide.guide == link and slide.sign != "cylinder":
             middle = sum(nodes) / len(nodes) if nodes else slide.low
             way = ((middle - slide.low) * slide.along.conjugate()).real
-            more = _reach(slide) / stage.scale
+            more = _reach(slide) / posed.scale
             nodes.append(slide.low + slide.along * min(max(way, -more), abs(slide.high - slide.low) + more))
-    return hull([stage.local(z) for z in nodes], _FLAT * lower.size * stage.scale)
+    return hull([posed.local(z) for z in nodes], _FLAT * lower.size * posed.scale)
 
 
 def hull(points: Sequence[Point], flat: float) -> tuple[Point, ...]:
@@ -213,9 +213,9 @@ def _height(a: Point, b: Point, c: Point) -> float:
     return b.minus(a).unit.across.dot(c.minus(a))
 
 
-def _body(stage: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
+def _body(posed: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
     """A bar or polygon through the joints, and bars for its guides; outlines first, so that they grow together."""
-    corners = corners_of(stage, link, found)
+    corners = corners_of(posed, link, found)
     outlines: list[Shape] = []
     fills: list[Shape] = []
     slots: list[Shape] = []
@@ -226,11 +226,11 @@ def _body(stage: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shap
     for slide in found:
         if slide.sign == "cylinder":
             if link in (slide.guide, slide.block):
-                line, wide = _cylinder(stage, slide, link)
+                line, wide = _cylinder(posed, slide, link)
                 outlines.append(Polylines(line, f"outline-{wide}"))
                 fills.append(Polylines(line, f"body-{wide}"))
         elif slide.guide == link:
-            line = (_guide_line(stage, slide, _reach(slide)),)
+            line = (_guide_line(posed, slide, _reach(slide)),)
             wide = "wide" if slide.sign == "slot" else "bar"
             outlines.append(Polylines(line, f"outline-{wide}"))
             fills.append(Polylines(line, f"body-{wide}"))
@@ -244,30 +244,30 @@ def _reach(slide: Slide) -> float:
     return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
 
 
-def _guide_line(stage: PosedLinkage, slide: Slide, beyond: float) -> tuple[Point, Point]:
-    more = max(beyond, 1.0) / stage.scale * slide.along
-    return stage.local(slide.low - more), stage.local(slide.high + more)
+def _guide_line(posed: PosedLinkage, slide: Slide, beyond: float) -> tuple[Point, Point]:
+    more = max(beyond, 1.0) / posed.scale * slide.along
+    return posed.local(slide.low - more), posed.local(slide.high + more)
 
 
-def barrel(stage: PosedLinkage, slide: Slide) -> tuple[Point, Point]:
+def barrel(posed: PosedLinkage, slide: Slide) -> tuple[Point, Point]:
     """The middle line of a barrel: from near its pin as far as the shortest length allows."""
-    pin = stage.local(pins_of(stage.lower, slide.guide)[0])
-    ends = sorted((stage.local(slide.low), stage.local(slide.high)), key=lambda end: end.minus(pin).length)
+    pin = posed.local(pins_of(posed.lower, slide.guide)[0])
+    ends = sorted((posed.local(slide.low), posed.local(slide.high)), key=lambda end: end.minus(pin).length)
     along = ends[0].minus(pin)
     return pin.plus(along.unit, 11.0), pin.plus(along, 0.93)
 
 
-def _cylinder(stage: PosedLinkage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
+def _cylinder(posed: PosedLinkage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
     """What carries the barrel, or the rod from its pin into the barrel, also where the cylinder is longest."""
-    lower = stage.lower
+    lower = posed.lower
     pin = pins_of(lower, slide.guide)[0]
     if link == slide.guide:
-        return ((stage.local(pin), barrel(stage, slide)[0]),), "bar"
+        return ((posed.local(pin), barrel(posed, slide)[0]),), "bar"
     line = lower.elements[slide.joint, link]
     assert isinstance(line, Line)
     forward = ((slide.low - pin) * slide.along.conjugate()).real > 0
     length = 0.9 * min(abs(slide.low - pin), abs(slide.high - pin)) * (-1 if forward else 1)
-    return ((stage.local(slide.middle), stage.local(slide.middle + cmath.rect(length, line.angle))),), "rod"
+    return ((posed.local(slide.middle), posed.local(slide.middle + cmath.rect(length, line.angle))),), "rod"
 
 
 def _extent(shapes: list[Shape]) -> float:
@@ -275,15 +275,15 @@ def _extent(shapes: list[Shape]) -> float:
     return max((math.dist(a, b) for a in points for b in points), default=0.0)
 
 
-def _block(stage: PosedLinkage, slide: Slide) -> BodyPart:
+def _block(posed: PosedLinkage, slide: Slide) -> BodyPart:
     """A rectangle: a block along its guide, or the barrel of a cylinder."""
     if slide.sign == "cylinder":
-        a, b = barrel(stage, slide)
+        a, b = barrel(posed, slide)
         return BodyPart(BLOCKS, slide.guide, (_box(a, b, _BARREL),))
-    line = stage.lower.elements[slide.joint, slide.block]
+    line = posed.lower.elements[slide.joint, slide.block]
     assert isinstance(line, Line)
     u = Point(math.cos(line.angle), -math.sin(line.angle))
-    at = stage.local(slide.middle)
+    at = posed.local(slide.middle)
     return BodyPart(BLOCKS, slide.block, (_box(at.plus(u, -_BLOCK[0]), at.plus(u, _BLOCK[0]), _BLOCK[1]),))
 
 
@@ -296,26 +296,26 @@ def _box(a: Point, b: Point, half: float) -> Polylines:
 # --- the frame and the pins ----------------------------------------------------------------------
 
 
-def _ground(stage: PosedLinkage, found: tuple[Slide, ...]) -> list[Shape]:
+def _ground(posed: PosedLinkage, found: tuple[Slide, ...]) -> list[Shape]:
     """Rails with hatching along the guides of the frame, a pedestal below each of its pins."""
-    lower, frame = stage.lower, stage.lower.mechanism.frame
+    lower, frame = posed.lower, posed.lower.mechanism.frame
     shapes: list[Shape] = []
     for slide in found:
         if slide.guide == frame:
-            a, b = _guide_line(stage, slide, _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND)
+            a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND)
             half = 8.5 if slide.sign == "slot" else _BLOCK[1] + 2.5
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
-    covered = set(_covered(stage, found))
+    covered = set(_covered(posed, found))
     for pin in dict.fromkeys(pins_of(lower, frame)):
         if pin not in covered:
-            shapes += _pedestal(stage, pin)
+            shapes += _pedestal(posed, pin)
     return shapes
 
 
-def _pedestal(stage: PosedLinkage, pin: complex) -> list[Shape]:
-    at = stage.local(pin)
+def _pedestal(posed: PosedLinkage, pin: complex) -> list[Shape]:
+    at = posed.local(pin)
     left, right = (Point(at.x + s * _FOOT.x, at.y + _FOOT.y) for s in (-1, 1))
     base = left.plus(Point(-5.0, 0.0)), right.plus(Point(5.0, 0.0))
     return [
@@ -325,22 +325,22 @@ def _pedestal(stage: PosedLinkage, pin: complex) -> list[Shape]:
     ]
 
 
-def _covered(stage: PosedLinkage, found: tuple[Slide, ...]) -> list[complex]:
+def _covered(posed: PosedLinkage, found: tuple[Slide, ...]) -> list[complex]:
     """The pins of the frame whose pedestals the body of another link would cover in the pose: they stand before it."""
-    lower, frame = stage.lower, stage.lower.mechanism.frame
+    lower, frame = posed.lower, posed.lower.mechanism.frame
     joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
     out = []
     for number, joint in enumerate(lower.mechanism.chain.joints):
         element = lower.elements.get((number, frame))
         if not isinstance(element, Pin):
             continue
-        foot = Point(*stage.place(LinkPoint(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
+        foot = Point(*posed.place(LinkPoint(frame, element.x, element.y))).plus(Point(0.0, _FOOT.y / 2))
         for link in lower.mechanism.chain.links:
             if link == frame or joint in joints[link]:
                 continue
             corners = [
-                stage.place(LinkPoint(link, p.x / stage.scale, -p.y / stage.scale))
-                for p in corners_of(stage, link, found)
+                posed.place(LinkPoint(link, p.x / posed.scale, -p.y / posed.scale))
+                for p in corners_of(posed, link, found)
             ]
             if len(corners) > 2 and _inside(foot, corners):
                 out.append(complex(element.x, element.y))
@@ -354,9 +354,9 @@ def _inside(point: Point, corners: Sequence[Point]) -> bool:
     return min(sides) > 0 or max(sides) < 0
 
 
-def _pin_parts(stage: PosedLinkage) -> list[BodyPart]:
+def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
     """Turning joints, and dots for named points that lie at none."""
-    lower = stage.lower
+    lower = posed.lower
     made, taken = [], set()
     for number, joint in enumerate(lower.mechanism.chain.joints):
         if joint.pair.name != "revolute":
@@ -365,34 +365,34 @@ def _pin_parts(stage: PosedLinkage) -> list[BodyPart]:
         taken |= {(one, *lower.elements[number, one][:2]) for one in joint.links}
         e = lower.elements[number, link]
         members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
-        made.append(BodyPart(PINS, link, joint_sign("revolute", stage.local(complex(e.x, e.y)), members).above))
+        made.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))
     for point in dict.fromkeys(lower.points.values()):
         if tuple(point) not in taken:
-            made.append(BodyPart(PINS, point.link, (CircleShape(stage.local(complex(point.x, point.y)), 3.2, "dot"),)))
+            made.append(BodyPart(PINS, point.link, (CircleShape(posed.local(complex(point.x, point.y)), 3.2, "dot"),)))
     return made
 
 
 # --- putting them where they lie -----------------------------------------------------------------
 
 
-def shapes_at_pose(stage: PosedLinkage, part: BodyPart, motion: Motion | None = None, row: int = 0) -> list[Shape]:
+def shapes_at_pose(posed: PosedLinkage, part: BodyPart, motion: Motion | None = None, row: int = 0) -> list[Shape]:
     """The shapes of a part in the pose of the stage, or in a row of another motion."""
-    poses = stage.pose if motion is None else motion
-    k = stage.lower.mechanism.chain.index(part.link)
-    turn, place = complex(poses.turns[row, k]), stage.local(complex(poses.places[0, row, k]))
+    poses = posed.pose if motion is None else motion
+    k = posed.lower.mechanism.chain.index(part.link)
+    turn, place = complex(poses.turns[row, k]), posed.local(complex(poses.places[0, row, k]))
     return [_put(shape, turn, place) for shape in part.shapes]
 
 
-def layered(stage: PosedLinkage, pieces: Sequence[BodyPart], lowest: int, highest: int) -> list[Shape]:
+def layered(posed: PosedLinkage, pieces: Sequence[BodyPart], lowest: int, highest: int) -> list[Shape]:
     """The shapes of some layers in the pose of the stage."""
-    return [shape for part in pieces if lowest <= part.layer <= highest for shape in shapes_at_pose(stage, part)]
+    return [shape for part in pieces if lowest <= part.layer <= highest for shape in shapes_at_pose(posed, part)]
 
 
-def in_link(stage: PosedLinkage, link: str, shapes: Sequence[Shape]) -> BodyPart:
+def in_link(posed: PosedLinkage, link: str, shapes: Sequence[Shape]) -> BodyPart:
     """Shapes that lie somewhere in the pose of the stage, as a part that goes with a link above all others."""
-    k = stage.lower.mechanism.chain.index(link)
-    back = complex(stage.pose.turns[0, k]).conjugate()
-    origin = _put(CircleShape(stage.local(complex(stage.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
+    k = posed.lower.mechanism.chain.index(link)
+    back = complex(posed.pose.turns[0, k]).conjugate()
+    origin = _put(CircleShape(posed.local(complex(posed.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
     assert isinstance(origin, CircleShape)
     place = Point(-origin.at.x, -origin.at.y)
     return BodyPart(PINS + 1, link, tuple(_put(shape, back, place) for shape in shapes))

@@ -81,7 +81,7 @@ def hodograph(
             f"ein Hodograph braucht einen Antrieb, der sich bewegt: erwartet wird ein Wert ungleich 0, nicht {speed}",
         )
     run = plot_run(linkage, 1, branch, between, lang, name)
-    places = [linkage.named(point)[-1] for point in chosen]
+    places = [linkage.points_named(point)[-1] for point in chosen]
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, 1) for place in places]
     per = run.drive_unit if speed is None else "s"
@@ -91,7 +91,7 @@ def hodograph(
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
     ]
-    tips = factor * run.course.at(run.round_drives, 1).complex_point(places[0], 1)
+    tips = factor * run.cycle.at(run.round_drives, 1).complex_point(places[0], 1)
     spots = _tips(run, tips, _NEAR * max(high - low for low, high in ranges))
     panel = _square(
         paths, chosen if len(chosen) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges
@@ -129,7 +129,7 @@ def coupler_plot(
 
     Arguments and errors as for `hodograph`.
     """
-    places = {point: linkage.named(point)[-1] for point in _few(points)}
+    places = {point: linkage.points_named(point)[-1] for point in _few(points)}
     return _paths(linkage, places, branch, between, lang, name)
 
 
@@ -253,8 +253,8 @@ def _square(
 def _even(low: float, high: float, longest: float) -> Scale:
     """A tight scale whose step is that of the longer one."""
     few = max(1, round(8 * (high - low) / longest))
-    made = decimals(low, high, few=few, tight=True)
-    return made if len(made.ticks) > 1 else decimals(low, high, few=2, tight=True)
+    scale = decimals(low, high, few=few, tight=True)
+    return scale if len(scale.ticks) > 1 else decimals(low, high, few=2, tight=True)
 
 
 def _few(points: Sequence[str]) -> list[str]:

@@ -47,40 +47,40 @@ class _Measure(NamedTuple):
     length: float
 
 
-def dimension_lines(sheet: LayerContext) -> list[Shape]:
+def dimension_lines(context: LayerContext) -> list[Shape]:
     """A dimension line for every length of every link, clear of bodies and of each other where there is room."""
-    stage = sheet.stage
+    posed = context.posed
     shapes: list[Shape] = []
-    for measure in _measures(stage):
-        words = as_text(measure.length, stage.linkage.unit, sheet.lang)
-        shapes += _dimension(stage.place(measure.first), stage.place(measure.second), words, [*sheet.drawn, *shapes])
+    for measure in _measures(posed):
+        words = as_text(measure.length, posed.linkage.unit, context.lang)
+        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), words, [*context.drawn, *shapes])
     return shapes
 
 
 # --- what is measured ------------------------------------------------------------------------------
 
 
-def _measures(stage: PosedLinkage) -> list[_Measure]:
+def _measures(posed: PosedLinkage) -> list[_Measure]:
     """Lengths of the links as they were given, the short ones first: their dimension lines stand nearest."""
-    linkage = stage.linkage
+    linkage = posed.linkage
     least = _SAME * linkage.size
     pairs = [
         (link, one, other)
         for link in linkage.mechanism.chain.links
-        for one, other in (*_sides(stage, link), *_beside(stage, link))
+        for one, other in (*_sides(posed, link), *_beside(posed, link))
     ]
     found = [_Measure(_named(link, a), _named(link, b), abs(b - a)) for link, a, b in pairs]
-    found += _cylinders(stage)
-    return sorted((one for one in found if one.length > least), key=lambda one: one.length)
+    found += _cylinders(posed)
+    return sorted((_measure for _measure in found if _measure.length > least), key=lambda one: one.length)
 
 
 def _named(link: str, z: complex) -> LinkPoint:
     return LinkPoint(link, z.real, z.imag)
 
 
-def _sides(stage: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
+def _sides(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pin to pin along a line, or around a polygon; from pins within a polygon to its two nearest corners."""
-    linkage = stage.linkage
+    linkage = posed.linkage
     joints = linkage.mechanism.chain.joints
     nodes = [e for (n, own), e in linkage.elements.items() if own == link and joints[n].pair.name == "revolute"]
     points = [point for point in linkage.points.values() if point.link == link]
@@ -98,9 +98,9 @@ def _sides(stage: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
         yield from ((corner, z) for corner in sorted(corners, key=lambda corner: abs(corner - z))[:2])
 
 
-def _beside(stage: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
+def _beside(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pins to the line of a slide on the same link: the offset, if there is one."""
-    linkage = stage.linkage
+    linkage = posed.linkage
     joints = linkage.mechanism.chain.joints
     mine = [(n, e) for (n, own), e in linkage.elements.items() if own == link]
     for number, line in mine:
@@ -114,12 +114,12 @@ def _beside(stage: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]
                         yield foot, pin
 
 
-def _cylinders(stage: PosedLinkage) -> Iterator[_Measure]:
+def _cylinders(posed: PosedLinkage) -> Iterator[_Measure]:
     """How long cylinders are in this pose, from pin to pin."""
-    for slide in slides(stage):
+    for slide in slides(posed):
         if slide.sign == "cylinder":
-            ends = _named(slide.guide, pins_of(stage.lower, slide.guide)[0]), _named(slide.block, slide.middle)
-            a, b = (complex(stage.pose.complex_point(end)[0]) for end in ends)
+            ends = _named(slide.guide, pins_of(posed.lower, slide.guide)[0]), _named(slide.block, slide.middle)
+            a, b = (complex(posed.pose.complex_point(end)[0]) for end in ends)
             yield _Measure(*ends, abs(b - a))
 
 

@@ -43,45 +43,45 @@ class Pole(NamedTuple):
     """Whether it stays with the joint of the two links."""
 
 
-def instant_centres(stage: PosedLinkage) -> list[Pole]:
+def instant_centres(posed: PosedLinkage) -> list[Pole]:
     """The poles of a pose by pairs of links, permanent ones first; none for links at rest against each other.
 
     All pairs of up to four links; of more the permanent poles and those against the frame.
     """
-    stage.driven()
-    links, frame = stage.linkage.mechanism.chain.links, stage.linkage.mechanism.frame
-    found = {frozenset(pole.links): pole for pole in _permanent(stage)}
+    posed.driven()
+    links, frame = posed.linkage.mechanism.chain.links, posed.linkage.mechanism.frame
+    found = {frozenset(pole.links): pole for pole in _permanent(posed)}
     for one, other in itertools.combinations(links, 2):
         if frozenset((one, other)) in found or (len(links) > _ALL and frame not in (one, other)):
             continue
-        if (pole := _moving_pole(stage, one, other)) is not None:
+        if (pole := _moving_pole(posed, one, other)) is not None:
             found[frozenset((one, other))] = pole
     return list(found.values())
 
 
-def _permanent(stage: PosedLinkage) -> Iterator[Pole]:
+def _permanent(posed: PosedLinkage) -> Iterator[Pole]:
     """At turning joints the pin; of slides the point at infinity across the guide."""
-    links = stage.linkage.mechanism.chain.links
-    for number, joint in enumerate(stage.lower.mechanism.chain.joints):
+    links = posed.linkage.mechanism.chain.links
+    for number, joint in enumerate(posed.lower.mechanism.chain.joints):
         for one, other in itertools.combinations([link for link in joint.links if link in links], 2):
-            element = stage.lower.elements[number, one]
-            at = complex(stage.pose.complex_point(LinkPoint(one, element.x, element.y))[0])
+            element = posed.lower.elements[number, one]
+            at = complex(posed.pose.complex_point(LinkPoint(one, element.x, element.y))[0])
             if joint.pair.name == "revolute":
                 yield Pole((one, other), at, permanent=True)
             elif joint.pair.name == "prismatic" and isinstance(element, Line):
-                across = cmath.rect(1.0, float(stage.pose.angle(one)[0]) + element.angle) * 1j
+                across = cmath.rect(1.0, float(posed.pose.angle(one)[0]) + element.angle) * 1j
                 pins = [
-                    complex(stage.pose.complex_point(LinkPoint(link, e.x, e.y))[0])
+                    complex(posed.pose.complex_point(LinkPoint(link, e.x, e.y))[0])
                     for link in (other, one)
-                    for (k, own), e in stage.lower.elements.items()
-                    if own == link and k != number and stage.lower.mechanism.chain.joints[k].pair.name == "revolute"
+                    for (k, own), e in posed.lower.elements.items()
+                    if own == link and k != number and posed.lower.mechanism.chain.joints[k].pair.name == "revolute"
                 ]
                 yield Pole((one, other), pins[0] if pins else at, across, permanent=True)
 
 
-def _moving_pole(stage: PosedLinkage, one: str, other: str) -> Pole | None:
+def _moving_pole(posed: PosedLinkage, one: str, other: str) -> Pole | None:
     """The pole of two links by their velocities; None if they are at rest against each other."""
-    pose, chain, size = stage.pose, stage.lower.mechanism.chain, stage.lower.size
+    pose, chain, size = posed.pose, posed.lower.mechanism.chain, posed.lower.size
     i, j = chain.index(one), chain.index(other)
     middle = complex(pose.places[0, 0].mean())
     there = pose.places[1, 0] + 1j * pose.rates[0, 0] * (middle - pose.places[0, 0])
@@ -90,14 +90,14 @@ def _moving_pole(stage: PosedLinkage, one: str, other: str) -> Pole | None:
     if max(abs(apart), abs(turning) * size) <= _RESTING * swiftest:
         return None
     if abs(turning) * size <= _TRANSLATING * abs(apart):
-        return Pole((one, other), _joint_of(stage, one, middle), 1j * apart / abs(apart))
+        return Pole((one, other), _joint_of(posed, one, middle), 1j * apart / abs(apart))
     return Pole((one, other), middle + 1j * apart / turning)
 
 
-def _joint_of(stage: PosedLinkage, link: str, near: complex) -> complex:
+def _joint_of(posed: PosedLinkage, link: str, near: complex) -> complex:
     """The joint of a link that is nearest to a place."""
-    own = [LinkPoint(link, e.x, e.y) for (_, holder), e in stage.lower.elements.items() if holder == link]
-    places = [complex(stage.pose.complex_point(place)[0]) for place in own]
+    own = [LinkPoint(link, e.x, e.y) for (_, holder), e in posed.lower.elements.items() if holder == link]
+    places = [complex(posed.pose.complex_point(place)[0]) for place in own]
     return min(places, key=lambda z: abs(z - near))
 
 
@@ -117,71 +117,71 @@ def _name(pole: Pole, numbers: Mapping[str, str]) -> str:
     return f"P({one}, {other})"
 
 
-def pole_marks(sheet: LayerContext) -> list[Shape]:
+def pole_marks(context: LayerContext) -> list[Shape]:
     """Crosses and names of the poles, with polar rays; poles far away by arrows on their rays, with the distance."""
-    stage = sheet.stage
-    found = instant_centres(stage)
-    numbers = pole_numbers(stage.linkage.mechanism.chain.links)
+    posed = context.posed
+    poles = instant_centres(posed)
+    numbers = pole_numbers(posed.linkage.mechanism.chain.links)
     shapes: list[Shape] = []
     groups: list[tuple[complex, list[Pole]]] = []
-    for pole in found:
-        if not pole.direction and _near(stage, pole.at):
-            mine = next((group for z, group in groups if abs(z - pole.at) < _SAME * stage.lower.size), None)
+    for pole in poles:
+        if not pole.direction and _near(posed, pole.at):
+            mine = next((group for z, group in groups if abs(z - pole.at) < _SAME * posed.lower.size), None)
             if mine is None:
                 groups.append((pole.at, [pole]))
             else:
                 mine.append(pole)
-        if not pole.permanent and not pole.direction and _near(stage, pole.at):
-            rays = (ends[-1] for ends in _rays(stage, pole, found))
-            shapes += [Polylines(((stage.local(start), stage.local(pole.at)),), "dead") for start in rays]
+        if not pole.permanent and not pole.direction and _near(posed, pole.at):
+            rays = (ends[-1] for ends in _rays(posed, pole, poles))
+            shapes += [Polylines(((posed.local(start), posed.local(pole.at)),), "dead") for start in rays]
     for z, group in groups:
-        at = stage.local(z)
+        at = posed.local(z)
         shapes.append(CircleShape(at, 3.0, "dot") if any(pole.permanent for pole in group) else cross(at))
     words: list[tuple[Point, str]] = [
-        (stage.local(z), ", ".join(_name(pole, numbers) for pole in group)) for z, group in groups
+        (posed.local(z), ", ".join(_name(pole, numbers) for pole in group)) for z, group in groups
     ]
-    for pole in found:
-        if pole.direction or not _near(stage, pole.at):
-            for start, text in _far(sheet, pole, found, _name(pole, numbers)):
-                tip = _tip(stage, pole, start)
-                shapes += arrow(stage.local(start), tip, "dead", "dot")
+    for pole in poles:
+        if pole.direction or not _near(posed, pole.at):
+            for start, text in _far(context, pole, poles, _name(pole, numbers)):
+                tip = _tip(posed, pole, start)
+                shapes += arrow(posed.local(start), tip, "dead", "dot")
                 words.append((tip, text))
     for at, text in words:
-        shapes.append(note_near(at, text, "value", [*sheet.drawn, *shapes]))
+        shapes.append(note_near(at, text, "value", [*context.drawn, *shapes]))
     return shapes
 
 
-def _near(stage: PosedLinkage, z: complex) -> bool:
-    upper, lower = stage.reach
-    at, away = stage.local(z), _AWAY * max(lower.x - upper.x, lower.y - upper.y)
+def _near(posed: PosedLinkage, z: complex) -> bool:
+    upper, lower = posed.reach
+    at, away = posed.local(z), _AWAY * max(lower.x - upper.x, lower.y - upper.y)
     return max(upper.x - at.x, at.x - lower.x, upper.y - at.y, at.y - lower.y) <= away
 
 
-def _rays(stage: PosedLinkage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
+def _rays(posed: PosedLinkage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
     """The permanent poles on each polar ray of a pole that are no points at infinity, the nearest to it first."""
     permanent = {frozenset(one.links): one for one in found if one.permanent}
 
     def away(z: complex) -> float:
         return -(z * pole.direction.conjugate()).real if pole.direction else abs(z - pole.at)
 
-    for third in stage.linkage.mechanism.chain.links:
+    for third in posed.linkage.mechanism.chain.links:
         pair = [permanent.get(frozenset((link, third))) for link in pole.links]
         ends = [end.at for end in pair if end is not None and not end.direction]
         if third not in pole.links and None not in pair and ends:
             yield tuple(sorted(ends, key=away))
 
 
-def _far(sheet: LayerContext, pole: Pole, found: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
+def _far(context: LayerContext, pole: Pole, found: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
     """Where arrows to a pole outside begin, and what stands at them: its name, and how far it is from there."""
-    stage = sheet.stage
-    nearest = [ends[0] for ends in _rays(stage, pole, found)] if not pole.permanent else []
+    posed = context.posed
+    nearest = [ends[0] for ends in _rays(posed, pole, found)] if not pole.permanent else []
     if pole.direction:
         yield from ((start, f"{name} ∞") for start in nearest or [pole.at])
         return
-    for start in nearest or [_joint_of(stage, pole.links[1], pole.at)]:
-        yield start, f"{name} {as_text(abs(pole.at - start), stage.linkage.unit, sheet.lang)}"
+    for start in nearest or [_joint_of(posed, pole.links[1], pole.at)]:
+        yield start, f"{name} {as_text(abs(pole.at - start), posed.linkage.unit, context.lang)}"
 
 
-def _tip(stage: PosedLinkage, pole: Pole, start: complex) -> Point:
-    way = stage.local(pole.direction or pole.at - start).unit
-    return stage.local(start).plus(way, _RAY)
+def _tip(posed: PosedLinkage, pole: Pole, start: complex) -> Point:
+    way = posed.local(pole.direction or pole.at - start).unit
+    return posed.local(start).plus(way, _RAY)

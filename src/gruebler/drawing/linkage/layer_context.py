@@ -14,7 +14,7 @@ __all__ = ["Layer", "LayerContext"]
 class LayerContext(NamedTuple):
     """What a layer is drawn on."""
 
-    stage: PosedLinkage
+    posed: PosedLinkage
     output: str | None
     """The link or joint that is looked at; None for the linkage's own."""
     drawn: Sequence[Shape]

@@ -57,28 +57,28 @@ _AT_REST = 1e-7  # sizes for a drive of speed 1: below, a point leaves in the di
 # --- curves --------------------------------------------------------------------------------------
 
 
-def coupler_curve_lines(stage: PosedLinkage, name: str) -> list[Shape]:
+def coupler_curve_lines(posed: PosedLinkage, name: str) -> list[Shape]:
     """The path of a point through the range of the drive; where that is limited, the rest of its circuit thinly.
 
     Raises `LinkageError` for a name that is no point or joint, and with several drives.
     """
-    point = stage.linkage.named(name)[-1]
-    course = stage.driven()
-    if stage.goes_round:
+    point = posed.linkage.points_named(name)[-1]
+    course = posed.driven()
+    if posed.goes_round:
         drives = np.linspace(course.span.low, course.span.high, _SAMPLES * course.span.turns + 1)
-        return [curve_of(stage, course.at(drives, 0).complex_point(point), "curve")]
+        return [curve_of(posed, course.at(drives, 0).complex_point(point), "curve")]
     if isinstance(course, PathCycle):
-        return [curve_of(stage, course.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
-    rest = circuit(stage.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]), step=_STEP)
+        return [curve_of(posed, course.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
+    rest = circuit(posed.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]), step=_STEP)
     return [
-        curve_of(stage, rest.samples.complex_point(point), "curve-rest"),
-        curve_of(stage, stage.path.complex_point(point), "curve"),
+        curve_of(posed, rest.samples.complex_point(point), "curve-rest"),
+        curve_of(posed, posed.path.complex_point(point), "curve"),
     ]
 
 
-def curve_of(stage: PosedLinkage, z: Complexes, style: str) -> Polylines:
+def curve_of(posed: PosedLinkage, z: Complexes, style: str) -> Polylines:
     """A line through places, with as few points as will do."""
-    points = [stage.local(complex(one)) for one in z]
+    points = [posed.local(complex(one)) for one in z]
     closed = points[0].minus(points[-1]).length < 1e-3
     line = simplified(points, FINE)
     return Polylines((tuple(line[:-1] if closed and len(line) > 2 else line),), style, closed)
@@ -87,79 +87,79 @@ def curve_of(stage: PosedLinkage, z: Complexes, style: str) -> Polylines:
 # --- drives --------------------------------------------------------------------------------------
 
 
-def drive_arrows(stage: PosedLinkage) -> list[Shape]:
+def drive_arrows(posed: PosedLinkage) -> list[Shape]:
     """A curved arrow at every turning drive, a straight one beside every sliding one, in their positive sense."""
-    return [shape for part in drive_parts(stage) for shape in shapes_at_pose(stage, part)]
+    return [shape for part in drive_parts(posed) for shape in shapes_at_pose(posed, part)]
 
 
-def drive_parts(stage: PosedLinkage) -> list[BodyPart]:
+def drive_parts(posed: PosedLinkage) -> list[BodyPart]:
     """The arrows of the drives, each going with a link of its joint."""
-    lower = stage.lower
-    made: list[BodyPart] = []
-    for number, drive in enumerate(lower.mechanism.drives if stage.linkage.mechanism.drives else ()):
+    lower = posed.lower
+    body_parts: list[BodyPart] = []
+    for number, drive in enumerate(lower.mechanism.drives if posed.linkage.mechanism.drives else ()):
         first, other = lower.reference(number)
         e, f = lower.elements[drive.joint, first], lower.elements[drive.joint, other]
-        at = stage.place(LinkPoint(other, f.x, f.y))
+        at = posed.place(LinkPoint(other, f.x, f.y))
         if isinstance(e, Line):
-            angle = e.angle + float(stage.pose.angle(first)[0])
+            angle = e.angle + float(posed.pose.angle(first)[0])
             axis = Point(math.cos(angle), -math.sin(angle))
-            cylinder = [s for s in slides(stage) if s.joint == drive.joint and s.sign == "cylinder"]
+            cylinder = [s for s in slides(posed) if s.joint == drive.joint and s.sign == "cylinder"]
             if cylinder:
-                at = at.plus(stage.place(LinkPoint(first, e.x, e.y)).minus(at), 0.5)
+                at = at.plus(posed.place(LinkPoint(first, e.x, e.y)).minus(at), 0.5)
             arrow = straight_drive(at, axis, axis.across if axis.x < 0 else Point(0, 0).minus(axis.across))
-            made.append(in_link(stage, cylinder[0].guide if cylinder else other, arrow))
+            body_parts.append(in_link(posed, cylinder[0].guide if cylinder else other, arrow))
         else:
-            arrow = turning_drive(at, RADIUS + 10.0, _free_direction(stage, drive.joint, at))
-            made.append(in_link(stage, first, arrow))
-    return made
+            arrow = turning_drive(at, RADIUS + 10.0, _free_direction(posed, drive.joint, at))
+            body_parts.append(in_link(posed, first, arrow))
+    return body_parts
 
 
-def _free_direction(stage: PosedLinkage, joint: int, at: Point) -> float:
+def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
     """The middle of the widest gap between the bodies at a joint, the pedestal of the frame among them."""
-    lower = stage.lower
+    lower = posed.lower
     angles = []
     for link in lower.mechanism.chain.joints[joint].links:
         if link == lower.mechanism.frame:
             angles.append(math.pi / 2)
             continue
         pins = [(n, e) for (n, own), e in lower.elements.items() if own == link and n != joint]
-        angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := stage.place(LinkPoint(link, e.x, e.y)))]
+        angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := posed.place(LinkPoint(link, e.x, e.y)))]
     return widest_gap(angles or [math.pi / 2])
 
 
 # --- layers by name ------------------------------------------------------------------------------
 
 
-def _dead_centres(sheet: LayerContext) -> list[Shape]:
+def _dead_centres(context: LayerContext) -> list[Shape]:
     """The links as thin lines where the output stops or rests."""
-    stage = sheet.stage
-    course = stage.driven()
-    centres, dwells = stops(course, find_output(stage.linkage, sheet.output))
+    posed = context.posed
+    cycle = posed.driven()
+    centres, dwells = stops(cycle, find_output(posed.linkage, context.output))
     found = [centre.drive for centre in centres] + [drive for dwell in dwells for drive in (dwell.begin, dwell.end)]
-    if not stage.goes_round:
-        low, high = stage.path.drives[0, 0], stage.path.drives[-1, 0]
+    if not posed.goes_round:
+        low, high = posed.path.drives[0, 0], posed.path.drives[-1, 0]
         found = [drive for drive in found if low <= drive <= high]
     if not found:
         return []
-    motion = course.at(np.array(found), 0)
-    return [shape for row in range(len(found)) for shape in ghost(stage, motion, row)]
+    motion = cycle.at(np.array(found), 0)
+    return [shape for row in range(len(found)) for shape in ghost(posed, motion, row)]
 
 
-def ghosts(stage: PosedLinkage, count: int) -> list[Shape]:
+def ghosts(posed: PosedLinkage, count: int) -> list[Shape]:
     """So many positions, evenly through the turns of the drive; in a range from one end to the other."""
-    drives = stage.path.drives[:, 0]
+    drives = posed.path.drives[:, 0]
     places = (
         np.linspace(drives[0], drives[-1], count + 1)[:-1]
-        if stage.goes_round
+        if posed.goes_round
         else np.linspace(drives[0], drives[-1], count)
     )
-    motion = stage.driven().at(places, 0)
-    return [shape for row in range(count) for shape in ghost(stage, motion, row)]
+    motion = posed.driven().at(places, 0)
+    return [shape for row in range(count) for shape in ghost(posed, motion, row)]
 
 
-def ghost(stage: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
+def ghost(posed: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
     """The outlines of all moving links, their guides and their joints."""
-    lower, found = stage.lower, slides(stage)
+    lower, found = posed.lower, slides(posed)
     lines: list[tuple[Point, ...]] = []
     joints: dict[tuple[float, float], Point] = {}
     for link in lower.mechanism.chain.links:
@@ -167,38 +167,38 @@ def ghost(stage: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
             continue
 
         def moved(points: Iterable[Point], link: str = link) -> tuple[Point, ...]:
-            shape = shapes_at_pose(stage, BodyPart(0, link, (Polylines((tuple(points),), "ghost"),)), motion, row)[0]
+            shape = shapes_at_pose(posed, BodyPart(0, link, (Polylines((tuple(points),), "ghost"),)), motion, row)[0]
             assert isinstance(shape, Polylines)
             return shape.parts[0]
 
-        corners = moved(corners_of(stage, link, found))
+        corners = moved(corners_of(posed, link, found))
         if len(corners) > 1:
             lines.append((*corners, corners[0]) if len(corners) > 2 else corners)
         guides = [slide for slide in found if slide.guide == link and slide.sign != "cylinder"]
-        lines += [moved(map(stage.local, (slide.low, slide.high))) for slide in guides]
-        own = [stage.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
+        lines += [moved(map(posed.local, (slide.low, slide.high))) for slide in guides]
+        own = [posed.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
         joints |= {(round(p.x, 1), round(p.y, 1)): p for p in moved(own)}
     return [Polylines(tuple(lines), "ghost"), *(CircleShape(at, 4.0, "ghost-pin") for at in joints.values())]
 
 
-def _transmission(sheet: LayerContext) -> list[Shape]:
+def _transmission(context: LayerContext) -> list[Shape]:
     """The angle between the force on the output and the normal of its way, with its value."""
-    stage = sheet.stage
-    stage.driven()
-    pushed = [_push(stage, leg) for leg in pushing_links(stage.pose.plan, find_output(stage.linkage, sheet.output))]
+    posed = context.posed
+    posed.driven()
+    pushed = [_push(posed, leg) for leg in pushing_links(posed.pose.plan, find_output(posed.linkage, context.output))]
     at, force, normal = min(pushed, key=lambda one: abs(cmath.phase(one[2] / one[1])))
-    apex = stage.local(at)
+    apex = posed.local(at)
     begin, extent = -cmath.phase(force), -cmath.phase(normal / force)
     rays = [(apex, ArcShape(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
     arc = ArcShape(apex, _ARC, begin, extent, "measure")
     shapes: list[Shape] = [Polylines(tuple(rays), "measure"), arc]
-    value = decimal_sign_in(f"μ = {math.degrees(abs(extent)):.1f}°", sheet.lang)
-    return [*shapes, note_near(arc.place(0.5), value, "value", [*sheet.drawn, *shapes])]
+    value = decimal_sign_in(f"μ = {math.degrees(abs(extent)):.1f}°", context.lang)
+    return [*shapes, note_near(arc.place(0.5), value, "value", [*context.drawn, *shapes])]
 
 
-def _push(stage: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, complex]:
+def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, complex]:
     """Where a leg pushes, in which direction (from there back to the leg), and the nearer normal of the way there."""
-    pose, chain = stage.pose, stage.lower.mechanism.chain
+    pose, chain = posed.pose, posed.lower.mechanism.chain
 
     def point(element: tuple[str, complex, complex]) -> complex:
         return complex(pose.complex_point(LinkPoint(element[0], element[1].real, element[1].imag))[0])
@@ -216,17 +216,17 @@ def _push(stage: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, comp
         k = chain.index(leg.pushed)
         arm, w = at - pose.places[0, 0, k], float(pose.rates[0, 0, k])
         way = complex(pose.places[1, 0, k] + 1j * w * arm)
-        if abs(way) < _AT_REST * stage.lower.size:
+        if abs(way) < _AT_REST * posed.lower.size:
             way = complex(pose.places[2, 0, k] + (1j * pose.rates[1, 0, k] - w**2) * arm)
     normal = 1j * way
     return at, force, normal if (force.conjugate() * normal).real >= 0 else -normal
 
 
-def point_names(stage: PosedLinkage, shapes: Sequence[Shape]) -> Iterable[TextShape]:
+def point_names(posed: PosedLinkage, shapes: Sequence[Shape]) -> Iterable[TextShape]:
     """The names of points, beside them."""
     drawn = list(shapes)
-    for name, point in stage.lower.points.items():
-        text = note_near(stage.place(point), name, "name", drawn)
+    for name, point in posed.lower.points.items():
+        text = note_near(posed.place(point), name, "name", drawn)
         drawn.append(text)
         yield text
 

@@ -44,17 +44,17 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
         return replace(
             draw(mechanism, labels=True, lang=lang, name=name), description=f"{about} {motion.message(lang)}"
         )
-    stage = posed_along_motion(motion)
+    posed = posed_along_motion(motion)
     rows = sorted({round(row) for row in np.linspace(0, len(motion) - 1, _GHOSTS + 1)[1:]} - {0})
-    pieces = body_parts(stage)
-    below, above = layered(stage, pieces, FRAME, PINS - 1), layered(stage, pieces, PINS, PINS)
+    pieces = body_parts(posed)
+    below, above = layered(posed, pieces, FRAME, PINS - 1), layered(posed, pieces, PINS, PINS)
     shapes = [
-        *chain.from_iterable(ghost(stage, motion, row) for row in rows),
+        *chain.from_iterable(ghost(posed, motion, row) for row in rows),
         *below,
-        *(curve_of(stage, motion.complex_point(point), "curve") for point in stage.lower.points if len(motion) > 1),
+        *(curve_of(posed, motion.complex_point(point), "curve") for point in posed.lower.points if len(motion) > 1),
         *above,
-        *drive_arrows(stage),
+        *drive_arrows(posed),
     ]
-    shapes += point_names(stage, shapes)
+    shapes += point_names(posed, shapes)
     told = _WORDS[lang].format(rows=len(motion), ghosts=len(rows))
     return figure_of(shapes, title(mechanism, lang, name), f"{about} {told} {motion.message(lang)}".rstrip(), MARGIN)

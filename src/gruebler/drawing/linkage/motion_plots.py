@@ -89,7 +89,7 @@ def transfer_plot(
     marks, rests = _stops(run, found, words["rest"])
     panels = []
     for order in range(3):
-        values = found.track(run.motion, order)
+        values = found.values(run.motion, order)
         if order == 0 and np.ptp(values) < _least(run, found, 1):
             values = np.full_like(values, values.mean())
         if found.turning and order == 0:
@@ -107,12 +107,12 @@ def transfer_plot(
 
 def _check(run: PlotRun, output: Output, asked: str | None) -> None:
     """`LinkageError` for an output that cannot have a transfer function: the frame, or a link that does not turn."""
-    linkage = run.course.linkage
+    linkage = run.cycle.linkage
     frame = linkage.mechanism.frame
     moving = [link for link in linkage.mechanism.chain.links if link != frame]
     seen = {link: find_output(linkage, link) for link in moving}
-    sizes = {link: 1.0 if seen[link].turning else run.course.plan.lower.size for link in moving}
-    still = {link: np.ptp(seen[link].track(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
+    sizes = {link: 1.0 if seen[link].turning else run.cycle.plan.lower.size for link in moving}
+    still = {link: np.ptp(seen[link].values(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
     others = ", ".join(link for link in moving if not still[link])
     if output.link == frame:
         raise LinkageError(
@@ -132,14 +132,14 @@ def _described(run: PlotRun, marks: tuple[AxisMarker, ...], rests: tuple[Rest, .
     """The dead centres and dwells in words."""
     values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
     out = " " + words["dead"].format(values=values) if values else ""
-    to = math.radians if run.course.turning_drive else float
+    to = math.radians if run.cycle.turning_drive else float
     ranges = ", ".join(f"{run.value(to(rest.low))} – {run.value(to(rest.high))}" for rest in rests)
     return out + (" " + words["rests"].format(values=ranges) if ranges else "")
 
 
 def _order_words(run: PlotRun, output: Output, order: int) -> str:
     """What a transfer function is called, with its unit."""
-    letter, over = "ψ" if output.turning else "s", "φ" if run.course.turning_drive else "s₁"
+    letter, over = "ψ" if output.turning else "s", "φ" if run.cycle.turning_drive else "s₁"
     if order == 0:
         return f"{letter} in {'°' if output.turning else run.unit}"
     mark = ("", "", "²")[order]
@@ -149,26 +149,26 @@ def _order_words(run: PlotRun, output: Output, order: int) -> str:
         (False, True): f"{run.unit}/rad{mark}",
         (False, False): "" if order == 1 else f"1/{run.unit}",
     }
-    unit = units[output.turning, run.course.turning_drive]
+    unit = units[output.turning, run.cycle.turning_drive]
     words = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
     return f"{words} in {unit}" if unit else words
 
 
 def _least(run: PlotRun, output: Output, order: int) -> float:
     """The size of a derivative that is rounding only."""
-    by = 1.0 if run.course.turning_drive else run.course.plan.lower.size ** (order - 1)
-    return _NOISE * natural_speed(run.course, output) / by
+    by = 1.0 if run.cycle.turning_drive else run.cycle.plan.lower.size ** (order - 1)
+    return _NOISE * natural_speed(run.cycle, output) / by
 
 
 def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[AxisMarker, ...], tuple[Rest, ...]]:
     """The dead centres and the dwells within what is plotted."""
-    centres, dwells = stops(run.course, output)
+    centres, dwells = stops(run.cycle, output)
     drives = [run.within(centre.drive) for centre in centres]
     shown = sorted(drive for drive in drives if drive is not None)
-    low, high, period = float(run.drives[0]), float(run.drives[-1]), run.course.span.period
+    low, high, period = float(run.drives[0]), float(run.drives[-1]), run.cycle.span.period
     again = [drive + period for drive in shown if drive + period <= high + 1e-9 * period]
-    marks = [AxisMarker(run.shown(drive), run.value(drive)) for drive in shown]
-    marks += [AxisMarker(run.shown(drive), "") for drive in again]
+    marks = [AxisMarker(run.drive_in_units(drive), run.value(drive)) for drive in shown]
+    marks += [AxisMarker(run.drive_in_units(drive), "") for drive in again]
     rests = []
     for dwell in dwells:
         laps = range(math.floor((low - dwell.end) / period), math.ceil((high - dwell.begin) / period) + 1)
@@ -176,7 +176,7 @@ def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[AxisMarker, .
             shift = lap * period if lap else 0.0
             begin, end = max(low, dwell.begin + shift), min(high, dwell.end + shift)
             if end - begin > 1e-9 * (high - low):
-                rests.append(Rest(run.shown(begin), run.shown(end), word))
+                rests.append(Rest(run.drive_in_units(begin), run.drive_in_units(end), word))
     return tuple(marks), tuple(sorted(rests))
 
 
@@ -202,7 +202,7 @@ def transmission_plot(
     found, words = find_output(linkage, output), _WORDS[lang]
     called = (names or {}).get(found.name, found.name)
     values = np.degrees(transmission_angle(run.motion, found.name))
-    smallest = measure_transmission(run.course, found).smallest
+    smallest = measure_transmission(run.cycle, found).smallest
     least, at = math.degrees(smallest.mu), run.within(smallest.drive)
     if at is None:
         row = int(values.argmin())
@@ -215,7 +215,7 @@ def transmission_plot(
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
         marks=marks,
         rests=rests,
-        spots=(PointMarker(run.shown(at), least, f"μ_min = {least:.1f}°"),),
+        spots=(PointMarker(run.drive_in_units(at), least, f"μ_min = {least:.1f}°"),),
         marked=words["mark"],
     )
     about = words["transmission_about"].format(

@@ -117,42 +117,42 @@ def draw_linkage(
     >>> len(figure.svg()) < 8000
     True
     """
-    stage = posed_linkage(linkage, drive, branch=branch, between=between)
+    posed = posed_linkage(linkage, drive, branch=branch, between=between)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(stage, one)]
-    pieces = body_parts(stage)
-    frame = layered(stage, pieces, FRAME, FRAME)
-    pins = layered(stage, pieces, PINS, PINS)
-    bodies = layered(stage, pieces, BODIES, PINS - 1)
-    sheet = LayerContext(stage, output, [*frame, *bodies, *pins], lang)
-    made = {key: layers[key](sheet) for key in layers if key in BELOW}
+    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, one)]
+    pieces = body_parts(posed)
+    frame = layered(posed, pieces, FRAME, FRAME)
+    pins = layered(posed, pieces, PINS, PINS)
+    bodies = layered(posed, pieces, BODIES, PINS - 1)
+    context = LayerContext(posed, output, [*frame, *bodies, *pins], lang)
+    made = {key: layers[key](context) for key in layers if key in BELOW}
     below = [shape for shapes in made.values() for shape in shapes]
     shapes = [
         *frame,
-        *(ghosts(stage, _count(ghost)) if ghost is not None else []),
+        *(ghosts(posed, _count(ghost)) if ghost is not None else []),
         *(shape for shape in below if shape.style not in _MARKS),
         *bodies,
         *curve,
         *pins,
-        *drive_arrows(stage),
+        *drive_arrows(posed),
         *(shape for shape in below if shape.style in _MARKS),
     ]
     for key in (key for key in layers if key not in BELOW and key != "dimensions"):
-        made[key] = layers[key](sheet._replace(drawn=shapes))
+        made[key] = layers[key](context._replace(drawn=shapes))
         shapes += made[key]
-    shapes += point_names(stage, shapes)
-    texts, rows = _named(stage, pieces, shapes, names) if labels else ([], {})
+    shapes += point_names(posed, shapes)
+    texts, rows = _named(posed, pieces, shapes, names) if labels else ([], {})
     shapes += texts
     if "dimensions" in layers:
-        made["dimensions"] = dimension_lines(sheet._replace(drawn=shapes))
+        made["dimensions"] = dimension_lines(context._replace(drawn=shapes))
         shapes += made["dimensions"]
-    shapes += scale_bars(sheet._replace(drawn=shapes), tuple(layers))
+    shapes += scale_bars(context._replace(drawn=shapes), tuple(layers))
     if "poles" in layers:
         numbers = pole_numbers(linkage.mechanism.chain.links)
         rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
     if rows:
         shapes += legend(rows, [Point(0.0, 0.0)], shapes)
-    said, missing = picture_notes(stage, curves, {key: made[key] for key in layers}, lang, ghost or 0)
+    said, missing = picture_notes(posed, curves, {key: made[key] for key in layers}, lang, ghost or 0)
     described = f"{describe(linkage.mechanism, lang)} {' '.join([*said, *missing])}"
     return figure_of(shapes, title(linkage.mechanism, lang, name), described, MARGIN, missing)
 
@@ -167,34 +167,34 @@ def shown_linkage(linkage: Linkage) -> Figure:
 
 
 def _named(
-    stage: PosedLinkage, pieces: Sequence[BodyPart], shapes: Sequence[Shape], names: Mapping[str, str] | None
+    posed: PosedLinkage, pieces: Sequence[BodyPart], shapes: Sequence[Shape], names: Mapping[str, str] | None
 ) -> tuple[list[Shape], dict[str, str]]:
     """Names beside the bodies, and what is to be listed."""
-    found = slides(stage)
-    outlines = {link: _outline(stage, link, pieces, found) for link in stage.linkage.mechanism.chain.links}
+    found = slides(posed)
+    outlines = {link: _outline(posed, link, pieces, found) for link in posed.linkage.mechanism.chain.links}
     return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
 
 
-def _outline(stage: PosedLinkage, link: str, pieces: Sequence[BodyPart], found: tuple[Slide, ...]) -> tuple[Point, ...]:
+def _outline(posed: PosedLinkage, link: str, pieces: Sequence[BodyPart], found: tuple[Slide, ...]) -> tuple[Point, ...]:
     """Corners beside which the name of a link is put: those of its body, barrel, rod or block; for the frame a base."""
     mine = [part for part in pieces if part.link == link]
     lines = [(part.layer, shape) for part in mine for shape in part.shapes if isinstance(shape, Polylines)]
-    corners = corners_of(stage, link, found)
+    corners = corners_of(posed, link, found)
     rod = next((slide for slide in found if slide.block == link and slide.sign == "cylinder"), None)
     rims = [rim for part in mine for shape in part.shapes if (rim := _rim(shape))]
-    if link == stage.lower.mechanism.frame:
+    if link == posed.lower.mechanism.frame:
         corners = next((shape for _, shape in lines if shape.style == "block-frame"), lines[0][1]).parts[0][-2:]
     elif rims and (len(corners) < 2 or max(map(_perimeter, rims)) > _perimeter(corners)):
         corners = max(rims, key=_perimeter)
     elif len(corners) < 2 and rod is not None:
-        return _seen_of_rod(stage, rod)
+        return _seen_of_rod(posed, rod)
     elif len(corners) < 2:
         long = [shape.parts[0] for layer, shape in lines if layer == BLOCKS]
         middle = corners[0] if corners else Point(0.0, 0.0)
         corners = max(long, key=_perimeter, default=(middle,))
         if _perimeter(corners) < _PLAIN:
             corners = tuple(middle.plus(Point(a * _AROUND, b * _AROUND)) for a, b in _SQUARE)
-    return _placed(stage, link, corners)
+    return _placed(posed, link, corners)
 
 
 def _rim(shape: Shape) -> tuple[Point, ...]:
@@ -208,14 +208,14 @@ def _rim(shape: Shape) -> tuple[Point, ...]:
     return ()
 
 
-def _seen_of_rod(stage: PosedLinkage, rod: Slide) -> tuple[Point, ...]:
+def _seen_of_rod(posed: PosedLinkage, rod: Slide) -> tuple[Point, ...]:
     """What of a rod is outside of its barrel: from there to its pin."""
-    return *_placed(stage, rod.guide, barrel(stage, rod)[1:]), *_placed(stage, rod.block, [stage.local(rod.middle)])
+    return *_placed(posed, rod.guide, barrel(posed, rod)[1:]), *_placed(posed, rod.block, [posed.local(rod.middle)])
 
 
-def _placed(stage: PosedLinkage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
+def _placed(posed: PosedLinkage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
     """Points of a link where they lie in the pose."""
-    (line,) = shapes_at_pose(stage, BodyPart(BODIES, link, (Polylines((tuple(corners),), "edge"),)))
+    (line,) = shapes_at_pose(posed, BodyPart(BODIES, link, (Polylines((tuple(corners),), "edge"),)))
     assert isinstance(line, Polylines)
     return line.parts[0]
 
@@ -234,15 +234,15 @@ def _count(number: int) -> int:
 
 
 def picture_notes(
-    stage: PosedLinkage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
+    posed: PosedLinkage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
 ) -> tuple[list[str], list[str]]:
     """The pose and what is shown, in sentences; and what was asked for but is not there."""
-    words, drives = _WORDS[lang], stage.linkage.mechanism.drives
+    words, drives = _WORDS[lang], posed.linkage.mechanism.drives
     values = [
         decimal_sign_in(f"{round(degrees(value), 2) + 0.0:g}°", lang)
         if drive.direction.startswith("R")
-        else as_text(float(value), stage.linkage.unit, lang)
-        for value, drive in zip(stage.pose.drives[0], drives, strict=bool(drives))
+        else as_text(float(value), posed.linkage.unit, lang)
+        for value, drive in zip(posed.pose.drives[0], drives, strict=bool(drives))
     ]
     said = [words["pose" if drives else "home"].format(values=", ".join(values))]
     if curves:

@@ -38,7 +38,7 @@ _RANGE = {"en": "drive from {low} to {high}", "de": "Antrieb von {low} bis {high
 class PlotRun:
     """Poses of a linkage with one drive, and how the drive is told."""
 
-    course: DriveCycle
+    cycle: DriveCycle
     drives: Reals
     motion: Motion
     lang: str
@@ -48,50 +48,50 @@ class PlotRun:
     @property
     def unit(self) -> str:
         """Of lengths."""
-        return self.course.linkage.unit
+        return self.cycle.linkage.unit
 
     @property
     def drive_unit(self) -> str:
         """Of the drive, as rates are told by it."""
-        return "rad" if self.course.turning_drive else self.unit
+        return "rad" if self.cycle.turning_drive else self.unit
 
     @cached_property
     def x(self) -> Reals:
         """The drive in degrees, or in the unit."""
-        return np.degrees(self.drives) if self.course.turning_drive else self.drives
+        return np.degrees(self.drives) if self.cycle.turning_drive else self.drives
 
     @property
     def across(self) -> Axis:
         """The axis of the drive."""
-        scale = angles if self.course.turning_drive else decimals
-        words = "φ in °" if self.course.turning_drive else f"s₁ in {self.unit}"
+        scale = angles if self.cycle.turning_drive else decimals
+        words = "φ in °" if self.cycle.turning_drive else f"s₁ in {self.unit}"
         return Axis(words, scale(float(self.x.min()), float(self.x.max()), tight=True))
 
     def within(self, drive: float) -> float | None:
         """The first value in what is plotted that means the same position; None if there is none."""
         low, high = float(self.drives[0]), float(self.drives[-1])
-        period = self.course.span.period
+        period = self.cycle.span.period
         value = drive + period * math.ceil((low - drive) / period - _TINY) if period < math.inf else drive
         slack = _TINY * (high - low)
         return min(max(value, low), high) if low - slack <= value <= high + slack else None
 
-    def shown(self, drive: float) -> float:
+    def drive_in_units(self, drive: float) -> float:
         """A drive value as it stands at the axis."""
-        return math.degrees(drive) if self.course.turning_drive else drive
+        return math.degrees(drive) if self.cycle.turning_drive else drive
 
     def value(self, drive: float) -> str:
         """A drive value in words."""
-        if not self.course.turning_drive:
+        if not self.cycle.turning_drive:
             return as_text(drive, self.unit, self.lang)
-        return decimal_sign_in(f"{round(self.shown(drive), 6) + 0.0:.4g}°", self.lang)
+        return decimal_sign_in(f"{round(self.drive_in_units(drive), 6) + 0.0:.4g}°", self.lang)
 
     @cached_property
     def round_drives(self) -> Reals:
         """Round drive values, a dozen or so; of full turns without the last, which is the first."""
-        scale = angles if self.course.turning_drive else decimals
+        scale = angles if self.cycle.turning_drive else decimals
         ticks = scale(float(self.x.min()), float(self.x.max()), few=_DOZEN, tight=True).ticks
-        inner = [tick for tick in ticks if not self.course.span.full or tick < self.x.max() - 1e-9]
-        return np.radians(inner) if self.course.turning_drive else np.array(inner)
+        inner = [tick for tick in ticks if not self.cycle.span.full or tick < self.x.max() - 1e-9]
+        return np.radians(inner) if self.cycle.turning_drive else np.array(inner)
 
     def bulk(self, values: Reals) -> tuple[float, float]:
         """The range of values; where some are far beyond the bulk of them, as near limits, not so far."""
@@ -101,7 +101,7 @@ class PlotRun:
         even = np.interp(np.linspace(self.drives[0], self.drives[-1], ROWS), self.drives[good], values[good])
         low, high = float(values[good].min()), float(values[good].max())
         first, last = (float(np.quantile(even, q)) for q in ((1 - _BULK) / 2, (1 + _BULK) / 2))
-        most, noise = _STEEP[self.course.span.full] * (last - first), _TINY * max(abs(low), abs(high))
+        most, noise = _STEEP[self.cycle.span.full] * (last - first), _TINY * max(abs(low), abs(high))
         if most > noise:
             low, high = max(low, first - most), min(high, last + most)
         return (low, high) if high - low > noise else ((low + high) / 2 - 0.5, (low + high) / 2 + 0.5)
@@ -124,8 +124,8 @@ def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lan
             "no joint is driven, so there is nothing to be plotted; name a drive",
             "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
         )
-    course = drive_cycle(linkage, branch)
-    drives = drive_rows(course, between, ROWS)
-    if between is None and course.span.full:
+    cycle = drive_cycle(linkage, branch)
+    drives = drive_rows(cycle, between, ROWS)
+    if between is None and cycle.span.full:
         drives = drives - drives[0]
-    return PlotRun(course, drives, course.at(drives, order), lang, title(linkage.mechanism, lang, name))
+    return PlotRun(cycle, drives, cycle.at(drives, order), lang, title(linkage.mechanism, lang, name))

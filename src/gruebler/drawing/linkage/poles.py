@@ -39,8 +39,8 @@ class _Box(NamedTuple):
     lower: Point
 
     @classmethod
-    def around(cls, stage: PosedLinkage, factor: float) -> _Box:
-        upper, lower = stage.reach
+    def around(cls, posed: PosedLinkage, factor: float) -> _Box:
+        upper, lower = posed.reach
         more = factor * max(lower.x - upper.x, lower.y - upper.y)
         return cls(upper.plus(Point(-more, -more)), lower.plus(Point(more, more)))
 
@@ -48,67 +48,67 @@ class _Box(NamedTuple):
         return self.upper.x <= at.x <= self.lower.x and self.upper.y <= at.y <= self.lower.y
 
 
-def _number(sheet: LayerContext) -> int:
+def _number(context: LayerContext) -> int:
     """The link that is looked at: the one asked for, else a link that is no neighbour of the frame."""
-    links, output = sheet.stage.lower.mechanism.chain.links, sheet.output
+    links, output = context.posed.lower.mechanism.chain.links, context.output
     if output is not None and output not in links:
-        known = sheet.stage.linkage.mechanism.chain.links
+        known = context.posed.linkage.mechanism.chain.links
         there = ", ".join(known)
         raise LinkageError(
             f"centrodes and inflection circles are those of a link{nearest(output, known)}; {output!r} is none of "
             f"{there}",
             f"Polbahnen und Wendekreis gehören zu einem Glied; {output!r} ist keines von {there}",
         )
-    return links.index(floating_link(sheet.stage.linkage) if output is None else output)
+    return links.index(floating_link(context.posed.linkage) if output is None else output)
 
 
-def inflection_lines(sheet: LayerContext) -> list[Shape]:
+def inflection_lines(context: LayerContext) -> list[Shape]:
     """The inflection circle as far as it is near, with the pole P and the inflection pole W opposite to it.
 
     Pole and circle: docs/theory/geometry.md.
     """
-    stage = sheet.stage
-    stage.driven()
-    pose, k = stage.pose, _number(sheet)
+    posed = context.posed
+    posed.driven()
+    pose, k = posed.pose, _number(context)
     w, change = (float(pose.rates[order, 0, k]) for order in (0, 1))
     if abs(w) < _TURNING:
         return []
     at, velocity, acceleration = (complex(z) for z in pose.places[:3, 0, k])
     pole = at + 1j * velocity / w
     shift = velocity / w + 1j * (acceleration - velocity * change / w) / w**2
-    if abs(shift) < _POINT * stage.lower.size:
+    if abs(shift) < _POINT * posed.lower.size:
         return []
-    box = _Box.around(stage, _WIDE)
+    box = _Box.around(posed, _WIDE)
     circle = pole - 0.5j * shift * (1 - np.exp(2j * np.pi * np.linspace(0, 1, _SAMPLES + 1)))
-    lines = _within(stage, circle, box)
+    lines = _within(posed, circle, box)
     shapes: list[Shape] = [Polylines(tuple(lines), "inflection")] if lines else []
     for z, name in ((pole, "P"), (pole - 1j * shift, "W")):
-        point = stage.local(z)
+        point = posed.local(z)
         if lines and box.holds(point):
             shapes.append(cross(point) if name == "P" else CircleShape(point, 3.2, "dot"))
-            shapes.append(note_near(point, name, "value", [*sheet.drawn, *shapes]))
+            shapes.append(note_near(point, name, "value", [*context.drawn, *shapes]))
     return shapes
 
 
-def centrode_lines(sheet: LayerContext) -> list[Shape]:
+def centrode_lines(context: LayerContext) -> list[Shape]:
     """The fixed centrode p and the moving one q, which roll on each other, as far as they are near; q in this pose."""
-    stage, k = sheet.stage, _number(sheet)
-    course = stage.driven()
-    drives = stage.path.drives[:, 0]
-    between = None if stage.goes_round else (float(drives[0]), float(drives[-1]))
-    motion = course.at(drive_rows(course, between, _SAMPLES), 1)
+    posed, k = context.posed, _number(context)
+    cycle = posed.driven()
+    drives = posed.path.drives[:, 0]
+    between = None if posed.goes_round else (float(drives[0]), float(drives[-1]))
+    motion = cycle.at(drive_rows(cycle, between, _SAMPLES), 1)
     fixed = _poles_of(motion, k)
     own = (fixed - motion.places[0, :, k]) * motion.turns[:, k].conj()
-    moving = stage.pose.places[0, 0, k] + stage.pose.turns[0, k] * own
-    box = _Box.around(stage, _WIDE)
+    moving = posed.pose.places[0, 0, k] + posed.pose.turns[0, k] * own
+    box = _Box.around(posed, _WIDE)
     shapes: list[Shape] = []
     for z, style, name in ((fixed, "centrode-fixed", "p"), (moving, "centrode-moving", "q")):
-        lines = _within(stage, z, box)
+        lines = _within(posed, z, box)
         if max((b.minus(line[0]).length for line in lines for b in line), default=0.0) < 1.0:
             return []
         shapes.append(Polylines(tuple(lines), style))
         longest = max(lines, key=len)
-        shapes.append(note_near(longest[len(longest) // 3], name, "value", [*sheet.drawn, *shapes]))
+        shapes.append(note_near(longest[len(longest) // 3], name, "value", [*context.drawn, *shapes]))
     return shapes
 
 
@@ -119,11 +119,11 @@ def _poles_of(motion: Motion, k: int) -> Complexes:
         return np.asarray(motion.places[0, :, k] + 1j * motion.places[1, :, k] / rate)
 
 
-def _within(stage: PosedLinkage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
+def _within(posed: PosedLinkage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
     """The parts of a line that lie in a box."""
     parts: list[list[Point]] = [[]]
     for one in z:
-        at = stage.local(complex(one))
+        at = posed.local(complex(one))
         if np.isfinite(one) and box.holds(at):
             parts[-1].append(at)
         elif parts[-1]:

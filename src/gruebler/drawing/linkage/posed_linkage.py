@@ -39,7 +39,7 @@ class PosedLinkage:
 
     lower: Linkage
     """The linkage with turning and sliding joints only; links that it had before keep their names."""
-    course: DriveCycle | None
+    cycle: DriveCycle | None
     """The whole motion; None with several drives or none, and where there is one position only."""
     pose: Motion
     """One row, with rates for a drive of speed 1 where there is one drive."""
@@ -57,7 +57,7 @@ class PosedLinkage:
     def goes_round(self) -> bool:
         """Whether the path is a closed one: after its last row comes its first."""
         drives = self.path.drives[:, 0]
-        return self.course is not None and _is_whole(self.course, drives)
+        return self.cycle is not None and _is_whole(self.cycle, drives)
 
     def local(self, z: complex) -> Point:
         """A point of a link in pixels, in coordinates of the link."""
@@ -76,7 +76,7 @@ class PosedLinkage:
 
     def driven(self) -> DriveCycle:
         """The course; `LinkageError` with several drives."""
-        if self.course is None:
+        if self.cycle is None:
             count = len(self.linkage.mechanism.drives)
             if count == 1:
                 raise LinkageError(
@@ -89,7 +89,7 @@ class PosedLinkage:
                 f"das wird nur für Getriebe mit einem Antrieb gezeichnet, dieses hat {count}: nur einen davon "
                 "antreiben oder einen Weg aller Antriebe mit draw_motion(move(linkage, path)) zeichnen",
             )
-        return self.course
+        return self.cycle
 
 
 def posed_along_motion(motion: Motion) -> PosedLinkage:
@@ -108,9 +108,9 @@ def posed_along_motion(motion: Motion) -> PosedLinkage:
     return PosedLinkage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
 
 
-def _is_whole(course: DriveCycle, drives: Reals) -> bool:
+def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
     """Whether drive values go through all turns after which everything repeats."""
-    return bool(drives[-1] - drives[0] > course.span.period * (1 - 1e-9))
+    return bool(drives[-1] - drives[0] > cycle.span.period * (1 - 1e-9))
 
 
 def posed_linkage(
@@ -146,15 +146,15 @@ def posed_linkage(
         return PosedLinkage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
     if len(linkage.mechanism.drives) == 1:
         try:
-            course = drive_cycle(linkage, branch)
+            cycle = drive_cycle(linkage, branch)
         except LinkageError as error:
             return _one_position(linkage, given, branch, error)
-        path = course.at(drive_rows(course, between), 0)
-        pose = course.at(np.array([_value(course, given, path.drives[:, 0])]), 2)
-        return PosedLinkage(plan.lower, course, pose, path, _scale(plan.lower, path))
+        path = cycle.at(drive_rows(cycle, between), 0)
+        pose = cycle.at(np.array([_value(cycle, given, path.drives[:, 0])]), 2)
+        return PosedLinkage(plan.lower, cycle, pose, path, _scale(plan.lower, path))
     if given is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
-        given = zeros if plan.lower.home is None else pose_at_reference(plan, zeros).drives
+        given = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
     pose = move(linkage, given.reshape(1, -1), branch=branch)
     if not len(pose):
         raise LinkageError(pose.message(), pose.message("de"))
@@ -185,7 +185,7 @@ def _one_position(
 def _at_rest(linkage: Linkage) -> PosedLinkage:
     """The home of a linkage without a drive, found as that of the same linkage with one."""
     mechanism = linkage.mechanism
-    for number in range(len(mechanism.chain.joints)) if linkage.home is not None else ():
+    for number in range(len(mechanism.chain.joints)) if linkage.reference_pose is not None else ():
         try:
             driven = linkage.with_mechanism(Mechanism(mechanism.chain, mechanism.frame, [number]))
             plan = cached_plan(driven)
@@ -201,66 +201,66 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
     )
 
 
-def drive_rows(course: DriveCycle, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
+def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
     """Drive values: so many even ones of each full turn, else of the whole range, slow at both ends.
 
     Raises `LinkageError` if nothing of the range lies between the two values asked for.
     """
-    span = course.span
+    span = cycle.span
     low, high = span.low, span.high
     if between is None and span.full:
         return np.linspace(low, high, count * span.turns + 1)
-    if not course.turning_drive:
-        middle, room = float(course.start.drives[0, 0]), _ENDLESS * course.plan.lower.size
+    if not cycle.turning_drive:
+        middle, room = float(cycle.start.drives[0, 0]), _ENDLESS * cycle.plan.lower.size
         low = low if span.stops[0] is not None else max(low, middle - room)
         high = high if span.stops[1] is not None else min(high, middle + room)
     low, high = low + _INSIDE * (high - low), high - _INSIDE * (high - low)
     if between is not None:
-        turn = 2 * math.pi if course.turning_drive and not span.full else math.inf
+        turn = 2 * math.pi if cycle.turning_drive and not span.full else math.inf
         shift = turn * round((low + high - sum(between)) / 2 / turn) if turn < math.inf else 0.0
         asked = between[0] + shift, between[1] + shift
         low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
     if not high > low:
         raise LinkageError(
-            f"{_range(course, 'en')}; nothing of it lies between the two values asked for",
-            f"{_range(course, 'de')}; nichts davon liegt zwischen den beiden verlangten Werten",
+            f"{_range(cycle, 'en')}; nothing of it lies between the two values asked for",
+            f"{_range(cycle, 'de')}; nichts davon liegt zwischen den beiden verlangten Werten",
         )
     return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
-def _value(course: DriveCycle, given: Reals | None, rows: Reals) -> float:
+def _value(cycle: DriveCycle, given: Reals | None, rows: Reals) -> float:
     """The drive value of the pose."""
     if given is None:
-        start = float(course.start.drives[0, 0])
-        if course.plan.lower.home is not None and rows[0] <= start <= rows[-1]:
+        start = float(cycle.start.drives[0, 0])
+        if cycle.plan.lower.reference_pose is not None and rows[0] <= start <= rows[-1]:
             return start
-        return math.pi / 3 if _is_whole(course, rows) else float(rows[len(rows) // 3])
+        return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
     if given.shape != (1,) or not np.isfinite(given).all():
         raise LinkageError(
             f"expected one finite drive value, but found {given.tolist()}",
             f"erwartet wird ein endlicher Antriebswert, nicht {given.tolist()}",
         )
-    value, span = float(given[0]), course.span
-    if course.turning_drive and not span.full:
+    value, span = float(given[0]), cycle.span
+    if cycle.turning_drive and not span.full:
         value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
     if not span.full and not span.low <= value <= span.high:
         raise LinkageError(
-            f"{_range(course, 'en')}; there is no pose at {_said(course, float(given[0]), 'en')}",
-            f"{_range(course, 'de')}; bei {_said(course, float(given[0]), 'de')} gibt es keine Lage",
+            f"{_range(cycle, 'en')}; there is no pose at {_said(cycle, float(given[0]), 'en')}",
+            f"{_range(cycle, 'de')}; bei {_said(cycle, float(given[0]), 'de')} gibt es keine Lage",
         )
     return value
 
 
-def _range(course: DriveCycle, lang: str) -> str:
-    low, high = (_said(course, value, lang) for value in (course.span.low, course.span.high))
+def _range(cycle: DriveCycle, lang: str) -> str:
+    low, high = (_said(cycle, value, lang) for value in (cycle.span.low, cycle.span.high))
     if lang == "de":
         return f"der Antrieb geht in dieser Einbaulage von {low} bis {high}"
     return f"the drive goes from {low} to {high} on this branch"
 
 
-def _said(course: DriveCycle, value: float, lang: str) -> str:
+def _said(cycle: DriveCycle, value: float, lang: str) -> str:
     degrees = "Grad" if lang == "de" else "degrees"
-    words = f"{math.degrees(value):.6g} {degrees}" if course.turning_drive else f"{value:.6g} {course.linkage.unit}"
+    words = f"{math.degrees(value):.6g} {degrees}" if cycle.turning_drive else f"{value:.6g} {cycle.linkage.unit}"
     return decimal_sign_in(words, lang)
 
 

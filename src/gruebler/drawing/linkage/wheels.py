@@ -28,24 +28,24 @@ class RoundPart(NamedTuple):
     shapes: tuple[Shape, ...]
 
 
-def round_parts(stage: PosedLinkage) -> Iterator[RoundPart]:
+def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
     """The round parts of a linkage, the larger first, each once for each link and centre."""
     found: dict[tuple[object, ...], RoundPart] = {}
-    for (joint, link), element in stage.linkage.elements.items():
+    for (joint, link), element in posed.linkage.elements.items():
         if isinstance(element, elements.Wheel | elements.Circle):
             key = (link, element.x, element.y, element.radius)
-            found.setdefault(key, _disc(stage, link, element))
+            found.setdefault(key, _disc(posed, link, element))
         elif isinstance(element, elements.CamDisc):
-            found[link, joint] = RoundPart(link, tuple(_cam(stage, element)))
+            found[link, joint] = RoundPart(link, tuple(_cam(posed, element)))
         elif isinstance(element, elements.NonCircular):
-            found[link, joint] = _noncircular(stage, joint, link, element)
+            found[link, joint] = _noncircular(posed, joint, link, element)
         elif isinstance(element, elements.GenevaDriver | elements.GenevaWheel):
-            found[link, joint] = _geneva(stage, joint, link, element)
-    for (joint, link), element in stage.linkage.elements.items():
-        if isinstance(element, elements.Line) and (ends := _face(stage, joint, link, element)):
-            found[link, joint] = RoundPart(link, tuple(_flat(stage, link, element, ends)))
+            found[link, joint] = _geneva(posed, joint, link, element)
+    for (joint, link), element in posed.linkage.elements.items():
+        if isinstance(element, elements.Line) and (ends := _face(posed, joint, link, element)):
+            found[link, joint] = RoundPart(link, tuple(_flat(posed, link, element, ends)))
     yield from sorted(found.values(), key=lambda part: -_size(part))
-    yield from _belts(stage)
+    yield from _belts(posed)
 
 
 def _size(part: RoundPart) -> float:
@@ -55,11 +55,11 @@ def _size(part: RoundPart) -> float:
     return max(math.hypot(p.x, p.y) for p in shape.parts[0]) if isinstance(shape, Polylines) else 0.0
 
 
-def _disc(stage: PosedLinkage, link: str, element: elements.Wheel | elements.Circle) -> RoundPart:
+def _disc(posed: PosedLinkage, link: str, element: elements.Wheel | elements.Circle) -> RoundPart:
     """A disc with a cross, or a ring where it is hollow, fixed wheels as the frame."""
-    centre, radius = complex(element.x, element.y), stage.scale * abs(element.radius)
-    at = stage.local(centre)
-    style = "block-frame" if link == stage.linkage.mechanism.frame else "area"
+    centre, radius = complex(element.x, element.y), posed.scale * abs(element.radius)
+    at = posed.local(centre)
+    style = "block-frame" if link == posed.linkage.mechanism.frame else "area"
     if element.radius < 0:
         rings = tuple(_ring(at, r)[:: 1 if r > radius else -1] for r in (radius + _RIM, radius))
         return RoundPart(link, (Polylines(rings, style, closed=True),))
@@ -71,19 +71,19 @@ def _disc(stage: PosedLinkage, link: str, element: elements.Wheel | elements.Cir
     return RoundPart(link, tuple(shapes))
 
 
-def _face(stage: PosedLinkage, joint: int, link: str, line: elements.Line) -> tuple[float, float] | None:
+def _face(posed: PosedLinkage, joint: int, link: str, line: elements.Line) -> tuple[float, float] | None:
     """From where to where a face or rack that touches a round part reaches along its line; None if nothing is round.
 
     That of a swinging follower goes from its point to beyond the cam's axis.
     """
-    for (number, own), element in stage.linkage.elements.items():
+    for (number, own), element in posed.linkage.elements.items():
         if number == joint and isinstance(element, elements.CamDisc):
             wide = 0.7 * element.base * element.scale
             if not element.distance:
                 return -wide, wide
-            k = stage.pose._link(link)
-            axis = complex(stage.pose.complex_point(elements.LinkPoint(own, element.x, element.y))[0])
-            seen = (axis - stage.pose.places[0, 0, k]) / stage.pose.turns[0, k] - complex(line.x, line.y)
+            k = posed.pose._link(link)
+            axis = complex(posed.pose.complex_point(elements.LinkPoint(own, element.x, element.y))[0])
+            seen = (axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k] - complex(line.x, line.y)
             way = float((seen * cmath.rect(1, -line.angle)).real)
             return min(0.0, way - wide), max(0.0, way + wide)
         if number == joint and isinstance(element, elements.Wheel | elements.Circle):
@@ -91,15 +91,15 @@ def _face(stage: PosedLinkage, joint: int, link: str, line: elements.Line) -> tu
     return None
 
 
-def _flat(stage: PosedLinkage, link: str, line: elements.Line, ends: tuple[float, float]) -> Iterator[Shape]:
+def _flat(posed: PosedLinkage, link: str, line: elements.Line, ends: tuple[float, float]) -> Iterator[Shape]:
     """A face or rack, and the rods that carry it."""
     foot, along = complex(line.x, line.y), cmath.rect(1, line.angle)
-    if link != stage.linkage.mechanism.frame:
-        for (_, own), other in stage.lower.elements.items():
+    if link != posed.linkage.mechanism.frame:
+        for (_, own), other in posed.lower.elements.items():
             if own == link and isinstance(other, elements.Pin | elements.Line):
-                rod = (stage.local(foot), stage.local(complex(other.x, other.y)))
+                rod = (posed.local(foot), posed.local(complex(other.x, other.y)))
                 yield from (Polylines((rod,), "outline-rod"), Polylines((rod,), "body-rod"))
-    yield Polylines((tuple(stage.local(foot + way * along) for way in ends),), "rail")
+    yield Polylines((tuple(posed.local(foot + way * along) for way in ends),), "rail")
 
 
 def _ring(at: Point, radius: float) -> tuple[Point, ...]:
@@ -108,59 +108,60 @@ def _ring(at: Point, radius: float) -> tuple[Point, ...]:
     return tuple(Point(at.x + radius * math.cos(t), at.y - radius * math.sin(t)) for t in turns)
 
 
-def _contour(stage: PosedLinkage, centre: complex, angle: float, points: np.ndarray) -> tuple[Point, ...]:
+def _contour(posed: PosedLinkage, centre: complex, angle: float, points: np.ndarray) -> tuple[Point, ...]:
     turn = cmath.rect(1, angle)
-    return tuple(stage.local(centre + turn * complex(z)) for z in points)
+    return tuple(posed.local(centre + turn * complex(z)) for z in points)
 
 
-def _cam(stage: PosedLinkage, disc: elements.CamDisc) -> Iterator[Shape]:
+def _cam(posed: PosedLinkage, disc: elements.CamDisc) -> Iterator[Shape]:
     """The profile of a cam, its base circle dashed."""
     from gruebler.kinematics.contours import cam_of
 
     points = cam_of(disc).profile(np.linspace(0, math.tau, _STEPS)[:-1])
     centre, scaled = complex(disc.x, disc.y), disc.scale * (points[:, 0] + 1j * points[:, 1])
-    yield Polylines((_contour(stage, centre, disc.angle, scaled),), "area", closed=True)
-    yield CircleShape(stage.local(centre), stage.scale * disc.scale * disc.base, "dead")
+    yield Polylines((_contour(posed, centre, disc.angle, scaled),), "area", closed=True)
+    yield CircleShape(posed.local(centre), posed.scale * disc.scale * disc.base, "dead")
 
 
-def _noncircular(stage: PosedLinkage, joint: int, link: str, wheel: elements.NonCircular) -> RoundPart:
+def _noncircular(posed: PosedLinkage, joint: int, link: str, wheel: elements.NonCircular) -> RoundPart:
     """The curve of a non-circular wheel, with its direction from the axis."""
     from gruebler.kinematics.noncircular import transfer_of
 
-    of_joint = [(own, e) for (number, own), e in stage.linkage.elements.items() if number == joint]
+    of_joint = [(own, e) for (number, own), e in posed.linkage.elements.items() if number == joint]
     pair = [(own, e) for own, e in of_joint if isinstance(e, elements.NonCircular)]
-    (near, one), (far, other) = sorted(pair, key=lambda end: end[1].transfer == elements.INVERSE)
+    (near, non_circular), (far, other) = sorted(pair, key=lambda end: end[1].transfer == elements.INVERSE)
     here, there = (
-        stage.pose.complex_point(elements.LinkPoint(own, e.x, e.y))[0] for own, e in ((near, one), (far, other))
+        posed.pose.complex_point(elements.LinkPoint(own, e.x, e.y))[0]
+        for own, e in ((near, non_circular), (far, other))
     )
-    curve = transfer_of(one, other).curves()[wheel is other] * abs(there - here)
-    contour = _contour(stage, complex(wheel.x, wheel.y), wheel.angle, curve)
-    ends = _contour(stage, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
-    style = "block-frame" if link == stage.linkage.mechanism.frame else "area"
+    curve = transfer_of(non_circular, other).curves()[wheel is other] * abs(there - here)
+    contour = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, curve)
+    ends = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
+    style = "block-frame" if link == posed.linkage.mechanism.frame else "area"
     return RoundPart(link, (Polylines((contour,), style, closed=True), Polylines((ends,), "hatch")))
 
 
 def _geneva(
-    stage: PosedLinkage, joint: int, link: str, element: elements.GenevaDriver | elements.GenevaWheel
+    posed: PosedLinkage, joint: int, link: str, element: elements.GenevaDriver | elements.GenevaWheel
 ) -> RoundPart:
     """The driver's arm with its pins and locking disc, or the wheel with its slots."""
     from gruebler.geneva import Geneva
 
-    of_joint = {type(e): (own, e) for (number, own), e in stage.linkage.elements.items() if number == joint}
+    of_joint = {type(e): (own, e) for (number, own), e in posed.linkage.elements.items() if number == joint}
     (near, driver), (far, cross) = of_joint[elements.GenevaDriver], of_joint[elements.GenevaWheel]
     assert isinstance(driver, elements.GenevaDriver)
     assert isinstance(cross, elements.GenevaWheel)
     geneva = Geneva(cross.slots, internal=cross.internal, pins=driver.pins)
     shape = GenevaShape(geneva)
     ends = (elements.LinkPoint(own, e.x, e.y) for own, e in ((near, driver), (far, cross)))
-    one, two = (stage.pose.complex_point(end)[0] for end in ends)
+    one, two = (posed.pose.complex_point(end)[0] for end in ends)
     size, centre = abs(two - one), complex(element.x, element.y)
     if isinstance(element, elements.GenevaWheel):
-        contour = _contour(stage, centre, element.angle, shape.sign * size * shape.wheel())
-        outer = (_ring(stage.local(centre), stage.scale * size * shape.rim), contour[::-1])
+        contour = _contour(posed, centre, element.angle, shape.sign * size * shape.wheel())
+        outer = (_ring(posed.local(centre), posed.scale * size * shape.rim), contour[::-1])
         return RoundPart(link, (Polylines(outer if cross.internal else (contour,), "area", closed=True),))
     shapes: list[Shape] = [
-        Polylines((_contour(stage, centre, element.angle, size * lock),), "area", closed=True)
+        Polylines((_contour(posed, centre, element.angle, size * lock),), "area", closed=True)
         for lock in shape.locking()
     ]
     pins = [
@@ -168,15 +169,15 @@ def _geneva(
         for k in range(driver.pins)
     ]
     for pin in pins:
-        bar = (stage.local(centre), stage.local(pin))
+        bar = (posed.local(centre), posed.local(pin))
         shapes += [Polylines((bar,), "outline-bar"), Polylines((bar,), "body-bar")]
-    shapes += [CircleShape(stage.local(pin), stage.scale * size * shape.pin, "node") for pin in pins]
+    shapes += [CircleShape(posed.local(pin), posed.scale * size * shape.pin, "node") for pin in pins]
     return RoundPart(link, tuple(shapes))
 
 
-def _belts(stage: PosedLinkage) -> Iterator[RoundPart]:
+def _belts(posed: PosedLinkage) -> Iterator[RoundPart]:
     """The two straight runs of a belt whose wheels turn about points of the frame."""
-    mechanism, made = stage.linkage.mechanism, stage.linkage.elements
+    mechanism, made = posed.linkage.mechanism, posed.linkage.elements
     fixed = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
     for number, joint in enumerate(mechanism.chain.joints):
         ends = [(link, made[number, link]) for link in joint.links]
@@ -184,7 +185,7 @@ def _belts(stage: PosedLinkage) -> Iterator[RoundPart]:
         if len(wheels) != 2:
             continue
         (a, r), (b, s) = (
-            (complex(stage.pose.complex_point(elements.LinkPoint(link, e.x, e.y))[0]), abs(e.radius))
+            (complex(posed.pose.complex_point(elements.LinkPoint(link, e.x, e.y))[0]), abs(e.radius))
             for link, e in wheels
         )
         crossed = wheels[0][1].belt == "crossed"
@@ -193,5 +194,5 @@ def _belts(stage: PosedLinkage) -> Iterator[RoundPart]:
         runs = []
         for side in (1, -1):
             touch = along * cmath.rect(1, side * lean)
-            runs.append((stage.local(a + r * touch), stage.local(b + (-s if crossed else s) * touch)))
+            runs.append((posed.local(a + r * touch), posed.local(b + (-s if crossed else s) * touch)))
         yield RoundPart(mechanism.frame, (Polylines(tuple(runs), "rail"),))

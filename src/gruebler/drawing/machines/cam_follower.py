@@ -61,7 +61,7 @@ def _swinging(cam: Cam, scale: float, side: float) -> list[Shape]:
     pin = CircleShape(Point(0.0, 0.0), 6.2, "joint")
     if isinstance(cam.follower, Flat):
         face = scale * cam.follower.face
-        reach = scale * max(one.value for one in cam.findings().face) + _BEYOND
+        reach = scale * max(extremum.value for extremum in cam.findings().face) + _BEYOND
         # The face lies on the side of the cam, its body on the other: upwards for a pivot on the left.
         edge, far = (face, face - _THICK) if side < 0 else (-face, -face + _THICK)
         return [_block(_box(-_ROD, _ROD, *sorted((0.0, far)))), _block(_box(-_ROD, reach, *sorted((edge, far)))), pin]

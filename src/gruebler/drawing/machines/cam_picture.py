@@ -89,9 +89,9 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
     >>> draw_cam(cam, 1.0).title
     'Cam with a translating roller follower'
     """
-    found, words = cam.findings(), _WORDS[lang]
+    report, words = cam.findings(), _WORDS[lang]
     if at is None:
-        at = max(found.pressure, key=lambda one: abs(one.value)).at
+        at = max(report.pressure, key=lambda one: abs(one.value)).at
     if isinstance(at, bool) or not isinstance(at, int | float) or not math.isfinite(at):
         raise CamError(
             f"the cam's angle is a finite number, not {at!r}", f"der Kurvenwinkel ist eine endliche Zahl, nicht {at!r}"
@@ -144,8 +144,8 @@ def _title(cam: Cam, lang: str) -> str:
 
 
 def _about(cam: Cam, lang: str) -> str:
-    words, found = _WORDS[lang], cam.findings()
-    under = [words["undercut"].format(at=math.degrees(found.room.at))] if found.undercut else []
+    words, report = _WORDS[lang], cam.findings()
+    under = [words["undercut"].format(at=math.degrees(report.room.at))] if report.undercut else []
     return " ".join([words["about"].format(base=cam.base), *under])
 
 
@@ -159,14 +159,14 @@ def _short(value: float) -> str:
 def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     """Cam and follower at one angle, or at keys evenly through a turn."""
     turn = even_keys(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
-    words, found = _WORDS[lang], cam.findings()
+    words, report = _WORDS[lang], cam.findings()
     middle = Point(0.0, 0.0)
     rows = [("dead", words["base"])]
     disc: list[Shape] = [Polylines((_line(_contour(cam), scale),), "area", closed=True)]
     if isinstance(cam.follower, Roller) and cam.follower.radius:
         disc.append(Polylines((_line(_complex(cam.pitch(_turn())), scale),), "centrode-moving", closed=True))
         rows.append(("centrode-moving", words["pitch"]))
-    if found.undercut:
+    if report.undercut:
         disc.append(Polylines(tuple(_line(part, scale) for part in _undercut(cam)), "drive"))
         rows.append(("drive", words["under"]))
     if scale * cam.base > _HOLE:

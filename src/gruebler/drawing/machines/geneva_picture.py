@@ -106,8 +106,12 @@ def ratio_panels(geneva: Geneva, at: float | None = None, lang: str = "en") -> F
     ends = [k * pitch + s * geneva.engaged for k in range(geneva.pins + 1) for s in (-1, 1)]
     beside = [end + tiny for end in ends for tiny in (-1e-9, 1e-9)]
     x = np.unique(np.clip(np.concatenate([np.linspace(0.0, math.tau, 721), beside]), 0.0, math.tau))
-    found = geneva.move(x)
-    rows = [("ψ in °", np.degrees(found.angle)), ("ψ′ = dψ/dφ", found.ratio), ("ψ″ = d²ψ/dφ²", found.acceleration)]
+    geneva_motion = geneva.move(x)
+    rows = [
+        ("ψ in °", np.degrees(geneva_motion.angle)),
+        ("ψ′ = dψ/dφ", geneva_motion.ratio),
+        ("ψ″ = d²ψ/dφ²", geneva_motion.acceleration),
+    ]
     return turn_diagram(x, rows, at, _WORDS[lang]["diagram"])
 
 

@@ -41,7 +41,7 @@ class TrainMotion:
         """How many turns a link makes in the time that is shown; the frame none."""
         return float(self.rates.get(link, Fraction(0)) * self.time)
 
-    def way(self, link: str) -> float:
+    def displacement(self, link: str) -> float:
         """How far a link slides in that time."""
         return self.turns(link) * (math.tau if link in self.per_radian else 1.0)
 
@@ -65,7 +65,7 @@ def train_motion(train: Train, drives: Mapping[str, object], seconds: float, mos
     given = dict(drives) or _chosen(train)
     found = speeds(train, given)
     if not found.complete:
-        wrong = [one.link for one in found.contradictions]
+        wrong = [contradiction.link for contradiction in found.contradictions]
         links = ", ".join(wrong or found.free)
         why, warum = _WHY[bool(wrong)]
         raise GearError(

@@ -128,13 +128,13 @@ def animate_train(
     'repeats: sun 21 turn(s), planet -14 turn(s), arm 6 turn(s), ring 0 turn(s).'
     """
     shown = gear_stages(train, planets or {})
-    course = train_motion(train, drives or {}, always(seconds), most)
+    motion = train_motion(train, drives or {}, always(seconds), most)
     words = _WORDS[lang]
-    told = [_about(train, shown, lang), _told(course, words)]
-    if course.chosen:
-        told.insert(1, words["chosen"].format(links=", ".join(course.chosen)))
-    clock = Clock(course.seconds, 0.0, 360.0 * float(course.drive_turns), "°", not course.slides)
-    return moving(_bodies(shown, course, teeth), clock, name or words["title"], " ".join(told))
+    told = [_about(train, shown, lang), _told(motion, words)]
+    if motion.chosen:
+        told.insert(1, words["chosen"].format(links=", ".join(motion.chosen)))
+    clock = Clock(motion.seconds, 0.0, 360.0 * float(motion.drive_turns), "°", not motion.slides)
+    return moving(_bodies(shown, motion, teeth), clock, name or words["title"], " ".join(told))
 
 
 def _about(train: Train, shown: list[GearStage], lang: str) -> str:
@@ -143,23 +143,23 @@ def _about(train: Train, shown: list[GearStage], lang: str) -> str:
     return " ".join([words["about"].format(links=len(train.links)), *bevel])
 
 
-def _told(course: TrainMotion, words: dict[str, Any]) -> str:
+def _told(motion: TrainMotion, words: dict[str, Any]) -> str:
     def turns(time: Fraction) -> str:
         return ", ".join(
             words["way"].format(link=link)
-            if link in course.slides
+            if link in motion.slides
             else words["turns"].format(link=link, turns=fraction_text(rate * time))
-            for link, rate in course.rates.items()
+            for link, rate in motion.rates.items()
         )
 
-    if course.slides:
-        return str(words["fro"].format(turns=turns(course.time)))
-    if course.time != course.cycle:
+    if motion.slides:
+        return str(words["fro"].format(turns=turns(motion.time)))
+    if motion.time != motion.cycle:
         whole = words["turns"].format(
-            link=course.drive, turns=fraction_text(abs(course.rates[course.drive]) * course.cycle)
+            link=motion.drive, turns=fraction_text(abs(motion.rates[motion.drive]) * motion.cycle)
         )
-        return str(words["cut"].format(whole=whole, turns=turns(course.time)))
-    return str(words["cycle"].format(turns=turns(course.time)))
+        return str(words["cut"].format(whole=whole, turns=turns(motion.time)))
+    return str(words["cycle"].format(turns=turns(motion.time)))
 
 
 def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool) -> list[Body]:
@@ -170,11 +170,11 @@ def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool) -> 
     scale = min(_SIZE.x / wide, _SIZE.y / high, _LARGEST)
     left, all_bodies = 0.0, []
     for stage in shown:
-        made = stage_bodies(stage, PaintOptions(scale, teeth), course)
-        corner, size = bounds(at_time(made, 0.0), 0.0)
+        bodies = stage_bodies(stage, PaintOptions(scale, teeth), course)
+        corner, size = bounds(at_time(bodies, 0.0), 0.0)
         shift = Point(left - corner.x, -(corner.y + size.y / 2))
         texts = _listed(stage, Point(left, size.y / 2 + 22.0))
-        all_bodies += [Body(body.shapes, (Shift((shift,)), *body.steps)) for body in made]
+        all_bodies += [Body(body.shapes, (Shift((shift,)), *body.steps)) for body in bodies]
         all_bodies.append(Body(tuple(texts)))
         words = bounds(texts, 0.0)[1].x
         left += max(size.x, words) + _GAP

@@ -62,9 +62,9 @@ class _Moves:
 
     def slide(self, link: str, scale: float, along: Point) -> Shift:
         """The way of a link along a direction on the page."""
-        if self.course is None or not self.course.way(link):
+        if self.course is None or not self.course.displacement(link):
             return Shift((Point(0.0, 0.0),))
-        return Shift(tuple(Point(0, 0).plus(along, way) for way in self._keys(scale * self.course.way(link))))
+        return Shift(tuple(Point(0, 0).plus(along, way) for way in self._keys(scale * self.course.displacement(link))))
 
     def _keys(self, whole: float) -> tuple[float, ...]:
         if not whole:
@@ -101,11 +101,11 @@ def stage_bodies(stage: GearStage, paint: PaintOptions, course: TrainMotion | No
     """All bodies of a stage in the order in which they are painted, its first axis or hub at the origin."""
     moves = _Moves(stage, course)
     order = sorted(stage.wheels, key=lambda wheel: (not _hollow(stage, wheel), -wheel.radius))
-    made = [Body(tuple(_wheel(stage, wheel, paint)), moves.of_wheel(wheel, paint)) for wheel in order]
-    made += [body for placed in stage.placed for body in _links(placed, moves, paint)]
-    made += _carrier(stage, moves, paint)
-    made += _pins(stage, moves, paint)
-    return [*made, *_names(stage, moves, paint)]
+    bodies = [Body(tuple(_wheel(stage, wheel, paint)), moves.of_wheel(wheel, paint)) for wheel in order]
+    bodies += [body for placed in stage.placed for body in _links(placed, moves, paint)]
+    bodies += _carrier(stage, moves, paint)
+    bodies += _pins(stage, moves, paint)
+    return [*bodies, *_names(stage, moves, paint)]
 
 
 def _hollow(stage: GearStage, wheel: StageWheel) -> bool:
@@ -162,8 +162,8 @@ def _pins(stage: GearStage, moves: _Moves, paint: PaintOptions) -> list[Body]:
     """A circle on every axis."""
     held = dict.fromkeys(wheel.at for wheel in stage.wheels if wheel.planet or not stage.central)
     steps = moves.on_carrier(paint)
-    made = [Body(tuple(CircleShape(paint.place(at), _PIN, "joint") for at in held), steps)] if held else []
-    return [*made, Body((CircleShape(Point(0.0, 0.0), _PIN, "joint"),))] if stage.central else made
+    bodies = [Body(tuple(CircleShape(paint.place(at), _PIN, "joint") for at in held), steps)] if held else []
+    return [*bodies, Body((CircleShape(Point(0.0, 0.0), _PIN, "joint"),))] if stage.central else bodies
 
 
 def _names(stage: GearStage, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
@@ -223,7 +223,7 @@ def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
     radius = placed.radii[0]
     side = -1.0 if mesh.size_a < 0 else 1.0
     at = paint.place(placed.a).plus(Point(0.0, side * scale * radius))
-    way = scale * abs(moves.course.way(mesh.b)) if moves.course else 0.0
+    way = scale * abs(moves.course.displacement(mesh.b)) if moves.course else 0.0
     half = max(1.6 * scale * radius, 40.0)
     left, right = at.x - half - way, at.x + half + way
     box = (Point(left, at.y), Point(right, at.y), Point(right, at.y + side * _BAR), Point(left, at.y + side * _BAR))
@@ -237,7 +237,7 @@ def _rope(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Bo
     mesh, scale = placed.mesh, paint.scale
     radius = placed.radii[0]
     top = paint.place(placed.a + radius)
-    way = scale * moves.course.way(mesh.b) if moves.course else 0.0
+    way = scale * moves.course.displacement(mesh.b) if moves.course else 0.0
     low = top.plus(Point(0.0, scale * radius + 30.0 + abs(way)))
     yield Body((Polylines(((top, low.plus(Point(0.0, max(-way, 0.0)))),), "edge"),))
     hidden = _box(low.plus(Point(0.0, _LOAD.y / 2 + abs(way))), 4.0, _LOAD.y / 2 + abs(way))

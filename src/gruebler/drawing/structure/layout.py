@@ -72,14 +72,14 @@ def lay_out(bodies: LayoutBodies) -> Layout:
     if bodies.size < 3:
         return _line(bodies)
     graph = _graph(bodies)
-    found: list[_Run] = []
+    _runs: list[_Run] = []
     most = _STARTS // len(graph)
     for crossed in planarised_graph(graph, bodies.bars)[:_CROSSED]:
         colours = [*bodies.point_colours, *(_HUB for _ in bodies.polygons)]
         colours += [_CROSSING] * (len(crossed.graph) - len(colours))
         begins = initial_layouts(_rotations(crossed), colours)
-        found += [_Run(bodies, crossed, start) for start in begins]
-    first = sorted(((run.relaxed(), run) for run in found[: max(8, most)]), key=lambda pair: pair[0].rank)
+        _runs += [_Run(bodies, crossed, start) for start in begins]
+    first = sorted(((run.relaxed(), run) for run in _runs[: max(8, most)]), key=lambda pair: pair[0].rank)
     return min((run.polished(layout) for layout, run in first[:_FINALISTS]), key=lambda layout: layout.rank)
 
 

@@ -48,8 +48,10 @@ def planarised_graph(graph: list[list[int]], bars: list[Edge]) -> list[Planarise
         chosen = list(combinations(pairs, number))
         if len(chosen) > _TRIES:
             break
-        if found := [c for crossings in chosen if (c := _with_crossings(graph, crossings)) and is_planar(c.graph)]:
-            return found
+        if planarised_graphs := [
+            c for crossings in chosen if (c := _with_crossings(graph, crossings)) and is_planar(c.graph)
+        ]:
+            return planarised_graphs
     return [led]
 
 
