@@ -48,7 +48,7 @@ wheel-test: $(READY)
 		$(addprefix ../../tests/,cli catalog exercises sheets test_chain.py test_pairs.py)
 
 # What is decided by rounding shows when other kernels of the linear algebra round otherwise.
-NUMERIC := $(addprefix tests/,cams freedoms geometry kinematics linkages realisation statics test_geneva.py)
+NUMERIC := $(addprefix tests/,analysis cams fourbar geometry kinematics linkages realisation screws statics test_geneva.py)
 test-blas: $(READY)
 	OPENBLAS_CORETYPE=Haswell $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
 	OPENBLAS_CORETYPE=SkylakeX $(BIN)/python -m pytest -q -n 2 $(NUMERIC)

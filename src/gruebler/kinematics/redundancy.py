@@ -10,7 +10,7 @@ import itertools
 from cmath import phase, rect
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,6 @@ __all__ = [
     "independent_part",
 ]
 
-if TYPE_CHECKING:
-    pass
 
 Reals = NDArray[np.float64]
 
