@@ -47,7 +47,7 @@ _LOADING_NUMBA = 0.55  # and what it makes ready before its first kernel
 _LOADING_KERNEL = 0.05  # from the cache
 _FIRST_COMPILING = 2.0  # what numba makes ready before it compiles
 _COMPILING = 2e-3  # for each instruction of a kernel and of the kernels that it calls: 4 s to 70 s in all
-_RUNS = 5  # A compiled kernel is kept: so many runs are taken to share the cost of compiling it.
+_RUNS = 10  # A compiled kernel is kept: so many runs are taken to share the cost of compiling it.
 
 
 class _Recipe(NamedTuple):
@@ -102,7 +102,7 @@ def for_work(kernel: Kernel, seconds: float) -> Kernel:
     """The kernel in the tier that pays for a call that would take so many seconds if it were interpreted.
 
     The seconds of earlier calls count too: once a kernel has been interpreted for as long as it takes to load or to
-    compile (a fifth of that, since the result is kept), it is compiled. The environment variable GRUEBLER_KERNELS
+    compile (a tenth of that, since the result is kept), it is compiled. The environment variable GRUEBLER_KERNELS
     (`auto`, `interpreted`, `compiled`) overrides it, and NUMBA_DISABLE_JIT=1 means interpreted.
 
     Raises:
