@@ -77,7 +77,7 @@ def test_the_price_falls_when_a_kernel_lies_in_the_cache_or_is_there(monkeypatch
     monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(compiling, "is_cached", lambda _: False)
     fresh = price(closest)
-    assert price(walk) > 2 * fresh > 1
+    assert price(walk_path) > 2 * fresh > 1
     monkeypatch.setattr(compiling, "is_cached", lambda _: True)
     assert price(closest) == price(walk_path) < fresh
     monkeypatch.undo()

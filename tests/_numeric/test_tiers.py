@@ -36,7 +36,8 @@ from tests.samples import CLASS_III, parallel_legs
 # in pairs: some units of 2e-16 for each operation, more where a root is near zero.
 CLOSE = 1e-11
 DOORS = {
-    "walk_path", "_designs", "closing", "newton", "close_near_singular", "settle_on_curve", "trace_curve", "evaluate_pose", "evaluate_system", "jacobian", "label_graph", "adjacency",
+    "walk_path", "_designs", "closing", "newton", "close_near_singular", "settle_on_curve", "trace_curve",
+    "evaluate_pose", "evaluate_system", "jacobian", "label_graph", "adjacency",
     "_label_all", "add_loop", "take_census", "list_chains", "write_graph6", "relax", "closest", "crossing_segments",
     "refine", "refine_solutions",
 }  # fmt: skip
