@@ -216,9 +216,23 @@ def test_chosen_pivots_of_three_positions():
     by_body, by_frame = guiding_dyads(task)
     assert by_body.moving == pytest.approx(1)
     assert by_frame.fixed == pytest.approx(4 - 1j)
+    displacements, origin, size = Displacements.of(task.origins, task.turns)
+    for dyad in (by_body, by_frame):
+        assert misfit(displacements, dyad.moved(1 / size, -origin / size)) < 1e-12
     found = synthesise_positions(task)
     assert found.count.theorem is None
     assert "infinitely many" in found.notes[0]
+
+
+def test_three_positions_are_met_by_many_linkages_moved_by_the_solver():
+    task = task_of([(0, 0, 0), (1, 0.5, 20), (2, 0.4, 45)])
+    found = synthesise_positions(task)
+    assert len(found.designs) > 10
+    for design in found.designs:
+        motion = move(design.linkage, design.drives)
+        assert np.abs(motion.complex_point("P") - task.origins).max() < 1e-9
+        turned = motion.angle("coupler") - motion.angle("coupler")[0]
+        assert np.abs(np.exp(1j * turned) - task.turns / task.turns[0]).max() < 1e-9
 
 
 def test_more_than_five_positions_come_back_too():

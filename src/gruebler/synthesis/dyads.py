@@ -132,7 +132,7 @@ def _centre(places: Complexes) -> complex:
     """The centre of the circle through three places."""
     u, v = places[1] - places[0], places[2] - places[0]
     cross = 2 * float(np.imag(np.conj(u) * v))
-    return complex(places[0] + 1j * (abs(v) ** 2 * u - abs(u) ** 2 * v) / -cross)
+    return complex(places[0] + 1j * (abs(v) ** 2 * u - abs(u) ** 2 * v) / cross)
 
 
 def sliding_dyads(given: Displacements) -> tuple[GuidingDyad, ...]:
