@@ -13,8 +13,8 @@ help:
 	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with two other kernels of OpenBLAS"
-	@echo "make test-lowest the fast tests with the lowest versions that pyproject.toml allows"
-	@echo "make test-newest the fast tests with another Python (NEWEST=python3.13) and the newest versions"
+	@echo "make test-lowest a broad choice of tests with the lowest versions that pyproject.toml allows"
+	@echo "make test-newest a broad choice of tests with another Python (NEWEST=python3.13) and the newest versions"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
 
 # Reinstalled only when pyproject.toml changes: repeated calls start at once.
@@ -53,6 +53,8 @@ test-blas: $(READY)
 	OPENBLAS_CORETYPE=Haswell $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
 	OPENBLAS_CORETYPE=SkylakeX $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
 
+# What other versions of Python and of the packages could break, in a few minutes; BROAD=tests runs everything.
+BROAD := $(addprefix tests/,analysis catalog cli fourbar isomorphism kinematics linkages mobility test_chain.py)
 # Environments of their own, kept in build/: another version of the compiler does not touch the kernels of .venv.
 NEWEST ?= $(PYTHON)
 test-lowest: export NUMBA_CACHE_DIR = $(CURDIR)/build/lowest/kernels
@@ -62,14 +64,15 @@ test-lowest:
 	$(PYTHON) .ci/lowest.py > build/lowest/constraints.txt
 	build/lowest/venv/bin/python -m pip install --quiet --disable-pip-version-check -e ".[test]" \
 		-c build/lowest/constraints.txt
-	build/lowest/venv/bin/python -m pytest -q -n 2
+	build/lowest/venv/bin/python -m pytest -q -n 2 $(BROAD)
 
-test-newest: export NUMBA_CACHE_DIR = $(CURDIR)/build/newest/kernels
+NEWEST_DIR = build/newest/$(shell $(NEWEST) -c "import sys; print('%d.%d' % sys.version_info[:2])")
+test-newest: export NUMBA_CACHE_DIR = $(CURDIR)/$(NEWEST_DIR)/kernels
 test-newest:
-	@mkdir -p build/newest
-	@test -x build/newest/venv/bin/python || $(NEWEST) -m venv build/newest/venv
-	build/newest/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
-	build/newest/venv/bin/python -m pytest -q -n 2
+	@mkdir -p $(NEWEST_DIR)
+	@test -x $(NEWEST_DIR)/venv/bin/python || $(NEWEST) -m venv $(NEWEST_DIR)/venv
+	$(NEWEST_DIR)/venv/bin/python -m pip install --quiet --disable-pip-version-check --upgrade -e ".[test]"
+	$(NEWEST_DIR)/venv/bin/python -m pytest -q -n 2 $(BROAD)
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks

@@ -1,5 +1,6 @@
 """What one command prints another one reads: entries, reports, lists of mechanisms."""
 
+import io
 import json
 
 import pytest
@@ -89,3 +90,12 @@ def test_exercises_stand_apart(capsys):
     status, _, err = run(capsys, "draw", "exercise-3")
     assert status == 2
     assert "'exercise-3' is an exercise; the machines in it are quad, e3_watt, e3_steph" in err
+
+
+def test_json_of_a_report_is_read_from_standard_input(capsys, monkeypatch):
+    assert main(["check", "crankrocker", "--json"]) == 0
+    document = capsys.readouterr().out
+    monkeypatch.setattr("sys.stdin", io.StringIO(document))
+    assert main(["check", "-", "--json"]) == 0
+    again = json.loads(capsys.readouterr().out)
+    assert again[0]["generic"] == json.loads(document)[0]["generic"] == 1

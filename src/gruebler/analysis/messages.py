@@ -37,9 +37,13 @@ _TEXTS = {
         "The transmission to {name} is uniform: i = {ratio:.9g}.",
         "Die Übersetzung auf {name} ist gleichförmig: i = {ratio:.9g}.",
     ),
+    "goes round once": (
+        "The output {name} makes one full turn in each period.",
+        "Der Abtrieb {name} läuft in jeder Periode einmal um.",
+    ),
     "goes round": (
-        "The output {name} goes round {turns} time(s) in one period.",
-        "Der Abtrieb {name} läuft in einer Periode {turns}-mal um.",
+        "The output {name} makes {turns} full turns in each period.",
+        "Der Abtrieb {name} läuft in jeder Periode {turns}-mal um.",
     ),
     "swing": ("The output {name} swings through {travel}.", "Der Abtrieb {name} schwingt um {travel}."),
     "stroke": ("The output {name} has a stroke of {travel}.", "Der Abtrieb {name} hat einen Hub von {travel}."),
@@ -117,7 +121,8 @@ def explain_measures(measures: Measures, lang: str) -> Iterator[str]:
     elif measures.transfer.uniform:
         yield say("uniform", name=name, ratio=measures.transfer.ratio)
     elif measures.output_turns:
-        yield say("goes round", name=name, turns=abs(measures.output_turns))
+        turns = abs(measures.output_turns)
+        yield say("goes round once", name=name) if turns == 1 else say("goes round", name=name, turns=turns)
     elif measures.travel is not None:
         key = "swing" if measures.output.turning else "stroke"
         yield say(key, name=name, travel=_output(measures, measures.travel))

@@ -142,7 +142,11 @@ def _complain(found: Iterable[CheckedEntry]) -> None:
 def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     """What one argument names: a chain, a catalog entry, an exercise or a file."""
     if word == "-":
-        yield from _lines(sys.stdin.read(), "standard input", arguments)
+        text = sys.stdin.read()
+        if text.lstrip().startswith(("[", "{")):
+            yield from _json(Path("standard input"), text, arguments)
+        else:
+            yield from _lines(text, "standard input", arguments)
     elif is_text(word):
         yield _plain(chain_from_word(word, arguments.space), word, arguments)
     elif (path := Path(word)).is_file() or path.suffix.lower() in _ENDINGS:

@@ -104,8 +104,9 @@ def independent_part(linkage: Linkage) -> Independent:
     if freedoms < len(drives):
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
-            f"In its home position its joints leave {freedoms} freedoms, fewer than are driven ({len(drives)}); "
-            f"against the drives work {names or 'other drives'}. `gruebler freedoms` says what its sizes allow."
+            f"In the given position its joints leave mobility {freedoms}, less than the number of drives "
+            f"({len(drives)}); the drives are blocked by {names or 'one another'}. `gruebler freedoms` analyses its "
+            "mobility with these dimensions."
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
