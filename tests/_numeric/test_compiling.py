@@ -77,7 +77,7 @@ def test_the_price_falls_when_a_kernel_lies_in_the_cache_or_is_there(monkeypatch
     monkeypatch.setattr(compiling, "_dispatchers", {})
     monkeypatch.setattr(compiling, "is_cached", lambda _: False)
     fresh = price(closest)
-    assert price(walk_path) > 2 * fresh > 1
+    assert price(walk_path) > 2 * fresh
     monkeypatch.setattr(compiling, "is_cached", lambda _: True)
     assert price(closest) == price(walk_path) < fresh
     monkeypatch.undo()
@@ -197,12 +197,13 @@ def test_a_second_process_loads_what_the_first_compiled(tmp_path: Path) -> None:
     shutil.copytree(NUMERIC.parent, tmp_path / "gruebler", ignore=shutil.ignore_patterns("__pycache__"))
     ask = """if True:
         import numpy as np
-        from gruebler._numeric.compiling import compiled, price
+        from gruebler._numeric.compiling import compiled
+        from gruebler._numeric.kernel_cache import is_cached
         from gruebler._numeric.layout import closest
-        before = price(closest)
+        before = is_cached(closest)
         kernel = compiled(closest)
         kernel(np.zeros((3, 2)), np.array([[0, 1]]), np.array([[0, 2]]))
-        print(before < 1, sum(kernel.stats.cache_hits.values()), sum(kernel.stats.cache_misses.values()))
+        print(before, sum(kernel.stats.cache_hits.values()), sum(kernel.stats.cache_misses.values()))
         """
     said = [
         subprocess.run([sys.executable, "-c", ask], cwd=tmp_path, capture_output=True, text=True, check=True).stdout

@@ -276,13 +276,15 @@ def test_gears_of_the_catalog_turn_as_their_teeth_say():
         motion = moved(id)
         assert abs(motion.angle(link) - ratio * motion.drives[:, 0]).max() < 1e-13, id
     guide = moved("winch_plane")
-    assert abs(np.diff(guide.slide("P(frame-rope_guide)")) - 10 * np.diff(guide.drives[:, 0])).max() < 1e-12
+    assert abs(np.diff(guide.displacement("P(frame-rope_guide)")) - 10 * np.diff(guide.drives[:, 0])).max() < 1e-12
 
 
 def test_cams_and_the_geneva_drive_of_the_catalog():
     valve, tappet = moved("cam", [0, 75, 150, 360]), moved("cam_roller", [0, 90, 150, 360])
-    assert valve.slide("P(frame-valve)") - valve.slide("P(frame-valve)")[0] == pytest.approx([0, 8, 0, 0], abs=1e-12)
-    lift = tappet.slide("P(frame-tappet)")
+    assert valve.displacement("P(frame-valve)") - valve.displacement("P(frame-valve)")[0] == pytest.approx(
+        [0, 8, 0, 0], abs=1e-12
+    )
+    lift = tappet.displacement("P(frame-tappet)")
     assert lift - lift[0] == pytest.approx([0, 20, 20, 0], abs=1e-11)
     cross = moved("geneva", [0, 45, 180, 360]).angle("cross")
     assert cross - cross[0] == pytest.approx([0, -np.pi / 4, -np.pi / 4, -np.pi / 2], abs=1e-13)

@@ -348,11 +348,11 @@ def test_at_least_one_process():
 
 ENDLESS = """
 import os, sys, time
-from gruebler.enumeration.worker_pool import Processes, perform
+from gruebler.enumeration.worker_pool import ProcessPools, run_work
 def work(number):
     os.write(1, b"%d\\n" % os.getpid())  # in one go, so that lines do not mix
     time.sleep(600)
-list(perform(work, range(4), Processes(2)))
+list(run_work(work, range(4), ProcessPools(2)))
 """
 
 

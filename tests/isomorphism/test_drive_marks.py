@@ -104,3 +104,10 @@ def test_by_hand():
     turned, pushed = (Mechanism.parse(f"spatial: C(a-b) S(b-c) R(c-a); drive=C(a-b):{d}").code() for d in ("Rz", "Tz"))
     assert turned != pushed
     assert pushed.endswith(";drives=0:Tz")
+
+
+def test_mechanisms_with_one_and_with_two_of_two_equal_joints_driven_differ():
+    one = Mechanism.parse("G(0-1) R(0-2) G(0-1); frame=1; drive=G(0-1):Tx")
+    two = Mechanism.parse("G(0-1) R(0-2) G(0-1); frame=1; drive=G(0-1):Tx; drive=G(0-1)#2:Tx")
+    assert one != two
+    assert one.code() != two.code()

@@ -56,7 +56,7 @@ def test_four_bars(a, b, c, d, branch):
 @given(lengths, lengths, st.floats(-1, 1).map(lambda x: round(x, 3)), branches)
 def test_slider_cranks(a, b, e, branch):
     crank = SliderCrank(a, b, e)
-    judged(crank.linkage(), crank, lambda m, k: m.slide("P(frame-slider)", k), branch, 1e-8)
+    judged(crank.linkage(), crank, lambda m, k: m.displacement("P(frame-slider)", k), branch, 1e-8)
 
 
 @settings(max_examples=40)

@@ -150,7 +150,7 @@ class InvertedSliderCrank:
         ``slide`` the way r. Poses that cannot be assembled are NaN; ``message`` says where (``limits``).
 
         >>> shaper = InvertedSliderCrank(a=30, d=50).motion(math.radians(60), omega=2)
-        >>> round(float(shaper.slide.value), 6), round(math.degrees(shaper.coupler.value), 6)
+        >>> round(float(shaper.displacement.value), 6), round(math.degrees(shaper.coupler.value), 6)
         (43.588989, -36.586776)
         >>> shaper.point(90).value.round(6)
         array([ 87.265956, -27.662798])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -163,7 +164,8 @@ class Mechanism:
         return hash(self._key())
 
     def _key(self) -> tuple[object, ...]:
-        driven = frozenset(
+        # Counted: two equal joints between the same links may both be driven.
+        driven = Counter(
             (
                 self.chain.joints[d.joint].pair,
                 frozenset(self.chain.joints[d.joint].links),
@@ -172,7 +174,7 @@ class Mechanism:
             )
             for d in self.drives
         )
-        return self.chain, self.frame, driven
+        return self.chain, self.frame, frozenset(driven.items())
 
     def __reduce__(self) -> tuple[object, ...]:
         return Mechanism, (self.chain, self.frame, self.drives)
