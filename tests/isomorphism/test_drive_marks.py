@@ -111,3 +111,7 @@ def test_mechanisms_with_one_and_with_two_of_two_equal_joints_driven_differ():
     two = Mechanism.parse("G(0-1) R(0-2) G(0-1); frame=1; drive=G(0-1):Tx; drive=G(0-1)#2:Tx")
     assert one != two
     assert one.code() != two.code()
+    same = Mechanism.parse("G(0-1) R(0-2) G(0-1); frame=0; drive=G(0-1):Rz; drive=G(0-1):Tx")
+    apart = Mechanism.parse("G(0-1) R(0-2) G(0-1); frame=0; drive=G(0-1):Rz; drive=G(0-1)#2:Tx")
+    assert same != apart
+    assert same.code() != apart.code()

@@ -164,15 +164,13 @@ class Mechanism:
         return hash(self._key())
 
     def _key(self) -> tuple[object, ...]:
-        # Counted: two equal joints between the same links may both be driven.
+        at_joint: dict[int, set[tuple[str, frozenset[str]]]] = {}
+        for d in self.drives:
+            at_joint.setdefault(d.joint, set()).add((d.direction, frozenset(d.between)))
+        # Joint by joint and counted: of equal joints between the same links one or several may be driven.
         driven = Counter(
-            (
-                self.chain.joints[d.joint].pair,
-                frozenset(self.chain.joints[d.joint].links),
-                d.direction,
-                frozenset(d.between),
-            )
-            for d in self.drives
+            (self.chain.joints[k].pair, frozenset(self.chain.joints[k].links), frozenset(drives))
+            for k, drives in at_joint.items()
         )
         return self.chain, self.frame, frozenset(driven.items())
 
