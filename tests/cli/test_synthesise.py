@@ -48,7 +48,7 @@ def test_json_has_counts_verdicts_and_linkages(five, capsys):
 def test_a_region_without_designs_is_status_1_with_the_reason(five, capsys):
     assert main(["synthesise", "positions", str(five), "--region", "10", "10", "20", "20"]) == 1
     out = capsys.readouterr().out
-    assert "There is no design that does what is wanted." in out
+    assert "None of the designs examined meets the task." in out
     assert "a fixed pivot lies outside the region" in out
 
 

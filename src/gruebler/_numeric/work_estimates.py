@@ -1,6 +1,6 @@
 """How long kernels take if they are interpreted, in seconds: the estimates for `compiling.for_work`.
 
-Measured on one core with Python 3.11 (`benchmarks/startup.py` tells how); right to a factor of two or three, which is
+Measured on one core with Python 3.11; right to a factor of two or three, which is
 all that the choice of a tier needs. A row that a sweep places costs 4 us for each dyad, one that is walked to 25 us;
 an orthonormalisation of n rows 2 n^2 us; a graph of the enumeration about 300 us for each of its automorphisms.
 """
