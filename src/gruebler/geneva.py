@@ -70,14 +70,25 @@ class Geneva:
     def __post_init__(self) -> None:
         for name, number, least in (("slots", self.slots, 3), ("pins", self.pins, 1)):
             if not isinstance(number, int) or isinstance(number, bool) or number < least:
-                raise GenevaError(f"a Geneva drive has a whole number of {name}, at least {least}, not {number!r}")
+                raise GenevaError(
+                    "a Geneva drive has a whole number of {name}, at least {least}, not {number!r}",
+                    name=name,
+                    least=least,
+                    number=number,
+                )
             if number > _MOST:
-                raise GenevaError(f"a Geneva drive has {_MOST:,} {name} at most, not {number:,}")
+                raise GenevaError(
+                    "a Geneva drive has {most:,} {name} at most, not {number:,}", most=_MOST, name=name, number=number
+                )
         if self.pins > self.most_pins:
             kind = "internal" if self.internal else "external"
             raise GenevaError(
-                f"an {kind} Geneva drive with {self.slots} slots takes at most {self.most_pins} pins, not {self.pins}: "
-                "the next pin would enter before the last has left"
+                "an {kind} Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
+                "pin would enter before the last has left",
+                kind=kind,
+                slots=self.slots,
+                most_pins=self.most_pins,
+                pins=self.pins,
             )
 
     @property
@@ -143,7 +154,7 @@ class Geneva:
         [70.711, 70.711, 29.289, 4.712]
         """
         if not isinstance(distance, int | float) or not 0 < distance < math.inf:
-            raise GenevaError(f"the distance of the centres is a positive length, not {distance!r}")
+            raise GenevaError("the distance of the centres is a positive length, not {distance!r}", distance=distance)
         lam = self.crank_ratio
         return GenevaSizes(
             crank=distance * lam,

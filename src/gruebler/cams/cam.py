@@ -82,19 +82,26 @@ class Cam(Brief):
 
     def __post_init__(self) -> None:
         if isinstance(self.base, bool) or not isinstance(self.base, int | float) or not 1e70 > self.base > 0:
-            raise CamError(f"the base circle has a positive radius below 1e70, not {self.base!r}")
+            raise CamError("the base circle has a positive radius below 1e70, not {base!r}", base=self.base)
         lowest = min(value for _, value in self.lift.extremes(0))
         highest = max(value for _, value in self.lift.extremes(0))
         if not self.follower.swings and highest - lowest > 1e9 * self.base:
-            raise CamError(f"a lift of {highest - lowest:g} is more than 1e9 times the base circle's {self.base:g}")
+            raise CamError(
+                "a lift of {highest:g} is more than 1e9 times the base circle's {base:g}",
+                highest=highest - lowest,
+                base=self.base,
+            )
         low, high = self.start + lowest, self.start + highest
         if not self.follower.swings and low <= 0:
-            raise CamError(f"the lift goes down to {lowest:g}, beyond the cam's axis")
+            raise CamError("the lift goes down to {lowest:g}, beyond the cam's axis", lowest=lowest)
         limit = math.pi if isinstance(self.follower, Roller) else math.pi / 2
         if self.follower.swings and not (low > 0 and high < limit):
             raise CamError(
-                f"the follower swings from {math.degrees(low):.6g} to {math.degrees(high):.6g} degrees against the "
-                f"line of centres; between 0 and {math.degrees(limit):g} is possible"
+                "the follower swings from {low:.6g} to {high:.6g} degrees against the line of centres; between 0 "
+                "and {limit:g} is possible",
+                low=math.degrees(low),
+                high=math.degrees(high),
+                limit=math.degrees(limit),
             )
 
     @property

@@ -77,12 +77,14 @@ def follower_motion(contour: Contour, follower: Follower, angle: ArrayLike) -> F
     touch = contour.touch(follower, phi.ravel())
     if not np.isfinite(touch.coordinate).all():
         lost = math.degrees(phi.ravel()[~np.isfinite(touch.coordinate)][0])
-        raise CamError(f"the follower does not meet the contour at {lost:.6g} degrees")
+        raise CamError("the follower does not meet the contour at {lost:.6g} degrees", lost=lost)
     with np.errstate(divide="ignore", invalid="ignore"):
         rates = _roller_rates(follower, touch) if isinstance(follower, Roller) else _flat_rates(follower, touch)
     if not np.isfinite(rates).all():
         stuck = math.degrees(phi.ravel()[~np.isfinite(rates).all(axis=0)][0])
-        raise CamError(f"the follower jams at {stuck:.6g} degrees: the normal lies across its motion, or a corner")
+        raise CamError(
+            "the follower jams at {stuck:.6g} degrees: the normal lies across its motion, or a corner", stuck=stuck
+        )
     return FollowerMotion(*(one.reshape(phi.shape) for one in (touch.coordinate, *rates)))
 
 
@@ -133,7 +135,7 @@ class ArcContour:
             raise CamError("a contour has at least one arc")
         for arc in self.arcs:
             if not all(map(math.isfinite, (arc.start, arc.centre.real, arc.centre.imag, arc.radius))) or arc.radius < 0:
-                raise CamError(f"an arc has finite numbers and no negative radius, not {tuple(arc)}")
+                raise CamError("an arc has finite numbers and no negative radius, not {arc}", arc=tuple(arc))
         starts = [arc.start for arc in self.arcs]
         if any(b <= a for a, b in pairwise(starts)) or starts[-1] - starts[0] >= math.tau:
             raise CamError("the arcs of a contour follow one another counter-clockwise within one turn")
@@ -143,7 +145,8 @@ class ArcContour:
             if abs(gap.real + after.radius - before.radius) > 1e-9 * scale or gap.imag < -1e-9 * scale:
                 degrees = math.degrees(after.start)
                 raise CamError(
-                    f"the arcs that meet at the normal of {degrees:.6g} degrees have no common tangent there"
+                    "the arcs that meet at the normal of {degrees:.6g} degrees have no common tangent there",
+                    degrees=degrees,
                 )
 
     def _neighbours(self) -> Iterator[tuple[ContourArc, ContourArc]]:

@@ -45,7 +45,9 @@ def _check(follower: Roller | Flat) -> None:
     for field in fields(follower):
         value = getattr(follower, field.name)
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e70:
-            raise CamError(f"{field.name} of a follower: expected a number below 1e70, not {value!r}")
+            raise CamError(
+                "{name} of a follower: expected a number below 1e70, not {value!r}", name=field.name, value=value
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +66,7 @@ class Roller:
     def __post_init__(self) -> None:
         _check(self)
         if self.radius < 0 or self.arm < 0:
-            raise CamError(f"radius and arm of a follower are not negative: {self}")
+            raise CamError("radius and arm of a follower are not negative: {self_}", self_=self)
         if (self.arm == 0) != (self.distance == 0) or (self.arm and self.offset):
             raise CamError("a swinging follower has an arm and a distance of its pivot, and no offset")
 
@@ -78,13 +80,20 @@ class Roller:
         if not self.swings:
             if abs(self.offset) >= radius:
                 raise CamError(
-                    f"the offset {self.offset:g} must be smaller than base radius and roller together, {radius:g}"
+                    "the offset {offset:g} must be smaller than base radius and roller together, {radius:g}",
+                    offset=self.offset,
+                    radius=radius,
                 )
             return math.sqrt(radius**2 - self.offset**2)
         d = abs(self.distance)
         cosine = (self.arm**2 + d**2 - radius**2) / (2 * self.arm * d)
         if not -1 < cosine < 1:
-            raise CamError(f"arm {self.arm:g}, pivot distance {d:g} and base circle {radius:g} form no triangle")
+            raise CamError(
+                "arm {arm:g}, pivot distance {d:g} and base circle {radius:g} form no triangle",
+                arm=self.arm,
+                d=d,
+                radius=radius,
+            )
         return math.acos(cosine)
 
     def gain(self, start: float, lift: FloatArray) -> FloatArray:
@@ -128,7 +137,12 @@ class Flat:
         if not self.swings:
             return radius
         if not abs(radius + self.face) < abs(self.distance):
-            raise CamError(f"a face {self.face:g} from its pivot at {self.distance:g} reaches no circle of {radius:g}")
+            raise CamError(
+                "a face {face:g} from its pivot at {distance:g} reaches no circle of {radius:g}",
+                face=self.face,
+                distance=self.distance,
+                radius=radius,
+            )
         return math.asin((radius + self.face) / abs(self.distance))
 
     def gain(self, start: float, lift: FloatArray) -> FloatArray:

@@ -46,7 +46,7 @@ def finite_array(values: ArrayLike, what: str) -> FloatArray:
     except (TypeError, ValueError):
         found = np.array(np.nan)
     if not np.isfinite(found).all():
-        raise CamError(f"{what}: expected finite numbers, not {values!r}"[:200])
+        raise CamError("{what}: expected finite numbers, not {values!r}", what=what, values=values)
     return found
 
 
@@ -137,9 +137,9 @@ def polynomial_law(*powers: int) -> MotionLaw:
     [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
     """
     if not powers or any(not isinstance(p, int) or isinstance(p, bool) or not 1 <= p <= 15 for p in powers):
-        raise CamError(f"a polynomial law has whole powers from 1 to 15, such as 3-4-5, not {powers!r}")
+        raise CamError("a polynomial law has whole powers from 1 to 15, such as 3-4-5, not {powers!r}", powers=powers)
     if len(set(powers)) < len(powers):
-        raise CamError(f"the powers of a polynomial law are different, not {powers!r}")
+        raise CamError("the powers of a polynomial law are different, not {powers!r}", powers=powers)
     polynomial = [0.0] * (max(powers) + 1)
     for p in powers:
         polynomial[p] = math.prod(q / (q - p) for q in powers if q != p)
@@ -156,7 +156,7 @@ def boundary_law(start: Sequence[float], end: Sequence[float]) -> MotionLaw:
     if not start or not end or not all(isinstance(v, int | float) and math.isfinite(v) for v in values):
         raise CamError("boundary values are finite numbers: lift, then velocity, acceleration, ... at each end")
     if len(values) > 16:
-        raise CamError(f"at most 16 boundary values are taken, not {len(values)}")
+        raise CamError("at most 16 boundary values are taken, not {count}", count=len(values))
     coefficients = _hermite([Fraction(v) for v in start], [Fraction(v) for v in end])
     return MotionLaw("polynomial", (LawPiece(0.0, tuple(map(float, coefficients))),))
 
@@ -243,7 +243,7 @@ def motion_law(name: str) -> MotionLaw:
     True
     """
     if not isinstance(name, str):
-        raise CamError(f"a law has a name such as 3-4-5 or cycloidal, not {name!r}")
+        raise CamError("a law has a name such as 3-4-5 or cycloidal, not {name!r}", name=name)
     known = LAWS.get(name.lower(), name.lower())
     if known in _ACCELERATIONS:
         return _from_acceleration(known, _ACCELERATIONS[known])
@@ -252,4 +252,6 @@ def motion_law(name: str) -> MotionLaw:
     parts = known.split("-")
     if all(part.isascii() and part.isdigit() and len(part) < 3 for part in parts):
         return polynomial_law(*map(int, parts))
-    raise CamError(f"no law is called {name!r}: {', '.join(LAWS)}{nearest(name, LAWS)}")
+    raise CamError(
+        "no law is called {name!r}: {laws}{suggestion}", name=name, laws=", ".join(LAWS), suggestion=nearest(name, LAWS)
+    )

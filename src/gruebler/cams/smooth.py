@@ -51,7 +51,7 @@ class SmoothContour(Brief):
         if table.ndim != 2 or table.shape[1] != 2:
             raise CamError("a contour is given by rows of two finite numbers, x and y")
         if (np.abs(table) >= _MOST).any():
-            raise CamError(f"a contour has coordinates below {_MOST:g}")
+            raise CamError("a contour has coordinates below {most:g}", most=_MOST)
         if len(table) > 1 and (table[0] == table[-1]).all():
             table = table[:-1]
         closed = np.vstack([table, table[:1]])
@@ -67,7 +67,9 @@ class SmoothContour(Brief):
         table = finite_array(curve(u[:-1]), "points of a contour")
         if table.shape != (samples, 2):
             raise CamError(
-                f"the function gives {samples} points x, y for {samples} angles, not the shape {table.shape}"
+                "the function gives {samples} points x, y for {samples} angles, not the shape {shape}",
+                samples=samples,
+                shape=table.shape,
             )
         return cls._closed(u, np.vstack([table, table[:1]]), 5, resolution)
 

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from gruebler.cli.parser import build_parser
 from gruebler.errors import GrueblerError
+from gruebler.text import error_in_language
 
 __all__ = ["main"]
 
@@ -31,7 +32,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         status = int(import_module(arguments.run).run(arguments))
         sys.stdout.flush()
     except GrueblerError as error:
-        print(f"gruebler {arguments.command}: {error.in_language(getattr(arguments, 'lang', 'en'))}", file=sys.stderr)
+        print(
+            f"gruebler {arguments.command}: {error_in_language(error, getattr(arguments, 'lang', 'en'))}",
+            file=sys.stderr,
+        )
         return 2
     except MemoryError:
         print(f"gruebler {arguments.command}: this needs more memory than there is", file=sys.stderr)

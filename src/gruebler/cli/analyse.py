@@ -26,6 +26,7 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import read_branch
 from gruebler.kinematics.solve import all_branches, cached_plan
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.text import error_in_language
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
@@ -85,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.poles or arguments.curvature:
             raise GrueblerError("--poles and --curvature are those of linkages with one drive")
         if given is None:
-            raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
+            raise GrueblerError("{count} drives: give --drive FROM:TO:STEP or --at once for each", count=len(turning))
         if speeds:
             motion = move(
                 linkage,
@@ -103,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         measures = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
-        text = error.in_language(arguments.lang)
+        text = error_in_language(error, arguments.lang)
         message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
         if arguments.json:
             none = {"columns": [], "rows": [], "complete": False, "message": message}
@@ -129,10 +130,12 @@ def _speeds(arguments: argparse.Namespace, turning: Sequence[bool]) -> list[floa
     """Of the drives, in radians a second, or lengths a second; given in revolutions a minute, or lengths a second."""
     given, from_rest = arguments.speed, bool(arguments.acceleration or arguments.jerk)
     if given and len(given) != len(turning):
-        raise GrueblerError(f"--speed is given once for each drive: {len(turning)} times, not {len(given)}")
+        raise GrueblerError(
+            "--speed is given once for each drive: {count} times, not {count_2}", count=len(turning), count_2=len(given)
+        )
     for speed in given:
         if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1 and not from_rest):
-            raise GrueblerError(f"--speed: expected a number that is not 0, but found {speed:g}")
+            raise GrueblerError("--speed: expected a number that is not 0, but found {speed:g}", speed=speed)
     return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
 
 
@@ -142,10 +145,12 @@ def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> lis
         return [0.0] * len(speeds)
     if len(given) != len(speeds):
         wanted = f"once for each --speed: {len(speeds)} times, not {len(given)}" if speeds else "together with --speed"
-        raise GrueblerError(f"{option} is given {wanted}")
+        raise GrueblerError("{option} is given {wanted}", option=option, wanted=wanted)
     for value in given:
         if not math.isfinite(value) or not abs(value) < 1e12:
-            raise GrueblerError(f"{option}: expected a finite number below 1e12, but found {value:g}")
+            raise GrueblerError(
+                "{option}: expected a finite number below 1e12, but found {value:g}", option=option, value=value
+            )
     return list(given)
 
 
@@ -223,7 +228,7 @@ def _say(linkage: Linkage, measures: Measures, words: dict[str, str], lang: str)
     print_text(measures.explain(lang))
     made = _circuit(linkage, measures)
     if isinstance(made, LinkageError):
-        print(words["unknown"].format(why=made.in_language(lang)))
+        print(words["unknown"].format(why=error_in_language(made, lang)))
     else:
         roles = motion_roles(made).items()
         moving = (f"{link} = {role.in_language(lang)}" for link, role in roles if link != linkage.mechanism.frame)

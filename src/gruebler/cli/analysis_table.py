@@ -153,10 +153,7 @@ def _cell(value: float) -> str:
 def check_csv(path: Path | None) -> None:
     """`GrueblerError` if the name of the file promises something else than a table."""
     if path is not None and path.suffix.lower() not in ("", ".csv", ".txt"):
-        raise GrueblerError(
-            f"{path}: a table is written as CSV; end the name with .csv",
-            f"{path}: eine Tabelle wird als CSV geschrieben; der Name endet auf .csv",
-        )
+        raise GrueblerError("{path}: a table is written as CSV; end the name with .csv", path=path)
 
 
 def as_csv(made: Sequence[Column]) -> str:

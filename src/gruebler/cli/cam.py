@@ -28,6 +28,7 @@ from gruebler.cli.output import print_json
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
+from gruebler.text import message
 
 __all__ = ["run"]
 
@@ -80,13 +81,9 @@ def run(arguments: argparse.Namespace) -> int:
     words: dict[str, Any] = _WORDS[arguments.lang]
     if arguments.laws + (arguments.lift is not None) + (arguments.contour is not None) != 1:
         example = "'rise 20 60; dwell 30; fall 20 90; dwell'"
-        raise GrueblerError(f"expected one of: a lift such as {example}, --laws, --contour FILE")
+        raise GrueblerError("expected one of: a lift such as {example}, --laws, --contour FILE", example=example)
     if arguments.lift is None:
-        refuse_picture(
-            arguments,
-            "a picture is drawn of a cam for a lift",
-            "gezeichnet wird eine Kurvenscheibe zu einem Hubverlauf",
-        )
+        refuse_picture(arguments, message("a picture is drawn of a cam for a lift"))
     if arguments.laws:
         return _laws(arguments.json, words)
     follower = _follower(arguments)
@@ -148,7 +145,9 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError(f"{path}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        raise GrueblerError(
+            "{path}: cannot be read: {value}", path=path, value=getattr(error, "strerror", None) or error
+        ) from None
     points = []
     for number, line in enumerate(lines, 1):
         cells = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
@@ -156,9 +155,19 @@ def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str,
             try:
                 points.append([float(cell) for cell in cells])
             except ValueError:
-                raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}") from None
+                raise GrueblerError(
+                    "{path}, line {number}: expected two numbers, x and y, not {line!r}",
+                    path=path,
+                    number=number,
+                    line=line,
+                ) from None
             if len(cells) != 2:
-                raise GrueblerError(f"{path}, line {number}: expected two numbers, x and y, not {line!r}")
+                raise GrueblerError(
+                    "{path}, line {number}: expected two numbers, x and y, not {line!r}",
+                    path=path,
+                    number=number,
+                    line=line,
+                )
     degrees = turn_degrees(10 if arguments.step is None else arguments.step)
     found = follower_motion(SmoothContour.through(points), follower, np.radians(degrees))
     scale = 180 / math.pi if follower.swings else 1.0

@@ -170,7 +170,12 @@ def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> CheckedEnt
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     ending = path.suffix.lower()
     if ending not in ("", *_ENDINGS):
-        raise CatalogError(f"{path}: expected a file that ends with {', '.join(_ENDINGS)}, not with {path.suffix}")
+        raise CatalogError(
+            "{path}: expected a file that ends with {endings}, not with {suffix}",
+            path=path,
+            endings=", ".join(_ENDINGS),
+            suffix=path.suffix,
+        )
     if ending == ".toml":
         if _is_linkage(path):
             yield _plain(read_any_linkage(path).mechanism.chain, path.stem, arguments)
@@ -180,9 +185,9 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
+        raise CatalogError("{path}: cannot be read ({value})", path=path, value=error.strerror or error) from None
     except UnicodeDecodeError:
-        raise CatalogError(f"{path}: is not UTF-8 text") from None
+        raise CatalogError("{path}: is not UTF-8 text", path=path) from None
     if ending == ".json":
         yield from _json(path, text, arguments)
     elif ending == ".g6":
@@ -193,7 +198,7 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
 
 def _is_linkage(path: Path) -> bool:
     """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
-    document = load_document(path, lambda text: CatalogError(f"{path}: {text}"))
+    document = load_document(path, lambda text: CatalogError("{path}: {text_}", path=path, text_=text))
     return isinstance(document, dict) and "id" not in document and ("unit" in document or "screws" in document)
 
 
@@ -201,13 +206,13 @@ def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Chec
     try:
         document = json.loads(text)
     except RecursionError:
-        raise NotationError(f"{path}: is nested too deeply") from None
+        raise NotationError("{path}: is nested too deeply", path=path) from None
     except ValueError as error:  # JSONDecodeError, or a number of thousands of digits
-        raise NotationError(f"{path}: is not JSON: {error}") from None
+        raise NotationError("{path}: is not JSON: {error}", path=path, error=error) from None
     if isinstance(document, dict) and "items" in document:
         document = document["items"]
     if document == []:
-        raise NotationError(f"{path}: no chain in it; expected an object or a list of objects")
+        raise NotationError("{path}: no chain in it; expected an object or a list of objects", path=path)
     documents = document if isinstance(document, list) else [document]
     for number, one in enumerate(documents, 1):
         name = f"{path}[{number}]" if isinstance(document, list) else str(path)
@@ -217,7 +222,7 @@ def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Chec
         try:
             yield _plain(_chain_of_json(one), name, arguments)
         except GrueblerError as error:
-            raise NotationError(f"{name}: {error}") from None
+            raise NotationError("{name}: {error}", name=name, error=error) from None
 
 
 def _chain_of_json(document: Any) -> Chain:
@@ -241,6 +246,6 @@ def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Ch
             chain = chain_from_word(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
             yield _plain(chain, line.strip(), arguments)
         except GrueblerError as error:
-            raise NotationError(f"{source}, line {number}: {error}") from None
+            raise NotationError("{source}, line {number}: {error}", source=source, number=number, error=error) from None
     if empty:
-        raise NotationError(f"{source}: no chain in it; expected one a line")
+        raise NotationError("{source}: no chain in it; expected one a line", source=source)

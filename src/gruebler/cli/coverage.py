@@ -84,7 +84,7 @@ def coverage_rows() -> tuple[Row, ...]:
     path: Path = catalog_folder() / "coverage.toml"
 
     def fail(text: str) -> CatalogError:
-        return CatalogError(f"{path}: {text}")
+        return CatalogError("{path}: {text_}", path=path, text_=text)
 
     table = convert_document(load_document(path, fail), Coverage, fail)
     told = {machine.id: machine.commands for machine in table.machines}

@@ -26,6 +26,7 @@ from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import message
 
 __all__ = ["entry_of", "german", "linkage_and_range", "picture_suffix", "run", "subject", "told_picture"]
 
@@ -55,8 +56,8 @@ def picture_suffix(path: Path | None, dark: bool, known: tuple[str, ...] = SUFFI
     suffix = "svg" if path is None else suffix_of(path, known)
     if dark and suffix in ("svg", "html"):
         raise GrueblerError(
-            f"--dark is for pictures of pixels and PDF: {suffix.upper()} is on the ground of its reader, light or dark",
-            f"--dark gilt für Pixelbilder und PDF: {suffix.upper()} steht auf dem Grund des Lesers, hell oder dunkel",
+            "--dark is for pictures of pixels and PDF: {upper} is on the ground of its reader, light or dark",
+            upper=suffix.upper(),
         )
     return suffix
 
@@ -88,21 +89,12 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
     if view is not None and asked:
-        raise GrueblerError(
-            f"graphs and loops show no sizes: they do not go together with {asked[0]}",
-            f"Graphen und Maschen zeigen keine Maße: sie gehen nicht zusammen mit {asked[0]}",
-        )
+        raise GrueblerError("graphs and loops show no sizes: they do not go together with {asked}", asked=asked[0])
     if view is not None and arguments.labels:
-        raise GrueblerError(
-            "--labels names the links of a picture of bodies; graphs and loops name them by themselves",
-            "--labels benennt die Glieder eines Bildes aus Körpern; Graphen und Maschen benennen sie von selbst",
-        )
+        raise GrueblerError("--labels names the links of a picture of bodies; graphs and loops name them by themselves")
     if moving["of"] is not None and not set(moving["show"]) & set(_OF_A_LINK):
         shown = ", ".join(_OF_A_LINK)
-        raise GrueblerError(
-            f"--of says of which link something is shown: it goes with --show {shown}",
-            f"--of sagt, von welchem Glied etwas gezeigt wird: es gehört zu --show {shown}",
-        )
+        raise GrueblerError("--of says of which link something is shown: it goes with --show {shown}", shown=shown)
     has_sizes = _has_sizes(arguments.chain)
     if view is None and (has_sizes or asked):
         return _to_scale(arguments, moving)
@@ -123,8 +115,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
     for option in ("space", "frame", "drive"):
         if getattr(arguments, option):
             raise GrueblerError(
-                f"a linkage with sizes has its own frame and drives: it is drawn without --{option}",
-                f"ein Getriebe mit Maßen hat sein Gestell und seine Antriebe: es wird ohne --{option} gezeichnet",
+                "a linkage with sizes has its own frame and drives: it is drawn without --{option}", option=option
             )
     linkage, between = linkage_and_range(arguments.chain)
     record = entry_of(arguments.chain)
@@ -170,11 +161,12 @@ def _pose(linkage: Linkage, text: str | None) -> list[float] | None:
     except ValueError:
         values = []
     if len(values) != len(drives) or not all(math.isfinite(value) and abs(value) < 1e9 for value in values):
-        many = "one number" if len(drives) == 1 else f"{len(drives)} numbers with commas"
-        viele = "eine Zahl" if len(drives) == 1 else f"{len(drives)} Zahlen mit Kommas"
         raise GrueblerError(
-            f"--pose: expected {many}, degrees where a drive turns, but found {text!r}",
-            f"--pose: erwartet wird {viele}, Grad bei einem Drehantrieb, nicht {text!r}",
+            "--pose: expected {numbers}, degrees where a drive turns, but found {found!r}",
+            numbers=message("one number")
+            if len(drives) == 1
+            else message("{count} numbers with commas", count=len(drives)),
+            found=text,
         )
     turning = [drive.direction.startswith("R") for drive in drives]
     return [math.radians(value) if turns else value for value, turns in zip(values, turning, strict=True)]

@@ -81,15 +81,21 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.orbits and form is not None:
         raise GrueblerError("--orbits goes with --count: it adds the numbers of mechanisms to the number of chains")
     if form is None and arguments.format not in (None, "json"):
-        raise GrueblerError(f"--format {arguments.format} goes with a list: a count is a table, or JSON with --json")
+        raise GrueblerError(
+            "--format {format} goes with a list: a count is a table, or JSON with --json", format=arguments.format
+        )
     if form is None and arguments.format == "json":
         arguments.json = True
     if form is None and _form_of_ending(arguments.output) not in (None, "json"):
-        raise GrueblerError(f"{arguments.output}: a count is written as JSON; end the name with .json")
+        raise GrueblerError("{output}: a count is written as JSON; end the name with .json", output=arguments.output)
     if arguments.output is not None and not arguments.output.name:
-        raise RunError(f"--output {str(arguments.output)!r} names no file")
+        raise RunError("--output {output!r} names no file", output=str(arguments.output))
     if arguments.output is not None and not arguments.output.parent.is_dir():
-        raise RunError(f"{arguments.output} cannot be written: there is no directory {arguments.output.parent}")
+        raise RunError(
+            "{output} cannot be written: there is no directory {parent}",
+            output=arguments.output,
+            parent=arguments.output.parent,
+        )
     executor = None if arguments.jobs == 1 else ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
     size = estimate(request, form)
     _check_size(size, arguments)
@@ -101,12 +107,15 @@ def run(arguments: argparse.Namespace) -> int:
 def _format(arguments: argparse.Namespace, request: Request) -> str:
     form = arguments.format or ("json" if arguments.json else _form_of_ending(arguments.output) or "text")
     if arguments.json and form != "json":
-        raise GrueblerError(f"--json is the same as --format json and does not go with --format {form}")
+        raise GrueblerError("--json is the same as --format json and does not go with --format {form}", form=form)
     if form == "graph6" and not request.only_simple:
         raise GrueblerError("graph6 describes chains with simple joints only: take --format text or json here")
     if _form_of_ending(arguments.output) not in (None, form):
         raise GrueblerError(
-            f"{arguments.output}: --format {form} and the ending {arguments.output.suffix} do not agree"
+            "{output}: --format {form} and the ending {suffix} do not agree",
+            output=arguments.output,
+            form=form,
+            suffix=arguments.output.suffix,
         )
     return str(form)
 
@@ -117,7 +126,9 @@ def _form_of_ending(path: Path | None) -> str | None:
         return None
     form = _ENDINGS.get(path.suffix.lower())
     if form is None:
-        raise GrueblerError(f"{path}: chains are written as .txt, .g6 or .json, not as {path.suffix}")
+        raise GrueblerError(
+            "{path}: chains are written as .txt, .g6 or .json, not as {suffix}", path=path, suffix=path.suffix
+        )
     return form
 
 

@@ -52,7 +52,9 @@ def run(arguments: argparse.Namespace) -> int:
             _tell([exercise(id) for id in arguments.ids], arguments, solved=True)
         case "new":
             if not 1 <= arguments.count <= _MOST:
-                raise GrueblerError(f"--count is a number from 1 to {_MOST}, not {arguments.count}")
+                raise GrueblerError(
+                    "--count is a number from 1 to {most}, not {count}", most=_MOST, count=arguments.count
+                )
             seeds = range(arguments.seed, arguments.seed + arguments.count)
             exercises = [generate(arguments.kind, seed, arguments.level) for seed in seeds]
             _tell(exercises, arguments, solved=arguments.solutions)
@@ -86,9 +88,9 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
     for word in arguments.answers:
         key, equals, answer = word.partition("=")
         if not equals or not key.strip() or not answer.strip():
-            raise GrueblerError(f"an answer is written KEY=ANSWER, such as H=40, not {word!r}")
+            raise GrueblerError("an answer is written KEY=ANSWER, such as H=40, not {word!r}", word=word)
         if key.strip() in answers:
-            raise GrueblerError(f"{key.strip()} is answered twice: give one answer for each")
+            raise GrueblerError("{strip} is answered twice: give one answer for each", strip=key.strip())
         answers[key.strip()] = answer
     marks = grade(task, answers)
     right = all(one.mark is Mark.RIGHT for one in marks)

@@ -37,7 +37,7 @@ def _linkage(word: str) -> Linkage | SpatialLinkage:
         from gruebler.documents import load_document
         from gruebler.formats.screws import read_any_linkage
 
-        document = load_document(path, lambda text: GrueblerError(f"{path}: {text}"))
+        document = load_document(path, lambda text: GrueblerError("{path}: {text_}", path=path, text_=text))
         if not (isinstance(document, dict) and "id" in document):
             return read_any_linkage(path)
         record = read_entry(path)
@@ -46,14 +46,15 @@ def _linkage(word: str) -> Linkage | SpatialLinkage:
     made = record.placed()
     if made is None and record.dimensions is not None:
         raise GrueblerError(
-            f"the belts, cams and non-circular wheels of {word!r} have no place in this report; its joints may be "
-            "given by screws ([screws] in its file), and gruebler check counts it",
-            f"für Riemen, Kurven und unrunde Räder von {word!r} gibt es diesen Bericht nicht; Gelenke lassen sich "
-            "durch Schrauben angeben ([screws] in der Datei), und gruebler check zählt ab",
+            "the belts, cams and non-circular wheels of {word!r} have no place in this report; its joints "
+            "may be given by screws ([screws] in its file), and gruebler check counts it",
+            word=word,
         )
     if made is None:
         placed = [entry.id for entry in entries().values() if entry.dimensions is not None or entry.screws is not None]
-        raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {', '.join(placed)}")
+        raise GrueblerError(
+            "the catalog entry {word!r} has no dimensions; these have: {placed}", word=word, placed=", ".join(placed)
+        )
     return made
 
 

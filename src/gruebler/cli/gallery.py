@@ -70,10 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif arguments.links is not None:
         title, note, sections = _request(arguments)
     else:
-        raise GrueblerError(
-            "say what to show: --links N, or ids of the catalog",
-            "sage, was zu zeigen ist: --links N oder Namen des Katalogs",
-        )
+        raise GrueblerError("say what to show: --links N, or ids of the catalog")
     if suffix == "html":
         content = gallery_html(title, sections, lang=arguments.lang, note=note).encode("utf-8")
     else:
@@ -94,9 +91,8 @@ def _check(arguments: argparse.Namespace) -> None:
         if getattr(arguments, key) not in (None, False):
             option = f"--{key.replace('_', '-')}"
             raise GrueblerError(
-                f"a gallery shows machines of the catalog or the chains of --links, not both: {option} is for chains",
-                f"eine Galerie zeigt Maschinen des Katalogs oder die Ketten von --links, nicht beides: {option} gilt "
-                "für Ketten",
+                "a gallery shows machines of the catalog or the chains of --links, not both: {option} is for chains",
+                option=option,
             )
 
 
@@ -110,14 +106,14 @@ def _lines(word: str) -> list[str]:
     try:
         text = sys.stdin.read() if word == "-" else path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise GrueblerError(f"{word}: cannot be read ({error.strerror or error})") from None
+        raise GrueblerError("{word}: cannot be read ({value})", word=word, value=error.strerror or error) from None
     except UnicodeDecodeError:
-        raise GrueblerError(f"{word}: is not UTF-8 text") from None
+        raise GrueblerError("{word}: is not UTF-8 text", word=word) from None
     found = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if path.suffix == ".g6":
         found = [f"g6:{line}" for line in found]
     if not found:
-        raise GrueblerError(f"{word}: no chain in it; expected one a line")
+        raise GrueblerError("{word}: no chain in it; expected one a line", word=word)
     return found
 
 
@@ -131,7 +127,7 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
         shown = subject(word, None, None, [])
         outputs = outputs_of(word)
     except GrueblerError as error:
-        raise GrueblerError(f"number {number}, {word[:40]!r}: {error}") from None
+        raise GrueblerError("number {number}, {word!r}: {error}", number=number, word=word[:40], error=error) from None
     name = chain_name(shown, arguments.lang) if isinstance(shown, Chain) else family(shown, arguments.lang)
     words = [str(number), name or "", *(_WORDS[arguments.lang]["output"].format(link=link) for link in outputs)]
     figure = draw(shown, labels=arguments.labels, lang=arguments.lang, name=name or "")
@@ -140,10 +136,7 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
 
 def _fits(number: int) -> None:
     if number > _MOST:
-        raise GrueblerError(
-            f"{number:,} chains do not fit on a page of {_MOST:,}",
-            f"{number:,} Ketten passen nicht auf eine Seite für {_MOST:,}",
-        )
+        raise GrueblerError("{number:,} chains do not fit on a page of {most:,}", number=number, most=_MOST)
 
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
@@ -164,20 +157,20 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         size = estimate(Request(arguments.links, mobility, **options), "text").chains
         if size > _MOST:
             raise GrueblerError(
-                f"{size:,} chains do not fit on a page of {_MOST:,}; choose some with --assortment",
-                f"{size:,} Ketten passen nicht auf eine Seite für {_MOST:,}; wähle mit --assortment aus",
+                "{size:,} chains do not fit on a page of {most:,}; choose some with --assortment", size=size, most=_MOST
             )
     found = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
     if len(found) > _MOST:
         raise GrueblerError(
-            f"more than {_MOST:,} chains have the assortment {arguments.assortment}: they do not fit on a page",
-            f"mehr als {_MOST:,} Ketten haben die Gliederverteilung {arguments.assortment}: Sie passen nicht auf eine "
-            "Seite",
+            "more than {most:,} chains have the assortment {assortment}: they do not fit on a page",
+            most=_MOST,
+            assortment=arguments.assortment,
         )
     if not found:
         raise GrueblerError(
-            f"there are no such chains with {arguments.links} links and F = {mobility}: nothing to be drawn",
-            f"solche Ketten mit {arguments.links} Gliedern und F = {mobility} gibt es nicht: nichts zu zeichnen",
+            "there are no such chains with {links} links and F = {mobility}: nothing to be drawn",
+            links=arguments.links,
+            mobility=mobility,
         )
     sections = []
     pictures = 0

@@ -85,7 +85,9 @@ def _read(word: str) -> TrainReading:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError(f"{word}: cannot be read: {getattr(error, 'strerror', None) or error}") from None
+        raise GrueblerError(
+            "{word}: cannot be read: {value}", word=word, value=getattr(error, "strerror", None) or error
+        ) from None
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 
 

@@ -107,7 +107,7 @@ def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict
         found["locking_arc_deg"] = math.degrees(sizes.locking_arc)
     if speed is not None:
         if not 0 < abs(speed) < math.inf:
-            raise GrueblerError(f"--speed: expected turns a minute that are not zero, not {speed:g}")
+            raise GrueblerError("--speed: expected turns a minute that are not zero, not {speed:g}", speed=speed)
         omega = abs(speed) * math.tau / 60
         found["greatest_speed"] = speed * drive.greatest_ratio
         found["greatest_acceleration_rad_s2"] = omega**2 * drive.greatest_acceleration

@@ -56,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.free:
         return _along(_three(lengths, arguments.free), arguments)
     if len(lengths) != 4:
-        raise GrueblerError(f"four lengths A B C D are needed (three go with --free), not {len(lengths)}")
+        raise GrueblerError("four lengths A B C D are needed (three go with --free), not {count}", count=len(lengths))
     four_bar = FourBar(*lengths)
     if arguments.json:
         print_json(_document(four_bar))
@@ -76,7 +76,7 @@ def _number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise GrueblerError(f"a length must be a number, not {text!r}") from None
+        raise GrueblerError("a length must be a number, not {text_!r}", text_=text) from None
 
 
 def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
@@ -84,7 +84,12 @@ def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
     if len(lengths) == 4:
         lengths = [length for name, length in zip("abcd", lengths, strict=True) if name != free]
     if len(lengths) != 3:
-        raise GrueblerError(f"--free {free} takes the lengths {', '.join(names)} (or all four), not {len(lengths)}")
+        raise GrueblerError(
+            "--free {free} takes the lengths {names} (or all four), not {count}",
+            free=free,
+            names=", ".join(names),
+            count=len(lengths),
+        )
     return dict(zip(names, lengths, strict=True))
 
 

@@ -29,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
             ("--number", arguments.number != 1),
         ):
             if given:
-                raise GrueblerError(f"{option} goes with --drives: it is said of a driven mechanism")
+                raise GrueblerError("{option} goes with --drives: it is said of a driven mechanism", option=option)
     if arguments.drives:
         drivens = list(
             driven_mechanisms(chain, drives=arguments.number, at_frame=not arguments.anywhere, output=arguments.output)

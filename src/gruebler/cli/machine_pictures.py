@@ -12,6 +12,7 @@ from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.drawing.canvas.moving_files import MOVING, moving_bytes
 from gruebler.drawing.canvas.moving_picture import MovingPicture
 from gruebler.errors import GrueblerError
+from gruebler.text import Message, message
 
 __all__ = ["angle_of", "is_few", "refuse_picture", "write_picture"]
 
@@ -19,21 +20,18 @@ _OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
 _FEW = ("gif", "webp", "png")
 
 
-def refuse_picture(arguments: argparse.Namespace, why: str, warum: str) -> None:
-    """`GrueblerError` if there is an option for pictures, with the reason in English and German."""
+def refuse_picture(arguments: argparse.Namespace, why: Message) -> None:
+    """`GrueblerError` if there is an option for pictures, with the reason ."""
     for option in ("output", *_OPTIONS):
         value = getattr(arguments, option, None)
         if value is not None and value is not False:
-            raise GrueblerError(f"--{option}: {why}", f"--{option}: {warum}")
+            raise GrueblerError("--{option}: {why}", option=option, why=why)
 
 
 def angle_of(arguments: argparse.Namespace) -> float | None:
     """The angle of --at in radians."""
     if arguments.at is not None and not math.isfinite(arguments.at):
-        raise GrueblerError(
-            f"--at: expected a finite number of degrees, not {arguments.at}",
-            f"--at: eine endliche Zahl von Grad ist verlangt, nicht {arguments.at}",
-        )
+        raise GrueblerError("--at: expected a finite number of degrees, not {at}", at=arguments.at)
     return None if arguments.at is None else math.radians(arguments.at)
 
 
@@ -47,19 +45,16 @@ def write_picture(
 ) -> None:
     """Write the picture if a file is named; ``moving`` is told the seconds."""
     if arguments.output is None:
-        refuse_picture(arguments, "needs a file for the picture: -o FILE", "verlangt eine Datei für das Bild: -o DATEI")
+        refuse_picture(arguments, message("needs a file for the picture: -o FILE"))
         return
     if not arguments.animate:
         if arguments.seconds is not None:
-            raise GrueblerError("--seconds goes with --animate", "--seconds gehört zu --animate")
+            raise GrueblerError("--seconds goes with --animate")
         suffix = suffix_of(arguments.output, SUFFIXES)
         write_file(arguments.output, picture_bytes(still(), suffix, dark=arguments.dark), arguments.lang)
         return
     if getattr(arguments, "at", None) is not None:
-        raise GrueblerError(
-            "--at does not go with --animate, which shows all positions",
-            "--at geht nicht mit --animate zusammen, das alle Stellungen zeigt",
-        )
+        raise GrueblerError("--at does not go with --animate, which shows all positions")
     suffix = suffix_of(arguments.output, MOVING)
     shown = moving(4.0 if arguments.seconds is None else arguments.seconds)
     write_file(arguments.output, moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang), arguments.lang)

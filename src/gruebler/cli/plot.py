@@ -17,7 +17,9 @@ from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.errors import GrueblerError
+from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
+from gruebler.text import joined_by_or
 
 __all__ = ["run"]
 
@@ -59,19 +61,15 @@ def _check(arguments: argparse.Namespace) -> None:
         value, option = getattr(arguments, key), f"--{_WRITTEN.get(key, key)}"
         if value != none and arguments.kind not in kinds:
             raise GrueblerError(
-                f"{option} goes with --kind {' or '.join(kinds)}, not with {arguments.kind}",
-                f"{option} gehört zu --kind {' oder '.join(kinds)}, nicht zu {arguments.kind}",
+                "{option} goes with --kind {kinds}, not with {kind}",
+                option=option,
+                kinds=joined_by_or(kinds),
+                kind=arguments.kind,
             )
         if isinstance(value, float) and not math.isfinite(value):
-            raise GrueblerError(
-                f"{option}: expected a finite number, but found {value}",
-                f"{option}: erwartet wird eine endliche Zahl, nicht {value}",
-            )
+            raise GrueblerError("{option}: expected a finite number, but found {value}", option=option, value=value)
     if arguments.kind == "ratio" and len(arguments.point) > 1:
-        raise GrueblerError(
-            f"--kind ratio is of one point, but found {', '.join(arguments.point)}",
-            f"--kind ratio zeigt einen Punkt, genannt sind {', '.join(arguments.point)}",
-        )
+        raise GrueblerError("--kind ratio is of one point, but found {point}", point=", ".join(arguments.point))
 
 
 @dataclass(frozen=True)
@@ -97,8 +95,7 @@ class _Asked:
         if not found:
             joints = ", ".join(self.linkage.mechanism.chain.joint_names())
             raise GrueblerError(
-                f"this linkage has no named points; name one of its joints with --point: {joints}",
-                f"dieses Getriebe hat keine benannten Punkte; nenne eines seiner Gelenke mit --point: {joints}",
+                "this linkage has no named points; name one of its joints with --point: {joints}", joints=joints
             )
         return found
 
@@ -136,7 +133,9 @@ def _place(key: str, text: str | None) -> complex | None:
     try:
         u, v = (float(part) for part in text.split(","))
     except ValueError:
-        raise GrueblerError(f"--{_WRITTEN[key]}: expected two numbers U,V, but found {text!r}") from None
+        raise GrueblerError(
+            "--{written}: expected two numbers U,V, but found {text_!r}", written=_WRITTEN[key], text_=text
+        ) from None
     return complex(u, v)
 
 
@@ -151,7 +150,7 @@ def _ratio(asked: _Asked) -> Figure:
     point, middle = asked.points[0], math.radians(given.centre)
     motion = move(linkage, [middle], speed=1.0, branch=given.branch)
     if not len(motion):
-        raise GrueblerError(motion.message(given.lang))
+        raise GrueblerError("{reason}", reason=stop_message(motion))
     path = linkage_path(linkage, point, given.branch)
     tangent = cmath.phase(complex(motion.complex_point(point, 1)[0]))
 
@@ -164,13 +163,21 @@ def _ratio(asked: _Asked) -> Figure:
     shown = within(np.linspace(*ends, _WINDOWS)[1:]) if rough else []
     if len(shown) < 2:
         raise GrueblerError(
-            f"the path of {point} about {given.centre:g} degrees has no windows with Q_G from {_LEAST:g} to {_MOST:g}"
+            "the path of {point} about {centre:g} degrees has no windows with Q_G from {least:g} to {most:g}",
+            point=point,
+            centre=given.centre,
+            least=_LEAST,
+            most=_MOST,
         )
     marked = None
     if given.ratio is not None:
         piece = piece_of_ratio(path, middle, given.ratio, tangent)
         if piece is None:
-            raise GrueblerError(f"every window about {given.centre:g} degrees is straighter than Q_G = {given.ratio:g}")
+            raise GrueblerError(
+                "every window about {centre:g} degrees is straighter than Q_G = {ratio:g}",
+                centre=given.centre,
+                ratio=given.ratio,
+            )
         marked = piece.end - piece.start, piece.ratio, piece.length / crank
     name = title(linkage.mechanism, given.lang, asked.name)
     return ratio_diagram(

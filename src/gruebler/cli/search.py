@@ -78,7 +78,12 @@ def _features(arguments: argparse.Namespace) -> FeatureQuery:
         numbers = _numbers(arguments.link_kinds)
         kinds = dict(enumerate(numbers, 2))
         if arguments.links not in (None, sum(numbers)):
-            raise GrueblerError(f"--link-kinds {arguments.link_kinds} are {sum(numbers)} links, not {arguments.links}")
+            raise GrueblerError(
+                "--link-kinds {link_kinds} are {sum} links, not {links}",
+                link_kinds=arguments.link_kinds,
+                sum=sum(numbers),
+                links=arguments.links,
+            )
     return FeatureQuery(
         links=sum(kinds.values()) if arguments.link_kinds is not None else arguments.links,
         mobility=arguments.mobility,
@@ -95,7 +100,9 @@ def _features(arguments: argparse.Namespace) -> FeatureQuery:
 def _numbers(text: str) -> tuple[int, ...]:
     parts = text.split(",")
     if not all(part.strip().isdecimal() for part in parts):
-        raise GrueblerError(f"--link-kinds {text!r}: expected the numbers of binary, ternary, ... links such as 4,2")
+        raise GrueblerError(
+            "--link-kinds {text_!r}: expected the numbers of binary, ternary, ... links such as 4,2", text_=text
+        )
     return tuple(int(part) for part in parts)
 
 
@@ -160,9 +167,11 @@ def _document(entry: Entry, features: AccessFeatures) -> dict[str, Any]:
 def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
     for option in ("words", "text", "joints", "pair", "drive", "claims"):
         if getattr(arguments, option):
-            raise GrueblerError(f"{option} belongs to the machines of the catalog and does not go with --enumerate")
+            raise GrueblerError(
+                "{option} belongs to the machines of the catalog and does not go with --enumerate", option=option
+            )
     if arguments.limit is not None and arguments.limit < 1:
-        raise GrueblerError(f"--limit is 1 or more, not {arguments.limit}")
+        raise GrueblerError("--limit is 1 or more, not {limit}", limit=arguments.limit)
     words = _WORDS[arguments.lang]
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     if arguments.limit is None:

@@ -186,7 +186,7 @@ def _size(one: Sheet, arguments: argparse.Namespace) -> int:
     elif math.isfinite(arguments.ratio) and 0 < arguments.ratio < 1:
         tolerance = arguments.ratio * length
     else:
-        raise GrueblerError(f"--ratio: expected a number between 0 and 1, but found {arguments.ratio!r}")
+        raise GrueblerError("--ratio: expected a number between 0 and 1, but found {ratio!r}", ratio=arguments.ratio)
     try:
         sized_mechanism = one.sized(length, tolerance)
     except LinkageError as error:

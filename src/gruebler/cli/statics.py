@@ -113,7 +113,9 @@ def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float
     name, equals, values = text.rpartition("=")
     if not equals or not name:
         wanted = "POINT=FX,FY or LINK:X,Y=FX,FY" if count == 2 else "NAME=NUMBER"
-        raise GrueblerError(f"{option}: expected {wanted}, but found {text!r}")
+        raise GrueblerError(
+            "{option}: expected {wanted}, but found {text_!r}", option=option, wanted=wanted, text_=text
+        )
     numbers = _numbers(option, values, count)
     return name.strip(), numbers if count > 1 else numbers[0]
 
@@ -124,7 +126,12 @@ def _numbers(option: str, text: str, count: int) -> list[float]:
     except ValueError:
         numbers = []
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise GrueblerError(f"{option}: expected {'two numbers X,Y' if count == 2 else 'a number'}, but found {text!r}")
+        raise GrueblerError(
+            "{option}: expected {value}, but found {text_!r}",
+            option=option,
+            value="two numbers X,Y" if count == 2 else "a number",
+            text_=text,
+        )
     return numbers
 
 
@@ -133,7 +140,7 @@ def _motion(
 ) -> Motion:
     rows = given_rows(arguments.drive, arguments.at, turning)
     if rows is None and len(turning) > 1:
-        raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
+        raise GrueblerError("{count} drives: give --drive FROM:TO:STEP or --at once for each", count=len(turning))
     if rows is not None:
         return move(linkage, rows, branch=arguments.branch, order=1)
     cycle = drive_cycle(linkage, arguments.branch)

@@ -76,15 +76,16 @@ def _found(arguments: argparse.Namespace) -> PathPiece | None:
     if arguments.window is not None:
         if not 0 < abs(arguments.window[1] - arguments.window[0]) <= 360:
             raise GrueblerError(
-                "--window: expected two crank angles at most a full turn apart, but found "
-                f"{arguments.window[0]:g} and {arguments.window[1]:g}"
+                "--window: expected two crank angles at most a full turn apart, but found {window:g} and {window_2:g}",
+                window=arguments.window[0],
+                window_2=arguments.window[1],
             )
         start, end = (math.radians(angle) for angle in arguments.window)
         return path_piece(path, start, end, direction)
     if direction is not None:
         raise GrueblerError("--direction does not go with --band: the line of the longest piece is found")
     if not size.limits:
-        raise GrueblerError(f"{arguments.lengths} cannot be assembled in any position")
+        raise GrueblerError("{lengths} cannot be assembled in any position", lengths=arguments.lengths)
     begin = math.radians(arguments.centre) - math.pi
     ranges = [(begin, begin + 2 * math.pi) if arc.full else (arc.start, arc.end) for arc in size.limits]
     return max((longest_piece(path, *ends, arguments.band) for ends in ranges), key=lambda found: found.length)

@@ -114,11 +114,15 @@ def _demands(arguments: argparse.Namespace) -> Demands:
         x1, y1, x2, y2 = arguments.region
         region = (min(x1, x2), min(y1, y2), max(x1, x2), max(y1, y2))
     if not 0 <= arguments.transmission <= 90:
-        raise SynthesisError(f"--transmission: expected 0 to 90 degrees, but found {arguments.transmission:g}")
+        raise SynthesisError(
+            "--transmission: expected 0 to 90 degrees, but found {transmission:g}", transmission=arguments.transmission
+        )
     if not arguments.size_ratio >= 1:
-        raise SynthesisError(f"--size-ratio: expected at least 1, but found {arguments.size_ratio:g}")
+        raise SynthesisError(
+            "--size-ratio: expected at least 1, but found {size_ratio:g}", size_ratio=arguments.size_ratio
+        )
     if arguments.number is not None and arguments.number < 1:
-        raise SynthesisError(f"--number: expected at least 1, but found {arguments.number}")
+        raise SynthesisError("--number: expected at least 1, but found {number}", number=arguments.number)
     return Demands(arguments.crank, radians(arguments.transmission), arguments.size_ratio, region)
 
 
@@ -133,7 +137,7 @@ def _task(arguments: argparse.Namespace) -> Task:
     task = read_task(arguments.task)
     if not isinstance(task, _TASKS[arguments.kind]):
         kind = next(name for name, made in _TASKS.items() if isinstance(task, made))
-        raise SynthesisError(f"{arguments.task}: this is a task for 'synthesise {kind}'")
+        raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
     if arguments.kind == "path" and arguments.closed and isinstance(task, PathTask):
         from dataclasses import replace
 
@@ -155,7 +159,9 @@ def _law(arguments: argparse.Namespace) -> FunctionLaw:
 
     for option in ("interval", "swings"):
         if getattr(arguments, option) is None:
-            raise SynthesisError(f"an expression needs --{option}: see gruebler synthesise function --help")
+            raise SynthesisError(
+                "an expression needs --{option}: see gruebler synthesise function --help", option=option
+            )
     unit = 1.0 if arguments.travel else math.pi / 180
     starts = arguments.starts or (None, None)
     return FunctionLaw(
@@ -246,9 +252,9 @@ def _lengths(design: Design) -> str:
 
 def _check_picture(path: Path) -> None:
     if path.suffix.lower() not in (".html", ".svg"):
-        raise SynthesisError(f"{path}: end the name with .html or .svg")
+        raise SynthesisError("{path}: end the name with .html or .svg", path=path)
     if not path.parent.is_dir():
-        raise SynthesisError(f"{path}: there is no folder {str(path.parent)!r}")
+        raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
 def _draw(path: Path, found: SynthesisResult, lang: str) -> None:

@@ -65,5 +65,5 @@ def _item(one: Chain | DrivenMechanism) -> dict[str, object]:
 def _at_frame(text: str) -> tuple[JointRequirement, int]:
     symbol, _, number = text.partition(":")
     if number and not number.isdecimal():
-        raise GrueblerError(f"--at-frame {text!r}: expected a pair, or a pair and a number such as P:2")
+        raise GrueblerError("--at-frame {text_!r}: expected a pair, or a pair and a number such as P:2", text_=text)
     return JointRequirement.parse(f"{symbol}@frame"), int(number or 1)

@@ -121,12 +121,14 @@ def crank_rates(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, 
     given = {name: as_numbers(name, value) for name, value in named.items()}
     for name, values in given.items():
         if values.size and np.abs(values).max() > 1e50:
-            raise LinkageError(f"{name} must be below 1e50: choose another unit of time")
+            raise LinkageError("{name} must be below 1e50: choose another unit of time", name=name)
     try:
         return CrankRates(*(np.array(part) for part in np.broadcast_arrays(*given.values())))
     except ValueError:
         shapes = ", ".join(f"{name} {values.shape}" for name, values in given.items() if values.ndim)
-        raise LinkageError(f"the crank's angles and rates must fit each other in shape, not {shapes}") from None
+        raise LinkageError(
+            "the crank's angles and rates must fit each other in shape, not {shapes}", shapes=shapes
+        ) from None
 
 
 def determined_rates(rates: Sequence[FloatArray]) -> CrankRates:

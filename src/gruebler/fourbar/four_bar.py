@@ -72,10 +72,20 @@ class FourBar:
         square = math.fsum(given[x] ** 2 for x in others) - math.fsum(given[x] ** 2 for x in own if x != missing)
         if square <= 0:
             lengths = ", ".join(f"{name} = {value:g}" for name, value in given.items())
-            raise LinkageError(f"no central crank-rocker has {lengths}: {missing}^2 would be {square:g}")
+            raise LinkageError(
+                "no central crank-rocker has {lengths}: {missing}^2 would be {square:g}",
+                lengths=lengths,
+                missing=missing,
+                square=square,
+            )
         four_bar = cls(**given, **{missing: math.sqrt(square)})
         if four_bar.dead_centres is None:
-            raise LinkageError(f"a^2 + d^2 = b^2 + c^2 asks for {missing} = {math.sqrt(square):g}: {four_bar.type}")
+            raise LinkageError(
+                "a^2 + d^2 = b^2 + c^2 asks for {missing} = {sqrt:g}: {type}",
+                missing=missing,
+                sqrt=math.sqrt(square),
+                type=four_bar.type,
+            )
         return four_bar
 
     @classmethod
@@ -86,7 +96,7 @@ class FourBar:
         30.0
         """
         if not 0 < as_finite("swing", swing) < math.pi:
-            raise LinkageError(f"the swing must lie between 0 and pi, not {swing!r}")
+            raise LinkageError("the swing must lie between 0 and pi, not {swing!r}", swing=swing)
         return cls.central(a=as_positive("c", c) * math.sin(swing / 2), b=b, c=c, d=d)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
@@ -127,7 +137,7 @@ class FourBar:
 
     def _without(self, free: str) -> dict[str, float]:
         if free not in ("a", "b", "c", "d"):
-            raise LinkageError(f"the free length must be a, b, c or d, not {free!r}")
+            raise LinkageError("the free length must be a, b, c or d, not {free!r}", free=free)
         return {name: getattr(self, name) for name in "abcd" if name != free}
 
     def reversed(self) -> FourBar:
@@ -192,7 +202,9 @@ class FourBar:
         """
         limits = self.limits
         if not limits:
-            raise LinkageError(f"the four-bar {self.a:g}, {self.b:g}, {self.c:g}, {self.d:g} is not assemblable")
+            raise LinkageError(
+                "the four-bar {a:g}, {b:g}, {c:g}, {d:g} is not assemblable", a=self.a, b=self.b, c=self.c, d=self.d
+            )
         arc = limits[0]
         first = max(arc.start, 0.0)
         second = math.pi if arc.end > math.pi else arc.end

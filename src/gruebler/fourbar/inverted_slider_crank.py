@@ -72,7 +72,9 @@ class InvertedSliderCrank:
         """
         ratio = as_finite("time_ratio", time_ratio)
         if ratio <= 1:
-            raise LinkageError(f"the time ratio, slow by quick, must be above 1, not {time_ratio!r}")
+            raise LinkageError(
+                "the time ratio, slow by quick, must be above 1, not {time_ratio!r}", time_ratio=time_ratio
+            )
         return cls(as_positive("d", d) * math.cos(math.pi / (1 + ratio)), d)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
@@ -127,7 +129,9 @@ class InvertedSliderCrank:
         """
         limits = self.limits
         if not limits:
-            raise LinkageError(f"the inverted slider-crank {self.a:g}, {self.d:g}, e = {self.e:g} is not assemblable")
+            raise LinkageError(
+                "the inverted slider-crank {a:g}, {d:g}, e = {e:g} is not assemblable", a=self.a, d=self.d, e=self.e
+            )
         nearest = max(abs(self.d - self.a), abs(self.e))
         first = limits[0].start
         return TransmissionAngle(

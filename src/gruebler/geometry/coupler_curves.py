@@ -123,7 +123,13 @@ class CouplerCurve(Brief):
                 value = span.low + (value - span.low) % (span.period if span.full else 2 * pi)
         if not span.low <= value <= span.high:
             low, high, drive = span.low * scale, span.high * scale, drive * scale
-            raise LinkageError(f"the drive goes from {low:.6g}{unit} to {high:.6g}{unit}, not to {drive:.6g}{unit}")
+            raise LinkageError(
+                "the drive goes from {low:.6g}{unit} to {high:.6g}{unit}, not to {drive:.6g}{unit}",
+                low=low,
+                unit=unit,
+                high=high,
+                drive=drive,
+            )
         motion = cycle.at(np.array([value]), 1)
         return tangent_contact(motion, self.point_path.place, 0, highest)
 

@@ -149,4 +149,4 @@ def _moving(motion: Motion, name: str, reference: str | None) -> LinkPoint:
     for place in reversed(motion.linkage.points_named(name)):
         if place.link != fixed:
             return place
-    raise LinkageError(f"the point {name!r} lies on {fixed!r}: it does not move against it")
+    raise LinkageError("the point {name!r} lies on {fixed!r}: it does not move against it", name=name, fixed=fixed)

@@ -53,7 +53,10 @@ class Poles(Brief):
     def _number(self, link: str) -> int:
         if link not in self.links:
             raise LinkageError(
-                f"there is no link {link!r}{nearest(str(link), self.links)}; the links are {', '.join(self.links)}"
+                "there is no link {link!r}{suggestion}; the links are {links}",
+                link=link,
+                suggestion=nearest(str(link), self.links),
+                links=", ".join(self.links),
             )
         return self.links.index(link)
 

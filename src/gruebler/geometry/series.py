@@ -69,15 +69,18 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
     [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= _HIGHEST:
-        raise LinkageError(f"the order of a series is a whole number from 1 to {_HIGHEST}, not {order!r}")
+        raise LinkageError(
+            "the order of a series is a whole number from 1 to {highest}, not {order!r}", highest=_HIGHEST, order=order
+        )
     lower = motion.plan.lower
     if len(lower.mechanism.drives) != 1:
-        raise LinkageError(f"a series is by one drive, but this linkage has {len(lower.mechanism.drives)}")
+        raise LinkageError("a series is by one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
     roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])
     if roots.size and roots.min() < _SINGULAR:
         row = int(np.argmin(roots.min(axis=1)))
         raise LinkageError(
-            f"at the drive value {motion.drives[row, 0]:.9g} assembly modes meet: there is no series in the drive"
+            "at the drive value {drives:.9g} assembly modes meet: there is no series in the drive",
+            drives=motion.drives[row, 0],
         )
     conditions = _conditions(lower)
     z: Complexes = np.zeros((*motion.turns.shape, order + 1), np.complex128)
@@ -109,7 +112,8 @@ def _conditions(lower: Linkage) -> list[_Condition]:
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError(
-                f"a series is that of turning and sliding joints, but {chain.joint_names()[number]} is none"
+                "a series is that of turning and sliding joints, but {joint_names} is none",
+                joint_names=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)

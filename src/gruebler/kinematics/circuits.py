@@ -129,13 +129,17 @@ class Circuit(Brief):
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
-            raise LinkageError(f"expected finite places on the circuit, but found {arcs!r}")
+            raise LinkageError("expected finite places on the circuit, but found {arcs!r}", arcs=arcs)
         traced, laps = self.traced, np.zeros(len(given))
         if self.closed:
             laps = np.floor(given / self.length)
         place = given - laps * self.length
         if len(place) and not (place.min() >= 0 and place.max() <= self.length):
-            raise LinkageError(f"this circuit goes from 0 to {self.length:.9g} and is not closed, so no {arcs!r} on it")
+            raise LinkageError(
+                "this circuit goes from 0 to {length:.9g} and is not closed, so no {arcs!r} on it",
+                length=self.length,
+                arcs=arcs,
+            )
         segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
         x, t = traced.poses[segments], traced.tangents[segments]
         between = np.flatnonzero(traced.arcs[segments] != place)
@@ -148,7 +152,9 @@ class Circuit(Brief):
             )
             if found < len(between):
                 where = place[between[found]]
-                raise LinkageError(f"the position at {where:.9g} of the circuit cannot be found: it is singular there")
+                raise LinkageError(
+                    "the position at {where:.9g} of the circuit cannot be found: it is singular there", where=where
+                )
             x[between], t[between] = near, slopes
         x += laps[:, None] * (traced.poses[-1] - traced.poses[0])
         return self._poses(given, x, t)
@@ -315,16 +321,20 @@ def circuit(
     (True, [121.855431, -121.855431])
     """
     if not isinstance(linkage, Linkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
     for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
-            raise LinkageError(f"{name}: expected a finite number, but found {value!r}")
+            raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
     if not 1e-4 <= step <= 0.2 or not most > 0:
-        raise LinkageError(f"the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}")
+        raise LinkageError(
+            "the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}",
+            step=step,
+            most=most,
+        )
     lower = with_lower_pairs(linkage)
     count = len(linkage.mechanism.drives)
     if count > 1:
-        raise LinkageError(f"a circuit has one drive at most, but this linkage has {count}")
+        raise LinkageError("a circuit has one drive at most, but this linkage has {count}", count=count)
     system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, system, branch, drive)
     found = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
@@ -363,7 +373,9 @@ def _start(
             break
     if best is None:
         where = f"at {drive:.9g}" if drive is not None else f"at any of {_TRIALS} values of its drive"
-        raise LinkageError(f"the linkage cannot be assembled {where}; another drive value or a home may help")
+        raise LinkageError(
+            "the linkage cannot be assembled {where}; another drive value or a home may help", where=where
+        )
     return best
 
 
@@ -398,7 +410,7 @@ def _assembled(
     except LinkageError as error:
         if system.redundant and system.lower.reference_pose is None:
             raise LinkageError(
-                f"{error} With a home (Linkage.drawn) its circuit can be followed all the same."
+                "{error} With a home (Linkage.drawn) its circuit can be followed all the same.", error=error
             ) from None
         raise
     if not len(motion):

@@ -195,7 +195,8 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
     unknowns, equations = 3 * (len(bodies) + len(free)), int(first[-1])
     if equations < unknowns - 1:
         raise LinkageError(
-            f"a circuit is the motion of a linkage with one freedom, but this one has {unknowns - equations}"
+            "a circuit is the motion of a linkage with one freedom, but this one has {unknowns}",
+            unknowns=unknowns - equations,
         )
     return ClosureSystem(
         lower, bodies, tuple(free), conditions, new_trace_scratch(conditions), equations, (first[meshes], meshes)

@@ -222,12 +222,15 @@ def plan(linkage: Linkage) -> Plan:
             assert parts.report is not None
             raise LinkageError(
                 "the linkage cannot be moved by its drives: constraints or drives work against one another. "
-                f"Mobility {parts.report.mobility}, drives {parts.report.drives}, at almost all sizes. {error}"
+                "Mobility {mobility}, drives {drives}, at almost all sizes. {error}",
+                mobility=parts.report.mobility,
+                drives=parts.report.drives,
+                error=error,
             ) from None
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)
     if not parts.complete:
-        raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
+        raise LinkageError("the linkage cannot be moved by its drives. {message}", message=parts.message())
     return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
@@ -348,5 +351,7 @@ class _Planner:
                     try:
                         out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
-                        raise LinkageError(f"{self.chain.joint_names()[joint]}: {error}") from None
+                        raise LinkageError(
+                            "{joint_names}: {error}", joint_names=self.chain.joint_names()[joint], error=error
+                        ) from None
         return tuple(out)

@@ -72,7 +72,7 @@ class Poses(Brief):
         chain, frame = self.linkage.mechanism.chain, self.linkage.mechanism.frame
         number = joint if isinstance(joint, int) else chain.find_joint(joint)
         if number is None or not sliding_joint(self.linkage, number):
-            raise LinkageError(f"{joint!r} is no sliding joint")
+            raise LinkageError("{joint!r} is no sliding joint", joint=joint)
         first, other = chain.joints[number].links[:2]
         if other == frame or not isinstance(self.linkage.elements[number, first], Line):
             first, other = other, first
@@ -125,14 +125,17 @@ class Poses(Brief):
         if link not in links:
             known = self.linkage.mechanism.chain.links
             raise LinkageError(
-                f"there is no link {link!r}{nearest(str(link), known)}; the links are {', '.join(known)}"
+                "there is no link {link!r}{suggestion}; the links are {known}",
+                link=link,
+                suggestion=nearest(str(link), known),
+                known=", ".join(known),
             )
         return links.index(link)
 
 
 def _order(order: int) -> int:
     if order not in (0, 1):
-        raise LinkageError(f"along a circuit there are values (0) and first derivatives (1), not {order!r}")
+        raise LinkageError("along a circuit there are values (0) and first derivatives (1), not {order!r}", order=order)
     return order
 
 

@@ -104,9 +104,12 @@ def independent_part(linkage: Linkage) -> Independent:
     if freedoms < len(drives):
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
-            f"In the given position its joints leave mobility {freedoms}, less than the number of drives "
-            f"({len(drives)}); the drives are blocked by {names or 'one another'}. `gruebler freedoms` analyses its "
-            "mobility with these dimensions."
+            "In the given position its joints leave mobility {freedoms}, less than the number of drives "
+            "({count}); the drives are blocked by {value}. `gruebler freedoms` analyses its mobility with "
+            "these dimensions.",
+            freedoms=freedoms,
+            count=len(drives),
+            value=names or "one another",
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
@@ -189,7 +192,9 @@ class ReferenceConditions:
         far = np.abs(residual)
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < _NEAR:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
-            raise LinkageError(f"home: the joints are not closed there; {worst} is open by {far.max():.1e} sizes")
+            raise LinkageError(
+                "home: the joints are not closed there; {worst} is open by {max:.1e} sizes", worst=worst, max=far.max()
+            )
         return x
 
     def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:

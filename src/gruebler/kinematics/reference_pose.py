@@ -46,7 +46,7 @@ def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[n
         home = plan.lower.reference_pose[link]
         gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
         if gap > 0.05:
-            raise LinkageError(f"home: the joints are not closed there; {link!r} would have to lie elsewhere")
+            raise LinkageError("home: the joints are not closed there; {link!r} would have to lie elsewhere", link=link)
 
 
 def _put(plan: Plan, element: int) -> complex:

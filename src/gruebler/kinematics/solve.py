@@ -79,7 +79,7 @@ def move(
     path = drive_path(made, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
-        raise LinkageError(f"the order is 0, 1, 2 or 3, not {order!r}")
+        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     try:
         signs, unknowns = starting_configuration(made, path[0], branch)

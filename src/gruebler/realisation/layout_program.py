@@ -198,11 +198,14 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
 def check_drawable(chain: Chain) -> None:
     """`LinkageError` for joints whose dimensions are not known."""
     if chain.space is not Space.PLANAR:
-        raise LinkageError(f"dimensions are found for planar mechanisms; this one is {chain.space}")
+        raise LinkageError("dimensions are found for planar mechanisms; this one is {space}", space=chain.space)
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
         if joint.pair.name not in _DRAWN:
             raise LinkageError(
-                f"{name}: dimensions of {joint.pair.name} joints are not found yet; known are {', '.join(_DRAWN)}"
+                "{name}: dimensions of {name_2} joints are not found yet; known are {drawn}",
+                name=name,
+                name_2=joint.pair.name,
+                drawn=", ".join(_DRAWN),
             )
 
 

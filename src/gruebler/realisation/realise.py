@@ -49,7 +49,7 @@ def realise(
     _check("seed", seed, 0)
     _check("budget", budget, 1)
     if isinstance(target_quality, bool) or not isinstance(target_quality, int | float) or not 0 < target_quality <= 1:
-        raise LinkageError(f"target_quality lies between 0 and 1, not {target_quality!r}")
+        raise LinkageError("target_quality lies between 0 and 1, not {target_quality!r}", target_quality=target_quality)
     check_drawable(mechanism.chain)
     driven = mechanism if mechanism.drives else with_drives(mechanism)
     parts = decompose(driven)
@@ -98,4 +98,6 @@ def with_drives(mechanism: Mechanism) -> Mechanism:
 
 def _check(name: str, value: object, least: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**32:
-        raise LinkageError(f"{name} is a whole number of at least {least}, not {value!r}")
+        raise LinkageError(
+            "{name} is a whole number of at least {least}, not {value!r}", name=name, least=least, value=value
+        )

@@ -152,9 +152,9 @@ def freedoms(
     (2, 1, 2)
     """
     if not isinstance(linkage, Linkage | SpatialLinkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
     if isinstance(tolerance, bool) or not isinstance(tolerance, int | float) or not 0 < tolerance < 0.01:
-        raise LinkageError(f"the tolerance is a number between 0 and 0.01, not {tolerance!r}")
+        raise LinkageError("the tolerance is a number between 0 and 0.01, not {tolerance!r}", tolerance=tolerance)
     closing, pose = closed_pose(linkage, _values(at), branch)
     instant = instant_mobility(closing, pose, float(tolerance))
     report = mobility_report(linkage.mechanism.chain, frame=linkage.mechanism.frame)
@@ -169,7 +169,7 @@ def _values(at: float | Sequence[float] | None) -> list[float] | None:
     values = list(at) if isinstance(at, Sequence | np.ndarray) and not isinstance(at, str) else [at]
     for value in values:
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
-            raise LinkageError(f"a drive value is a finite number, not {value!r}")
+            raise LinkageError("a drive value is a finite number, not {value!r}", value=value)
     return [float(value) for value in values]
 
 

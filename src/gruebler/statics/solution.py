@@ -9,6 +9,7 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
+from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
 from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
@@ -131,7 +132,9 @@ class Statics(Brief):
         if link is None:
             return number, next(one for one in reversed(links) if one != mechanism.frame)
         if link not in links:
-            raise LinkageError(f"{mechanism.chain.joint_names()[number]} is no joint of {link!r}")
+            raise LinkageError(
+                "{joint_names} is no joint of {link!r}", joint_names=mechanism.chain.joint_names()[number], link=link
+            )
         return number, link
 
     def _signs(self, number: int, link: str) -> list[tuple[int, int]]:
@@ -171,14 +174,10 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     if not motion.plan.lower.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released:
-        raise LinkageError(
-            "the linkage is overconstrained: how its joints share the loads depends on how they yield",
-            "das Getriebe ist übergeschlossen: Wie sich die Lasten auf die Gelenke verteilen, hängt von ihrer "
-            "Nachgiebigkeit ab",
-        )
+        raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
-        raise LinkageError(f"the motion has no rows. {motion.message()}".strip())
+        raise LinkageError("the motion has no rows. {reason}", reason=stop_message(motion))
     return Statics(motion, wrenches, reactions(motion, wrenches), _virtual_work(motion, wrenches))
 
 

@@ -120,7 +120,7 @@ def load_generic_solutions(problem: Problem) -> GenericSolutions:
     steps = np.empty(len(z))
     for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
     if not (steps < 1e-10).all():
-        raise SynthesisError(f"the stored solutions of {problem.name} are damaged")
+        raise SynthesisError("the stored solutions of {name} are damaged", name=problem.name)
     return GenericSolutions(p, z)
 
 

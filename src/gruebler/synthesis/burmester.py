@@ -73,7 +73,7 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
     Raises `SynthesisError` for another number of positions, and where every point of the body is a pivot.
     """
     if len(task) != 4:
-        raise SynthesisError(f"Burmester's curves belong to four positions, not to {len(task)}")
+        raise SynthesisError("Burmester's curves belong to four positions, not to {count}", count=len(task))
     displacements, origin, size = Displacements.of(task.origins, task.turns)
     cubic = circle_point_cubics(displacements)[0]
     if np.abs(cubic).max() < _NOTHING:

@@ -47,7 +47,9 @@ class DesignClosure:
         chain, frame = lower.mechanism.chain, lower.mechanism.frame
         wrong = [joint.pair.name for joint in chain.joints if joint.pair.name not in ("revolute", "prismatic")]
         if wrong:
-            raise SynthesisError(f"linkages of turning and sliding joints are fitted, not those with {wrong[0]} joints")
+            raise SynthesisError(
+                "linkages of turning and sliding joints are fitted, not those with {wrong} joints", wrong=wrong[0]
+            )
         self.linkage = lower
         self.links = tuple(link for link in chain.links if link != frame)
         self.column = {link: 3 * k for k, link in enumerate(self.links)}

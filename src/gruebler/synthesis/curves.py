@@ -411,7 +411,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     Raises `SynthesisError` for fewer than five points.
     """
     if len(task) < 5:
-        raise SynthesisError(f"a whole curve needs at least five points, not {len(task)}")
+        raise SynthesisError("a whole curve needs at least five points, not {count}", count=len(task))
     timing = np.array(task.crank_angles) if task.crank_angles else None
     fits = fit_curve(task.z, closed=task.closed, timing=timing, number=4 * number)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED

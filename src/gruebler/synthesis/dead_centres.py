@@ -68,14 +68,18 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
         low, high = pi / 2 + task.swing / 2, 3 * pi / 2 + task.swing / 2
         if not low < task.angle < high:
             raise SynthesisError(
-                f"no crank-rocker swings by {degrees(task.swing):g} degrees with the dead centres "
-                f"{degrees(task.angle):g} degrees apart: the crank angle lies between {degrees(low):g} and "
-                f"{degrees(high):g} degrees"
+                "no crank-rocker swings by {swing:g} degrees with the dead centres {angle:g} degrees apart: the "
+                "crank angle lies between {low:g} and {high:g} degrees",
+                swing=degrees(task.swing),
+                angle=degrees(task.angle),
+                low=degrees(low),
+                high=degrees(high),
             )
     elif not pi / 2 < task.angle < 3 * pi / 2:
         raise SynthesisError(
-            f"no slider-crank has its dead centres {degrees(task.angle):g} degrees apart: the crank angle lies between "
-            "90 and 270 degrees"
+            "no slider-crank has its dead centres {angle:g} degrees apart: the crank angle lies between 90 "
+            "and 270 degrees",
+            angle=degrees(task.angle),
         )
     grid = _parameters(task)
     members = tuple(member for value in grid if (member := _member(task, float(value))) is not None)

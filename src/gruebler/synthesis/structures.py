@@ -86,7 +86,9 @@ def synthesise_structures(
     for mechanism, _ in jobs:
         if len(mechanism.drives) > 1:
             raise SynthesisError(
-                f"a path is fitted with one drive, but {mechanism.text()!r} has {len(mechanism.drives)}"
+                "a path is fitted with one drive, but {text_!r} has {count}",
+                text_=mechanism.text(),
+                count=len(mechanism.drives),
             )
     work = partial(_fitted, task, wanted, link)
     found = list(map(work, jobs) if executor is None else executor.map(work, jobs))
@@ -143,7 +145,9 @@ def fit_structure(
         return None
     closure = DesignClosure(first.linkage)
     if link and link not in closure.column:
-        raise SynthesisError(f"the link that carries the point is one of {', '.join(closure.links)}, not {link!r}")
+        raise SynthesisError(
+            "the link that carries the point is one of {links}, not {link!r}", links=", ".join(closure.links), link=link
+        )
     z = task.z
     size = float(np.abs(z - z.mean()).max())
     arcs = np.linspace(0, course.length, 2 * _SAMPLES + 1)[:-1]

@@ -322,7 +322,10 @@ def ratio_diagram(
     phi, q, way = (np.array(list(values), np.float64) for values in (angle, ratio, length))
     if not len(phi) == len(q) == len(way) >= 2:
         raise GrueblerError(
-            f"expected three lists of the same length, but found {len(phi)}, {len(q)}, {len(way)} values"
+            "expected three lists of the same length, but found {count}, {count_2}, {count_3} values",
+            count=len(phi),
+            count_2=len(q),
+            count_3=len(way),
         )
     if not (np.isfinite([phi, q, way]).all() and (q > 0).all()):
         raise GrueblerError("expected finite values with ratios above 0")

@@ -254,5 +254,10 @@ BELOW = ("dead-centres", "centrodes", "inflection")
 def layer(name: str) -> Layer:
     """A layer by name; `LinkageError` names those there are."""
     if name not in LAYERS:
-        raise LinkageError(f"there is no {name!r} to be shown{nearest(name, LAYERS)}; there are {', '.join(LAYERS)}")
+        raise LinkageError(
+            "there is no {name!r} to be shown{suggestion}; there are {layers}",
+            name=name,
+            suggestion=nearest(name, LAYERS),
+            layers=", ".join(LAYERS),
+        )
     return LAYERS[name]

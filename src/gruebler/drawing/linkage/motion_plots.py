@@ -115,16 +115,13 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
     still = {link: np.ptp(seen[link].values(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
     others = ", ".join(link for link in moving if not still[link])
     if output.link == frame:
-        raise LinkageError(
-            f"the frame does not move: name another output, such as {others}",
-            f"das Gestell bewegt sich nicht: nenne einen anderen Abtrieb, etwa {others}",
-        )
+        raise LinkageError("the frame does not move: name another output, such as {others}", others=others)
     if asked is None and output.turning and still[output.link]:
         raise LinkageError(
-            f"the output {output.name} moves without turning, so it has no transfer function of an angle; name "
-            f"another output: {others}",
-            f"der Abtrieb {output.name} bewegt sich, ohne sich zu drehen, und hat keine Übertragungsfunktion eines "
-            f"Winkels; nenne einen anderen Abtrieb: {others}",
+            "the output {name} moves without turning, so it has no transfer function of an angle; name "
+            "another output: {others}",
+            name=output.name,
+            others=others,
         )
 
 

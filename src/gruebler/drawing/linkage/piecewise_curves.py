@@ -118,12 +118,9 @@ def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lan
     Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
     """
     if not isinstance(linkage, Linkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
     if not linkage.mechanism.drives:
-        raise LinkageError(
-            "no joint is driven, so there is nothing to be plotted; name a drive",
-            "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
-        )
+        raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
     cycle = drive_cycle(linkage, branch)
     drives = drive_rows(cycle, between, ROWS)
     if between is None and cycle.span.full:

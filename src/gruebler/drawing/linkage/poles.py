@@ -55,9 +55,10 @@ def _number(context: LayerContext) -> int:
         known = context.posed.linkage.mechanism.chain.links
         there = ", ".join(known)
         raise LinkageError(
-            f"centrodes and inflection circles are those of a link{nearest(output, known)}; {output!r} is none of "
-            f"{there}",
-            f"Polbahnen und Wendekreis gehören zu einem Glied; {output!r} ist keines von {there}",
+            "centrodes and inflection circles are those of a link{suggestion}; {output!r} is none of {there}",
+            suggestion=nearest(output, known),
+            output=output,
+            there=there,
         )
     return links.index(floating_link(context.posed.linkage) if output is None else output)
 

@@ -93,9 +93,7 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
     if at is None:
         at = max(report.pressure, key=lambda one: abs(one.value)).at
     if isinstance(at, bool) or not isinstance(at, int | float) or not math.isfinite(at):
-        raise CamError(
-            f"the cam's angle is a finite number, not {at!r}", f"der Kurvenwinkel ist eine endliche Zahl, nicht {at!r}"
-        )
+        raise CamError("the cam's angle is a finite number, not {at!r}", at=at)
     scale = _scale(cam)
     shown = [*_machine(cam, scale, np.array([at]), lang), Body(tuple(_pressure(cam, scale, at)))]
     if plot:

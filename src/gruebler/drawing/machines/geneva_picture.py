@@ -72,7 +72,7 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
     'Driver at 28.6479°, wheel at -41.78°, ratio -0.4656.'
     """
     if isinstance(at, bool) or not isinstance(at, int | float):
-        raise GenevaError(f"the driver's angle is a finite number, not {at!r}")
+        raise GenevaError("the driver's angle is a finite number, not {at!r}", at=at)
     moved, words = geneva.move(at), _WORDS[lang]
     bodies = _machine(geneva, np.array([at], np.float64))
     if plot:
