@@ -77,7 +77,7 @@ def in_file(path: Path) -> Iterator[Found | Unreadable]:
         elif name == "plural" and not errors:
             one, many = (_strings(argument) for argument in node.args[:2])
             yield Found(file, node.lineno, (one or [""])[0], (many or [""])[0])
-        elif node.args and (name in TEXTS or (name.endswith("Error") and not hasattr(builtins, name))):
+        elif node.args and (name in TEXTS or (name.endswith("Error") and not hasattr(builtins, name) and not errors)):
             strings = _strings(node.args[0])
             if strings is not None:
                 yield from (Found(file, node.lineno, text) for text in strings if _has_words(text))

@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler import notebook
+from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 
 __all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
-
-FloatArray = NDArray[np.float64]
 
 
 _MOST = 2_000
@@ -32,10 +31,10 @@ class GenevaError(GrueblerError):
 class GenevaMotion(NamedTuple):
     """The wheel's angle and its first three derivatives by the driver's angle, and whether the wheel rests."""
 
-    angle: FloatArray
-    ratio: FloatArray
-    acceleration: FloatArray
-    jerk: FloatArray
+    angle: Reals
+    ratio: Reals
+    acceleration: Reals
+    jerk: Reals
     dwell: NDArray[np.bool_]
 
 

@@ -162,14 +162,17 @@ def error_in_language(error: GrueblerError, lang: str) -> str:
     return shortened(translate(error.text, lang, **error.values))
 
 
-def listed(items: Iterable[object], lang: str = "en", last: str = "and") -> str:
+_AND = message("and")
+
+
+def listed(items: Iterable[object], lang: str = "en", last: Message = _AND) -> str:
     """Items as a list in a sentence.
 
     >>> listed("abc"), listed("ab", "de"), listed("a")
     ('a, b and c', 'a und b', 'a')
     """
     words = [item.in_language(lang) if isinstance(item, Message) else str(item) for item in items]
-    return f"{', '.join(words[:-1])} {translate(last, lang)} {words[-1]}" if len(words) > 1 else "".join(words)
+    return f"{', '.join(words[:-1])} {last.in_language(lang)} {words[-1]}" if len(words) > 1 else "".join(words)
 
 
 def joined_by_or(items: Sequence[object]) -> Message:

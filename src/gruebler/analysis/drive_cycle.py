@@ -14,13 +14,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.change_point_rates import set_change_point_rates
 from gruebler.kinematics.contacts import MESH, POLAR, Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
 from gruebler.kinematics.messages import stop_message
-from gruebler.kinematics.motion import Complexes, Motion, Reals, Stop
+from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.root_finding import FunctionSamples, bracketed_root
@@ -221,7 +222,7 @@ def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | 
 
 
 def _turns(plan: Plan) -> bool:
-    return plan.lower.mechanism.drives[0].direction.startswith("R")
+    return plan.lower.mechanism.drives[0].turning
 
 
 def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, np.ndarray]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, nearest
-from gruebler.kinematics.motion import Motion, Reals
+from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage
 from gruebler.linkages.wheels import sliding_joint
 from gruebler.mechanism import Mechanism

@@ -13,9 +13,10 @@ import numpy as np
 
 from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output, find_output
+from gruebler.arrays import Complexes, Reals
 from gruebler.assur import SolvedGroup
 from gruebler.errors import LinkageError
-from gruebler.kinematics.motion import Complexes, Motion, Reals
+from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.root_finding import find_zeros
 

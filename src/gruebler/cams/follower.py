@@ -12,33 +12,30 @@ from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams.laws import CamError
 
 __all__ = ["FaceLine", "Flat", "Follower", "Path", "Roller"]
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 class Path(NamedTuple):
     """A point of the follower as a function of its coordinate, with two derivatives."""
 
-    at: ComplexArray
-    first: ComplexArray
-    second: ComplexArray
+    at: Complexes
+    first: Complexes
+    second: Complexes
 
 
 class FaceLine(NamedTuple):
     """The face: its normal's angle away from the cam, its distance from the axis, and their derivatives."""
 
-    angle: FloatArray
+    angle: Reals
     turn: float
     """Derivative of the angle by the coordinate: 0 for a translating face, -1 or 1 for a swinging one."""
-    distance: FloatArray
-    first: FloatArray
-    second: FloatArray
+    distance: Reals
+    first: Reals
+    second: Reals
 
 
 def _check(follower: Roller | Flat) -> None:
@@ -96,16 +93,16 @@ class Roller:
             )
         return math.acos(cosine)
 
-    def gain(self, start: float, lift: FloatArray) -> FloatArray:
+    def gain(self, start: float, lift: Reals) -> Reals:
         """By how much a lift makes the square of the centre's distance from the axis larger; without cancellation."""
         if not self.swings:
             return np.asarray(lift * (2 * start + lift))
         return np.asarray(4 * self.arm * abs(self.distance) * np.sin(start + lift / 2) * np.sin(lift / 2))
 
-    def path(self, s: FloatArray) -> Path:
+    def path(self, s: Reals) -> Path:
         """The centre."""
         if not self.swings:
-            zero: ComplexArray = np.zeros(np.shape(s), dtype=np.complex128)
+            zero: Complexes = np.zeros(np.shape(s), dtype=np.complex128)
             return Path(zero + self.offset + 1j * s, zero + 1j, zero)
         side = math.copysign(1.0, self.distance)
         arm = np.asarray(-side * self.arm * np.exp(-1j * side * s), dtype=np.complex128)
@@ -145,13 +142,13 @@ class Flat:
             )
         return math.asin((radius + self.face) / abs(self.distance))
 
-    def gain(self, start: float, lift: FloatArray) -> FloatArray:
+    def gain(self, start: float, lift: Reals) -> Reals:
         """By how much a lift makes the face's distance from the axis larger; without cancellation."""
         if not self.swings:
             return np.asarray(lift)
         return np.asarray(2 * abs(self.distance) * np.cos(start + lift / 2) * np.sin(lift / 2))
 
-    def line(self, s: FloatArray) -> FaceLine:
+    def line(self, s: Reals) -> FaceLine:
         """The face."""
         if not self.swings:
             one = np.ones_like(s)

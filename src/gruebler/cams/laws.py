@@ -15,8 +15,9 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.cams.extremes import extremes
 from gruebler.errors import GrueblerError, nearest
 
@@ -32,14 +33,12 @@ __all__ = [
     "polynomial_law",
 ]
 
-FloatArray = NDArray[np.float64]
-
 
 class CamError(GrueblerError):
     """A cam, a law or a contour that cannot be."""
 
 
-def finite_array(values: ArrayLike, what: str) -> FloatArray:
+def finite_array(values: ArrayLike, what: str) -> Reals:
     """Numbers of any shape as an array; CamError if one is not finite, or none at all."""
     try:
         found = np.asarray(values, dtype=np.float64)
@@ -59,14 +58,14 @@ class LawPiece(NamedTuple):
     frequency: float = 0.0
     phase: float = 0.0
 
-    def at(self, x: FloatArray, order: int) -> FloatArray:
+    def at(self, x: Reals, order: int) -> Reals:
         """The derivative of an order at places of any shape."""
         t = x - self.start
         wave = self.amplitude * self.frequency**order * np.sin(self.frequency * t + self.phase + order * math.pi / 2)
         return np.asarray(np.polynomial.polynomial.polyval(t, _derived(self.polynomial, order)) + wave)
 
 
-def _derived(polynomial: Sequence[float], order: int) -> FloatArray:
+def _derived(polynomial: Sequence[float], order: int) -> Reals:
     return np.asarray(np.polynomial.polynomial.polyder(polynomial, order), dtype=np.float64)
 
 
@@ -93,7 +92,7 @@ class MotionLaw:
     name: str
     pieces: tuple[LawPiece, ...]
 
-    def at(self, x: ArrayLike, order: int = 0) -> FloatArray:
+    def at(self, x: ArrayLike, order: int = 0) -> Reals:
         """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
         places = finite_array(x, "places on a law")
         found = np.zeros(places.shape)
@@ -114,7 +113,7 @@ class MotionLaw:
     def peaks(self) -> LawPeaks:
         """C_v, C_a, C_j and the peak of C_a C_v (the torque of a mass); jumps of acceleration are no jerk here."""
 
-        def greatest(function: Callable[[LawPiece, FloatArray], FloatArray]) -> float:
+        def greatest(function: Callable[[LawPiece, Reals], Reals]) -> float:
             spans = zip(self.pieces, self.joints, self.joints[1:], strict=False)
             found = (extremes(partial(function, piece), a, b) for piece, a, b in spans)
             return max(abs(value) for places in found for _, value in places)

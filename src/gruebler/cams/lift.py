@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.cams.extremes import Function, extremes
 from gruebler.cams.laws import CamError, MotionLaw, boundary_law, finite_array, motion_law
 from gruebler.errors import nearest
 
 __all__ = ["DerivativeJump", "Lift", "LiftSegment", "SmoothSpan", "dwell", "motion", "read_lift"]
 
-FloatArray = NDArray[np.float64]
 
 _LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
 
@@ -132,7 +132,7 @@ class Lift:
                 yield SmoothSpan(start + a * segment.angle, start + b * segment.angle, k, orders)
             lift += segment.change
 
-    def at(self, angle: ArrayLike, order: int = 0) -> FloatArray:
+    def at(self, angle: ArrayLike, order: int = 0) -> Reals:
         """The lift, or its derivative (1 to 3) by the cam's angle, at any angles; at a jump the value after it."""
         if order not in range(4):
             raise CamError("a lift has derivatives 0 to 3 here, not {order!r}", order=order)

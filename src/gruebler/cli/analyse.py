@@ -9,11 +9,11 @@ from itertools import islice
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import transmission_angle
+from gruebler.arrays import Reals
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
 
 __all__ = ["run"]
 
-Reals = NDArray[np.float64]
 
 _MOST_BRANCHES = 16
 _WORDS = {

@@ -7,9 +7,9 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import PathCycle
+from gruebler.arrays import Reals
 from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
@@ -21,7 +21,6 @@ from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
 
 __all__ = ["run"]
 
-Reals = NDArray[np.float64]
 
 _WORDS = {
     "en": {
@@ -95,7 +94,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _polygon(found: CouplerCurve) -> list[Column]:
     linkage, z = found.point_path.cycle.linkage, found.points
     values = _values(found, found.drives)
-    units = ["°" if drive.direction.startswith("R") else linkage.unit for drive in linkage.mechanism.drives]
+    units = ["°" if drive.turning else linkage.unit for drive in linkage.mechanism.drives]
     return [
         *(map(Column, linkage.mechanism.drive_names(), units, values.T)),
         Column("x", linkage.unit, z.real),
@@ -108,7 +107,7 @@ def _values(found: CouplerCurve, at: Reals) -> Reals:
     """The values of all drives, turning ones in degrees; (n, drives)."""
     course = found.point_path.cycle
     values = course.values(at) if isinstance(course, PathCycle) else np.asarray(at)[:, None]
-    turning = [drive.direction.startswith("R") for drive in course.linkage.mechanism.drives]
+    turning = [drive.turning for drive in course.linkage.mechanism.drives]
     return np.where(turning, np.degrees(values), values)
 
 
@@ -173,7 +172,7 @@ def _drive(found: CouplerCurve, value: float) -> str:
     linkage = found.point_path.cycle.linkage
     said = []
     for drive, one in zip(linkage.mechanism.drives, _values(found, np.array([value]))[0], strict=True):
-        turning = drive.direction.startswith("R")
+        turning = drive.turning
         said.append(f"{round(one, 9) + 0.0:.6f}°" if turning else f"{one:.9g} {linkage.unit}")
     return " / ".join(said)
 

@@ -139,7 +139,7 @@ def linkage_and_range(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
     linkage, shown = linkage_of(word)
     drives = linkage.mechanism.drives
-    if shown is None or not drives or not drives[0].direction.startswith("R"):
+    if shown is None or not drives or not drives[0].turning:
         return linkage, shown
     return linkage, (math.radians(shown[0]), math.radians(shown[1]))
 
@@ -168,7 +168,7 @@ def _pose(linkage: Linkage, text: str | None) -> list[float] | None:
             else message("{count} numbers with commas", count=len(drives)),
             found=text,
         )
-    turning = [drive.direction.startswith("R") for drive in drives]
+    turning = [drive.turning for drive in drives]
     return [math.radians(value) if turns else value for value, turns in zip(values, turning, strict=True)]
 
 

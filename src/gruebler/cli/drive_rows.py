@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import degrees
 from gruebler.linkages import Linkage
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = ["default_rows", "driven_path", "given_rows", "turning_drives"]
 
-Reals = NDArray[np.float64]
 
 _MOST_ROWS = 1_000_000
 _STEP = 15.0  # degrees between the rows of a full turn
@@ -32,7 +31,7 @@ def turning_drives(linkage: Linkage) -> list[bool]:
             "no joint is driven; name one in drives, such as {joint_names}",
             joint_names=mechanism.chain.joint_names()[0],
         )
-    return [drive.direction.startswith("R") for drive in mechanism.drives]
+    return [drive.turning for drive in mechanism.drives]
 
 
 def given_rows(spans: Sequence[str], at: Sequence[float], turning: Sequence[bool]) -> Reals | None:

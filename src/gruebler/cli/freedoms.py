@@ -62,6 +62,6 @@ def _pose(linkage: Linkage | SpatialLinkage, at: list[float] | None) -> list[flo
     """The drive values in radians where they are angles."""
     if at is None:
         return None
-    turns = [drive.direction.startswith("R") for drive in linkage.mechanism.drives]
+    turns = [drive.turning for drive in linkage.mechanism.drives]
     turns += [False] * (len(at) - len(turns))
     return [math.radians(value) if angle else value for value, angle in zip(at, turns, strict=False)]

@@ -110,7 +110,7 @@ def _transmission(asked: _Asked) -> Figure:
 
 def _hodograph(asked: _Asked) -> Figure:
     speed, drives = asked.arguments.speed, asked.linkage.mechanism.drives
-    if speed is not None and drives and drives[0].direction.startswith("R"):
+    if speed is not None and drives and drives[0].turning:
         speed *= 2 * math.pi / 60
     return hodograph(asked.linkage, asked.points, speed=speed, **asked.common)
 
@@ -193,7 +193,7 @@ def _ratio(asked: _Asked) -> Figure:
 def _crank(linkage: Linkage) -> float:
     """The length of the driven link: from the driven joint to the next turning joint on it."""
     drives = linkage.mechanism.drives
-    if len(drives) == 1 and drives[0].direction.startswith("R"):
+    if len(drives) == 1 and drives[0].turning:
         number, link = drives[0].joint, linkage.reference(0)[1]
         joints = linkage.mechanism.chain.joints
         others = [

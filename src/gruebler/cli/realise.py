@@ -53,7 +53,7 @@ def _document(found: Realisation, lang: str) -> dict[str, object]:
                 for name, ends, turns in zip(
                     found.mechanism.drive_names(),
                     found.ranges,
-                    [drive.direction.startswith("R") for drive in found.mechanism.drives],
+                    [drive.turning for drive in found.mechanism.drives],
                     strict=True,
                 )
             ],

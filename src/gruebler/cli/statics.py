@@ -160,7 +160,7 @@ def _columns(statics: Statics, coefficient: float | None, words: dict[str, str])
     mechanism = linkage.mechanism
     out, efforts = [], []
     for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
-        turns = drive.direction.startswith("R")
+        turns = drive.turning
         values = motion.drives[:, k]
         out.append(Column(name, "°", np.degrees(values)) if turns else Column(name, linkage.unit, values))
         effort = words["torque" if turns else "force"].format(name=name)

@@ -6,9 +6,9 @@ import cmath
 from math import acos, asin, degrees, isclose, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import measures
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
 from gruebler.fourbar import FourBar, InvertedSliderCrank
@@ -21,7 +21,6 @@ from gruebler.text import Text
 
 __all__ = ["conchoid", "four_bar"]
 
-Reals = NDArray[np.float64]
 
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
@@ -31,7 +32,7 @@ from gruebler.fourbar.extremes import (
 )
 from gruebler.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
 from gruebler.linkages.model import Linkage
-from gruebler.linkages.quantities import FloatArray, as_branch, as_finite, as_lengths, as_positive, given_and_missing
+from gruebler.linkages.quantities import as_branch, as_finite, as_lengths, as_positive, given_and_missing
 from gruebler.mechanism import Mechanism
 
 __all__ = ["FourBar", "four_bar_linkage"]
@@ -267,7 +268,7 @@ class FourBar:
             message=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
         )
 
-    def _add_rates(self, crank: CrankRates, theta: list[FloatArray], psi: list[FloatArray], sine: FloatArray) -> None:
+    def _add_rates(self, crank: CrankRates, theta: list[Reals], psi: list[Reals], sine: Reals) -> None:
         """Append three derivatives of theta and psi, by differentiating the loop; ``sine`` is sin(theta - psi)."""
         for k in (1, 2, 3):
             known = (

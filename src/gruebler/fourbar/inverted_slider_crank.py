@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
@@ -34,7 +35,7 @@ from gruebler.fourbar.extremes import (
 from gruebler.fourbar.grashof import LinkageType
 from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
 from gruebler.linkages.model import Linkage
-from gruebler.linkages.quantities import FloatArray, as_branch, as_eccentricity, as_finite, as_lengths, as_positive
+from gruebler.linkages.quantities import as_branch, as_eccentricity, as_finite, as_lengths, as_positive
 from gruebler.mechanism import Mechanism
 
 __all__ = ["InvertedSliderCrank", "inverted_slider_crank_linkage"]
@@ -190,7 +191,7 @@ class InvertedSliderCrank:
             displacement=block,
         )
 
-    def _add_rates(self, crank: CrankRates, theta: list[FloatArray], slide: list[FloatArray]) -> None:
+    def _add_rates(self, crank: CrankRates, theta: list[Reals], slide: list[Reals]) -> None:
         """Append three derivatives of theta and of the way r, by differentiating the loop."""
         for k in (1, 2, 3):
             arm: list[Any] = [slide[0] + 1j * self.e, *slide[1:], 0.0]

@@ -9,6 +9,7 @@ from math import degrees, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.contact import TangentContact, tangent_contact
 from gruebler.geometry.double_points import DoublePoint, double_points
@@ -24,7 +25,6 @@ from gruebler.geometry.path_events import (
     vertices,
 )
 from gruebler.geometry.point_path import PointPath, point_path
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.sampling import PathPolygon, path_area, path_length, path_polygon
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.linkages.quantities import as_finite

@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals, RelativeMotion, relative_motion
+from gruebler.geometry.relative import RelativeMotion, relative_motion
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError, nearest
-from gruebler.geometry.relative import Complexes, link_numbers, relative_motion, resting_and_translating
+from gruebler.geometry.relative import link_numbers, relative_motion, resting_and_translating
 from gruebler.kinematics import Motion
 from gruebler.notebook import Brief
 

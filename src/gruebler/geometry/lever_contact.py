@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
-from gruebler.geometry.relative import Complexes
 from gruebler.kinematics import move
 from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage

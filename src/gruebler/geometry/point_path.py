@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.notebook import Brief
 

@@ -5,16 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 
 __all__ = ["RelativeMotion", "link_numbers", "relative_motion", "resting_and_translating"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 _FAR = 1e10  # sizes of the linkage: poles further off have lost ten of their digits, and are told as directions
 _STILL = 1e-12  # velocities below this part of the largest in the row are roundings

@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.fourbar.crank_motion import CrankMotion
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_numbers
 from gruebler.mechanism import Mechanism

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.point_path import PointPath
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages.quantities import as_positive
 
 __all__ = ["PathPolygon", "path_area", "path_length", "path_polygon"]

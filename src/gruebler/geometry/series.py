@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals, link_numbers
+from gruebler.geometry.relative import link_numbers
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line, Linkage, LinkPoint
 
@@ -95,7 +96,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
         turn[..., k] = 1j / k * (powers * angle[..., 1:k] * turn[..., k - 1 : 0 : -1]).sum(axis=-1)
         right: Reals = -_residual(conditions, z, turn, angle, k)
         if k == 1:
-            turning = lower.mechanism.drives[0].direction.startswith("R")
+            turning = lower.mechanism.drives[0].turning
             right[:, -1] += 1.0 if turning else 1 / lower.size
         found = _solved(jacobian, right).reshape(len(right), -1, 3)
         z[:, bodies, k] = found[..., 0] + 1j * found[..., 1]
@@ -121,7 +122,7 @@ def _conditions(lower: Linkage) -> list[_Condition]:
             out += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
     drive = lower.mechanism.drives[0]
     first, second = lower.reference(0)
-    kind = "angle" if drive.direction.startswith("R") else "along"
+    kind = "angle" if drive.turning else "along"
     ends = _ends(lower, drive.joint, first, second)
     return [*out, _Condition(kind, links.index(first), links.index(second), *ends)]
 

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.straight import Path, PathPiece, longest_piece, path_piece
 from gruebler.linkages.quantities import as_finite, as_positive
 

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.kinematics import move
 from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage

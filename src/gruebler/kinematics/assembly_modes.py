@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 
 __all__ = [
@@ -30,7 +31,6 @@ __all__ = [
 
 PIN, SLIDE = 0, 1
 Row = tuple[int, int, int, complex, complex, complex, complex]
-Reals = NDArray[np.float64]
 Method = Literal["exact", "degenerate", "search"]
 
 _CLOSED = 1e-12  # of size or distance: an assembled group is open by less

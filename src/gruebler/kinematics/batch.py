@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics.branches import Unassembled, read_branch, starting_state
@@ -24,9 +25,6 @@ from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.notebook import Brief
 
 __all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, repr=False)
@@ -311,7 +309,7 @@ def _run(
 
     program = designs.plan.program
     longest = designs.sizes[:, None] / program.size * program.most
-    turning = [d.direction.startswith("R") for d in designs.plan.lower.mechanism.drives]
+    turning = [d.turning for d in designs.plan.lower.mechanism.drives]
     longest[:, turning] = program.most[turning]
 
     sizes = designs.points, designs.lines, longest, designs.sizes

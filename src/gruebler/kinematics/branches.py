@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.motion.program import GROUP
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan
 
 __all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
-
-Reals = NDArray[np.float64]
 
 
 def part_at_fault(plan: Plan, number: int) -> Dyad | HigherGroup:

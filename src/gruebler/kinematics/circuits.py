@@ -14,8 +14,9 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.configuration_curve import (
     ClosureSystem,
@@ -32,7 +33,6 @@ from gruebler.notebook import Brief
 
 __all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
 
-Reals = NDArray[np.float64]
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
 
@@ -238,7 +238,7 @@ class Circuit(Brief):
     @cached_property
     def drive_limits(self) -> tuple[Extremum, ...]:
         """Where the drive turns back: dead centres of the linkage for this drive."""
-        turns = all(drive.direction.startswith("R") for drive in self.system.lower.mechanism.drives)
+        turns = all(drive.turning for drive in self.system.lower.mechanism.drives)
         return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
 
     @property
@@ -342,7 +342,7 @@ def circuit(
     if lower.mechanism.drives:
         value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
         tangent = -tangent if ahead < 0 else tangent
-        if lower.mechanism.drives[0].direction.startswith("R"):
+        if lower.mechanism.drives[0].turning:
             turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))
     traced = trace_circuit(system, pose, tangent, float(step), float(most))
     if not traced.closed and traced.arcs[-1] < _SHAKY:
@@ -395,7 +395,7 @@ def _trial_values(lower: Linkage) -> Iterator[float]:
     """Drive values for a start, far apart at first, then closer and closer."""
     if not lower.mechanism.drives:
         raise LinkageError("a circuit starts from a home position or from a drive value; this linkage has neither")
-    reach = np.pi if lower.mechanism.drives[0].direction.startswith("R") else _REACH * lower.size
+    reach = np.pi if lower.mechanism.drives[0].turning else _REACH * lower.size
     for k in range(_TRIALS):
         part = sum(((k >> bit) & 1) / 2 ** (bit + 1) for bit in range(10))
         yield reach * (2 * ((part + 0.637) % 1) - 1)

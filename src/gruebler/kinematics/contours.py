@@ -9,8 +9,8 @@ from math import log, pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.cams import Cam, CamError, Flat, Roller, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geneva import Geneva
@@ -19,7 +19,6 @@ from gruebler.linkages import CamDisc, Element, GenevaDriver, GenevaWheel, NonCi
 
 __all__ = ["COEFFICIENTS", "PiecewiseLaw", "cam_law", "cam_of", "turn_law"]
 
-Reals = NDArray[np.float64]
 COEFFICIENTS = 12
 _EXACT = 5e-16  # of the largest value: terms of a piece that are rounding
 _CONSTANT = 1e-14  # of the largest value: a law that varies by less between two joints varies by rounding only

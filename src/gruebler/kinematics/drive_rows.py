@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan
 
 __all__ = ["degrees", "drive_path", "drive_speeds"]
-
-Reals = NDArray[np.float64]
 
 
 def degrees(start: float, stop: float, step: float) -> Reals:

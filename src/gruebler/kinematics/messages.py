@@ -42,7 +42,7 @@ def drive_value_text(motion: Motion, values: tuple[float, ...]) -> Message:
     mechanism = motion.linkage.mechanism
     parts = []
     for name, drive, value in zip(mechanism.drive_names(), mechanism.drives, values, strict=True):
-        if drive.direction.startswith("R"):
+        if drive.turning:
             parts.append(message("{name} = {value:.9g}°", name=name, value=degrees(value)))
         else:
             parts.append(message("{name} = {value:.9g} {unit}", name=name, value=value, unit=motion.linkage.unit))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler import notebook
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
@@ -21,9 +22,6 @@ from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sl
 from gruebler.notebook import Brief
 
 __all__ = ["Motion", "Stop", "joint_openings"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

@@ -8,16 +8,15 @@ from math import degrees, pi, sqrt, tau
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams import Lift, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import NonCircular
 
 __all__ = ["Transfer", "transfer_of"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _RATIOS = (1e-3, 1e3)  # beyond them a radius is less than a thousandth of the centre distance
 _FLATTEST = 0.8  # eccentricity: the ratio goes from 1/9 to 9; beyond, pieces of 0.04 rad are not exact

@@ -156,7 +156,7 @@ class Plan(Brief):
     @property
     def longest_steps(self) -> np.ndarray:
         """How far each drive may move between two checks."""
-        turning = [d.direction.startswith("R") for d in self.lower.mechanism.drives]
+        turning = [d.turning for d in self.lower.mechanism.drives]
         return np.array([_LONGEST_TURN if turns else _LONGEST_PUSH * self.lower.size for turns in turning])
 
     @cached_property
@@ -277,7 +277,7 @@ class _Planner:
             sign = 1
             if self.against.get(first) != root:
                 first, other, sign = other, first, -1
-            kind = TURN if drives[k].direction.startswith("R") else PUSH
+            kind = TURN if drives[k].turning else PUSH
             joint = drives[k].joint
             self.operations.append((kind, k, self.number[joint, first], self.number[joint, other], sign))
             self.against[other] = root

@@ -7,17 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages import Element, Line, Linkage, LinkPoint, Pose2D
 from gruebler.linkages.wheels import sliding_joint
 from gruebler.notebook import Brief
 
 __all__ = ["Poses"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -86,7 +83,7 @@ class Poses(Brief):
             raise LinkageError("this linkage has no drive")
         drive = self.lower.mechanism.drives[0]
         first, other = self.lower.reference(0)
-        if drive.direction.startswith("R"):
+        if drive.turning:
             return self.angle(other, order) - self.angle(first, order) + (self.turned if order == 0 else 0.0)
         return self._way(self.lower, drive.joint, first, other, order, 1)
 

@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.assur import decompose
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Pair, pair
@@ -29,8 +29,6 @@ __all__ = [
     "independent_part",
 ]
 
-
-Reals = NDArray[np.float64]
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `gruebler freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
@@ -165,7 +163,7 @@ class ReferenceConditions:
         out = []
         for k, drive in enumerate(self.linkage.mechanism.drives):
             first, other = self.linkage.reference(k)
-            if drive.direction.startswith("R"):
+            if drive.turning:
                 out.append(self._turn(first, other))
                 continue
             lined = first if isinstance(self.linkage.elements[drive.joint, first], Line) else other

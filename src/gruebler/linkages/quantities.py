@@ -12,7 +12,6 @@ import numpy.typing as npt
 from gruebler.errors import LinkageError
 
 __all__ = [
-    "FloatArray",
     "as_branch",
     "as_eccentricity",
     "as_finite",

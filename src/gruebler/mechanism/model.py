@@ -25,6 +25,11 @@ class Drive:
     direction: str
     between: tuple[str, str]
 
+    @property
+    def turning(self) -> bool:
+        """Whether it turns the links against each other: its values are angles, else lengths."""
+        return self.direction.startswith("R")
+
 
 class Mechanism:
     """A chain, its frame and its drives. A value: sound or not constructed, never changed.

@@ -57,7 +57,7 @@ def realise(
     if not (driven.drives and parts.complete):
         return Realisation(driven, None, (), False, 0.0, 0, seed, reasons)
     drawn = layout_program(driven)
-    turning = all(drive.direction.startswith("R") for drive in driven.drives)
+    turning = all(drive.turning for drive in driven.drives)
     best, tries = None, 0
     for again in range(_AGAIN):
         result = search_layouts(drawn, seed=seed + (again << 32), budget=budget, target_quality=target_quality)
@@ -91,7 +91,7 @@ def with_drives(mechanism: Mechanism) -> Mechanism:
     ]
     if number < 1 or not freedoms:
         return mechanism
-    freedoms.sort(key=lambda d: (frame not in d.between, not d.direction.startswith("R")))
+    freedoms.sort(key=lambda d: (frame not in d.between, not d.turning))
     trials = [Mechanism(chain, frame, chosen) for chosen in combinations(freedoms, number)]
     return next((m for m in trials if decompose(m).complete), trials[0] if trials else mechanism)
 

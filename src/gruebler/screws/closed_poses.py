@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from math import cos, inf, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Line, Linkage, Pin
@@ -21,7 +21,6 @@ from gruebler.screws.rigid_motions import inverse_motion
 
 __all__ = ["closed_pose", "has_only_lower_pairs"]
 
-Reals = NDArray[np.float64]
 
 _EXACT = 1e-15  # a home that is closed so well is meant as it is
 _NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.screws.closing import Closing
 from gruebler.screws.model import SpatialLinkage
 
 __all__ = ["follow_from_pose", "follow_joint", "follow_joints", "joint_value"]
 
-Reals = NDArray[np.float64]
 
 _STEP = 0.05  # of the driven joint, in radians or sizes, between two corrections
 _CLOSED = 1e-11

@@ -7,14 +7,13 @@ from dataclasses import dataclass, fields
 from math import hypot, inf, isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Pair, Space
 from gruebler.errors import LinkageError
 
 __all__ = ["JointPlace", "Vector", "joint_axes", "read_place"]
 
-Reals = NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 _SQUARE = 1e-9  # axes that should be at right angles may miss it by so much

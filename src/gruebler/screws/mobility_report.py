@@ -9,7 +9,6 @@ from math import isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
@@ -25,8 +24,6 @@ from gruebler.screws.model import SpatialLinkage
 from gruebler.screws.reasons import reasons
 
 __all__ = ["Freedoms", "freedom_report", "freedoms"]
-
-Reals = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -7,16 +7,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError, nearest
 from gruebler.mechanism import Mechanism
 from gruebler.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 
 __all__ = ["SpatialLinkage"]
-
-Reals = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=True)

@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line
-from gruebler.statics.loads import Complexes, Flags, Reals, Wrench
+from gruebler.statics.loads import Wrench
 
 __all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
 
@@ -88,7 +89,7 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
     first, second = found[:, 0 : 2 * len(held) : 2], found[:, 1 : 2 * len(held) : 2]
     slides = np.array([contact.slides for contact in held], bool)
     forces = np.where(slides, directions * first, first + 1j * second)
-    turning = np.array([drive.direction.startswith("R") for drive in lower.mechanism.drives], bool)
+    turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
     drives = found[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
     return Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular)
 
@@ -115,7 +116,7 @@ def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> 
     for k, drive in enumerate(lower.mechanism.drives):
         one, other = lower.reference(k)
         pair = JointConnection(drive.joint, links.index(one), links.index(other), False)
-        if drive.direction.startswith("R"):
+        if drive.turning:
             acts.couple(pair, 2 * len(held) + k)
         else:
             at, line = _meeting(motion, drive.joint, one, other, rows)

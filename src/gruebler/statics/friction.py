@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
-from gruebler.statics.loads import Reals
 from gruebler.statics.motion_rates import with_velocities
 from gruebler.statics.solution import Statics
 

@@ -8,16 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
 
 __all__ = ["Loads", "Wrench", "loads_over_rows"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Rows = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 _STANDARD = 9.80665
 

@@ -7,13 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
+from gruebler.arrays import Flags, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
 from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
-from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, loads_over_rows
+from gruebler.statics.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.statics.motion_rates import drive_speed, with_velocities
 
 __all__ = ["Statics", "statics"]
@@ -84,7 +85,7 @@ class Statics(Brief):
             sum(float(np.abs(wrench.force).max() + np.abs(wrench.moment).max() / size) for wrench in self.wrenches)
             or 1.0
         )
-        return np.array([force * (size if drive.direction.startswith("R") else 1.0) for drive in mechanism.drives])
+        return np.array([force * (size if drive.turning else 1.0) for drive in mechanism.drives])
 
     def force(self, joint: str | int, link: str | None = None) -> Reals:
         """The force of a joint on one of its links (without a name: the last that is not the frame); (rows, 2).
@@ -120,7 +121,7 @@ class Statics(Brief):
 
     def _values(self, flags: Flags) -> str:
         rows = np.flatnonzero(flags)
-        turning = self.motion.linkage.mechanism.drives[0].direction.startswith("R")
+        turning = self.motion.linkage.mechanism.drives[0].turning
         values = self.motion.drives[rows[:_MOST_SAID], 0]
         said = [f"{np.degrees(value):.6g}°" if turning else f"{value:.6g}" for value in values]
         return ", ".join(said) + (", ..." if len(rows) > _MOST_SAID else "")

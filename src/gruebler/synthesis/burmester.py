@@ -14,14 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.dyads import Displacements, GuidingDyad, circle_point_cubics, misfit, sliding_dyads
 from gruebler.synthesis.tasks import PositionTask
 
 __all__ = ["BurmesterCurves", "CurvePiece", "burmester_curves"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition
 

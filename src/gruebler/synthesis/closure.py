@@ -11,15 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 from gruebler.kinematics import Poses
 from gruebler.linkages import Line, Linkage, with_lower_pairs
 from gruebler.linkages.elements import Element, Pin, Pose2D
 
 __all__ = ["ClosureSlopes", "DesignClosure"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 class ClosureSlopes(NamedTuple):

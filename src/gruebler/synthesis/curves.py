@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.dyads import GuidingDyad
@@ -25,9 +26,6 @@ from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 Progress = Callable[[int, int], None]
 
 _ARCS = 64  # places on each curve of the atlas, evenly along it

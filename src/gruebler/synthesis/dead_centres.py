@@ -10,8 +10,8 @@ from math import cos, degrees, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.synthesis.judging import Demands, pivots_inside, size_ratio
@@ -20,7 +20,6 @@ from gruebler.synthesis.tasks import DeadCentreTask
 
 __all__ = ["DeadCentreFamily", "FamilyMember", "dead_centre_family", "synthesise_dead_centres"]
 
-Reals = NDArray[np.float64]
 
 _SAMPLES = 720
 _SAME = 1e-9  # dead centres of a member agree with the task to this

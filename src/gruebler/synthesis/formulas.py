@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import SynthesisError, nearest
 
 __all__ = ["Formula", "FunctionLaw", "chebyshev_spacing"]
 
-Reals = NDArray[np.float64]
 
 _LONGEST = 300  # characters
 _DEEPEST = 40  # operations within one another

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage
@@ -27,7 +28,6 @@ from gruebler.synthesis.tasks import FunctionTask, PositionTask
 
 __all__ = ["Coordination", "coordination_of", "function_task", "minimax", "structural_error", "synthesise_function"]
 
-Reals = NDArray[np.float64]
 
 _SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
 

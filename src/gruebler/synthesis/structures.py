@@ -13,8 +13,8 @@ from functools import partial
 from math import isnan, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.kinematics import circuit
 from gruebler.mechanism import Mechanism
@@ -27,8 +27,6 @@ from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _SAMPLES = 48  # places along a target and along a circuit
 _POINTS = 60  # points of a link that are tried for the first likeness

@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from math import isfinite, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 
 __all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Pair = tuple[float, float]
 
 SAME = 1e-9

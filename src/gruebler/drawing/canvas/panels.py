@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, Scale, angles, decades, decimals
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.free_space import Obstacles, complexes
@@ -21,7 +21,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["AxisMarker", "Band", "Curve", "Panel", "PointMarker", "Rest", "draw_panels", "ratio_diagram"]
 
-Reals = NDArray[np.float64]
 
 _SIZE = Point(520.0, 300.0)
 _TICK = 5.0

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.axes import Axis, Scale, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.panels import Curve, Panel, PointMarker, draw_panels
@@ -23,7 +23,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 
-Complexes = NDArray[np.complex128]
 
 _SQUARE = 460.0  # pixels of the longer side
 _NEAR = 0.03  # of the field: drive values nearer to each other are left out

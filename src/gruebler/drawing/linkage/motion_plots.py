@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import transmission_angle
 from gruebler.analysis.events import natural_speed, stops
@@ -24,7 +23,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["transfer_plot", "transmission_plot"]
 
-Reals = NDArray[np.float64]
 
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three

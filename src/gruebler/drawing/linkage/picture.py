@@ -239,7 +239,7 @@ def picture_notes(
     words, drives = _WORDS[lang], posed.linkage.mechanism.drives
     values = [
         decimal_sign_in(f"{round(degrees(value), 2) + 0.0:g}°", lang)
-        if drive.direction.startswith("R")
+        if drive.turning
         else as_text(float(value), posed.linkage.unit, lang)
         for value, drive in zip(posed.pose.drives[0], drives, strict=bool(drives))
     ]

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle
+from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, angles, as_text, decimals
 from gruebler.drawing.linkage.posed_linkage import drive_rows
 from gruebler.drawing.structure.messages import title
@@ -21,7 +21,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
 
-Reals = NDArray[np.float64]
 Between = tuple[float, float] | None
 Branch = str | Iterable[str] | None
 

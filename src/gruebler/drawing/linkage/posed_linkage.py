@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
@@ -23,8 +24,6 @@ from gruebler.text import Message, message
 
 __all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_along_motion", "posed_linkage"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _PIXELS = 380.0  # for the longer side of all that the pins reach
 _SHORTEST = 34.0  # pixels between two pins of one link, as long as the picture does not become huge
@@ -166,7 +165,7 @@ def _one_position(
 ) -> PosedLinkage:
     """The pose of a linkage that cannot be followed, at the value given or where there is one; else its error."""
     tried = given.reshape(1, -1) if given is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
-    turning = linkage.mechanism.drives[0].direction.startswith("R")
+    turning = linkage.mechanism.drives[0].turning
     for values in tried if given is not None or turning else ():
         try:
             pose = move(linkage, values.reshape(1, -1), branch=branch)

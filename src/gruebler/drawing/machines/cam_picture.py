@@ -7,8 +7,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams import Cam, CamError, Roller
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import (
@@ -29,8 +29,6 @@ from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagra
 
 __all__ = ["animate_cam", "draw_cam", "lift_diagram"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _PIXELS = 150.0  # from the axis to the farthest point of the cam
 _ROWS = 720  # points of the contour
