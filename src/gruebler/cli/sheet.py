@@ -11,7 +11,7 @@ from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
-from gruebler.sheets.messages import LocalNumber, explanation_paragraphs
+from gruebler.sheets.messages import explanation_paragraphs, typeset_number
 
 __all__ = ["run"]
 
@@ -127,7 +127,7 @@ def _row(value: StatedValue, lang: str) -> tuple[str, ...]:
         value.symbol,
         meaning,
         value.exact.typeset if value.exact else "",
-        format(LocalNumber(value.derived, lang), "g" if whole else ".6f") + value.unit,
+        typeset_number(value.derived, lang, "g" if whole else ".6f") + value.unit,
         printed.replace(".", ",") if lang == "de" else printed,
         remark if value.holds else words["wrong"],
     )
@@ -204,7 +204,7 @@ def _say_size(one: Sheet, found: SizedMechanism, unit: str, lang: str) -> None:
     behind = f" {unit}" if unit else ""
 
     def said(value: float, form: str) -> str:
-        return format(LocalNumber(value, lang), form)
+        return typeset_number(value, lang, form)
 
     text = _WORDS[lang]["size"].format(
         length=said(found.length, "g"),
