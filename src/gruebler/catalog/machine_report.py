@@ -208,7 +208,8 @@ _TEXTS = {
     "generic": message("{mobility}, for almost all sizes."),
     "hand": message("Not driven at a joint."),
     "special": message(
-        "What special dimensions let move is told above; almost all sizes would give another mobility than {moves}."
+        "What moves because of special dimensions stands above; almost all sizes would give another "
+        "mobility than {moves}."
     ),
     "assumed": message("Assumed; none are printed."),
     "source": message("From {source}."),
@@ -216,7 +217,7 @@ _TEXTS = {
     "unit": message("Unit of length: {unit}."),
     "range": message("Shown between {low:g}{unit} and {high:g}{unit}."),
     "shown": message("In the range shown the transmission angle is {small:.4g}° to {large:.4g}°."),
-    "partial": message("As drawn, {output} goes by {value:.6g} for each unit of {drive} (angles in radians)."),
+    "partial": message("As drawn, {output} goes by {ratio:.6g} for each unit of {drive} (angles in radians)."),
     "closed": message("{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high."),
     "open": message(
         "{name} on {link}: a path {length:.6g} {unit} long between the limits, {width:.6g} wide, {height:.6g} high."
@@ -250,7 +251,7 @@ def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]
         each = zip(found.partials, found.mechanism.drive_names(alphabet), strict=True)
         yield (
             "measures",
-            [say("partial", output=partial.output, value=partial.value, drive=name) for partial, name in each],
+            [say("partial", output=partial.output, ratio=partial.value, drive=name) for partial, name in each],
         )
     if found.measures is not None and found.points:
         unit = found.measures.linkage.unit
