@@ -5,7 +5,8 @@ import string
 
 import pytest
 
-from gruebler import Chain, ChainError, GrueblerError
+from gruebler import Chain, GrueblerError
+from gruebler.errors import ChainError
 from gruebler.mobility import mobility_report
 from gruebler.mobility.idle import IdleCondition
 from gruebler.mobility.messages import SENTENCES
