@@ -124,9 +124,8 @@ def law_at(law: PiecewiseLaw, angle: float) -> float:
 
 def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
     """The angles of a condition that counts whole turns, at home."""
-    assert lower.reference_pose is not None
     angles = [
-        lower.reference_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
+        lower.required_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
     ]
     if condition.kind == MESH:
         here, there = (_put(lower, keys, side) for side in condition.sides)
@@ -152,16 +151,14 @@ def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:
 
 def _way(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> complex:
     """A centre at home, seen from a line: along it, and to the left of it."""
-    assert lower.reference_pose is not None
     number, link = keys[sides[0]]
     line = lower.elements[number, link]
     assert isinstance(line, Line)
     gap = _put(lower, keys, sides[1]) - _put(lower, keys, sides[0])
-    return gap * rect(1, -lower.reference_pose[link].angle - line.angle)
+    return gap * rect(1, -lower.required_pose[link].angle - line.angle)
 
 
 def _put(lower: Linkage, keys: Keys, side: int) -> complex:
-    assert lower.reference_pose is not None
     number, link = keys[side]
     element = lower.elements[number, link]
-    return complex(*lower.reference_pose[link].put(element.x, element.y))
+    return complex(*lower.required_pose[link].put(element.x, element.y))
