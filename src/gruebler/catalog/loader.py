@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -72,6 +73,11 @@ def entry(id: str) -> Entry:
         if id in exercises():
             machines = dict.fromkeys(case.machine for case in exercises()[id].cases)
             raise CatalogError(f"{id!r} is an exercise; the machines in it are {', '.join(machines)}") from None
+        if os.path.isdir(id):  # noqa: PTH112  Path.is_dir refuses long names
+            raise CatalogError(
+                f"{id!r} is a folder; expected a file, a chain or the id of a catalog entry",
+                f"{id!r} ist ein Ordner; erwartet wird eine Datei, eine Kette oder ein Eintrag des Katalogs",
+            ) from None
         from difflib import get_close_matches
 
         close = get_close_matches(id, entries(), n=3, cutoff=0.5)

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from gruebler.cli.parser import build_parser
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, shortened
 
 __all__ = ["main"]
 
@@ -41,8 +41,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         _forget_output()
         return 0
     except OSError as error:
-        _forget_output()
-        print(f"gruebler {arguments.command}: cannot write the output: {error.strerror or error}", file=sys.stderr)
+        if error.filename is None:
+            _forget_output()
+        what = "cannot write the output" if error.filename is None else f"{error.filename!r} cannot be opened"
+        print(f"gruebler {arguments.command}: {shortened(what)}: {error.strerror or error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         kept = getattr(arguments, "checkpoint", None)

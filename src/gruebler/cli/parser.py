@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from difflib import get_close_matches
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from gruebler.cli.catalog_commands import add as add_catalog_commands
 from gruebler.cli.coverage_commands import add as add_coverage_commands
@@ -17,13 +18,29 @@ from gruebler.cli.plot_commands import add as add_plot_commands
 from gruebler.cli.sheet_commands import add as add_sheet_commands
 from gruebler.cli.statics_commands import add as add_statics_commands
 from gruebler.cli.synthesis_commands import add as add_synthesis_commands
-from gruebler.errors import shortened
+from gruebler.errors import nearest, shortened
 
 __all__ = ["build_parser"]
 
 
 class _Parser(argparse.ArgumentParser):
-    """argparse, but wrong usage is one sentence."""
+    """argparse, but wrong usage is one sentence, with the nearest known word."""
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            near = nearest(str(value)[:50], map(str, action.choices or ()))
+            raise argparse.ArgumentError(action, error.message + near) from None
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        found, rest = super().parse_known_args(args, namespace)
+        unknown = next((word.partition("=")[0][2:50] for word in rest if word.startswith("--")), None)
+        if unknown is not None:
+            names = [option[2:] for option in self._option_string_actions if option.startswith("--")]
+            close = get_close_matches(unknown, names, n=1, cutoff=0.5)
+            self.error(f"unrecognized arguments: {' '.join(rest)}" + "".join(f"; did you mean '--{c}'?" for c in close))
+        return found, rest
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {shortened(message)} (see {self.prog} --help)\n")
