@@ -196,7 +196,7 @@ def moved(id, path=None, rows=73, **options):
     linkage = record.linkage()
     low, high = record.dimensions.range or (0, 360)
     path = np.linspace(low, high, rows) if path is None else np.asarray(path, float)
-    turning = linkage.mechanism.drives[0].direction.startswith("R")
+    turning = linkage.mechanism.drives[0].turning
     shares = [1 / (1 + k) for k in range(len(linkage.mechanism.drives))]
     return move(linkage, np.outer(np.radians(path) if turning else path, shares), **options)
 

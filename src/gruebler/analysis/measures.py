@@ -50,6 +50,7 @@ from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.kinematics.root_finding import sample_function
 from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
+from gruebler.text import error_in_language
 
 __all__ = ["Measures", "Transfer", "measures"]
 
@@ -255,11 +256,11 @@ def measures(
     try:
         changes, unknown = change_points(cycle), {"en": "", "de": ""}
     except LinkageError as why:
-        changes, unknown = dyad_change_points(cycle), {lang: why.in_language(lang) for lang in ("en", "de")}
+        changes, unknown = dyad_change_points(cycle), {lang: error_in_language(why, lang) for lang in ("en", "de")}
     try:
         transmission, notes = measure_transmission(cycle, looked_at), {"en": "", "de": ""}
     except NoTransmissionAngleError as why:
-        transmission, notes = None, {lang: why.in_language(lang) for lang in ("en", "de")}
+        transmission, notes = None, {lang: error_in_language(why, lang) for lang in ("en", "de")}
     return Measures(
         linkage,
         looked_at,
@@ -287,7 +288,7 @@ def _speed(rpm: float | None) -> float | None:
     if rpm is None:
         return None
     if isinstance(rpm, bool) or not isinstance(rpm, (int, float, np.number)) or not isfinite(rpm) or rpm == 0:
-        raise LinkageError(f"the speed is a number of turns a minute other than 0, not {rpm!r}")
+        raise LinkageError("the speed is a number of turns a minute other than 0, not {rpm!r}", rpm=rpm)
     return float(rpm)
 
 

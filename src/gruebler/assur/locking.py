@@ -50,7 +50,7 @@ def lock_drives(mechanism: Mechanism) -> LockedMechanism:
     """
     chain = mechanism.chain
     if chain.space is not Space.PLANAR:
-        raise AssurError(f"Assur groups are made of planar chains; this one is {chain.space}")
+        raise AssurError("Assur groups are made of planar chains; this one is {space}", space=chain.space)
     root = {link: link for link in chain.links}
     effective, clean = [0] * len(chain.joints), True
     partial: dict[int, Drive] = {}
@@ -104,8 +104,10 @@ def whole_joint_locks(mechanism: Mechanism, partial: dict[int, Drive]) -> list[D
             partial[drives[0].joint] = drives[0]
         else:
             raise AssurError(
-                f"one freedom of {joint} is driven between two of its {len(joint.links)} links: write a joint of its "
-                "own for each two links"
+                "one freedom of {joint} is driven between two of its {count} links: write a joint of its own for "
+                "each two links",
+                joint=joint,
+                count=len(joint.links),
             )
     return whole
 

@@ -37,7 +37,7 @@ def space_of(word: str | Space) -> Space:
     try:
         return Space(word)
     except ValueError:
-        raise NotationError(f"unknown space {word!r}: expected planar, spherical or spatial") from None
+        raise NotationError("unknown space {word!r}: expected planar, spherical or spatial", word=word) from None
 
 
 def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple[Pair, tuple[str, ...]]]]:
@@ -69,7 +69,7 @@ def _read_space(text: str, space: str | Space | None) -> tuple[Space, int]:
         return wanted or Space.PLANAR, 0
     written = space_of(prefix[1].lower())
     if wanted is not None and wanted is not written:
-        raise NotationError(f"the text says {written}, but {wanted} was asked for")
+        raise NotationError("the text says {written}, but {wanted} was asked for", written=written, wanted=wanted)
     return written, prefix.end()
 
 
@@ -100,7 +100,9 @@ def link_name(text: str) -> str:
     'lower wishbone'
     """
     if not re.fullmatch(_NAME, text):
-        raise NotationError(f"expected the name of a link, bare or in double quotes, but found {_shortened(text)!r}")
+        raise NotationError(
+            "expected the name of a link, bare or in double quotes, but found {shortened!r}", shortened=_shortened(text)
+        )
     return _unquoted(text)
 
 
@@ -121,14 +123,19 @@ def _unquoted(name: str) -> str:
     try:
         return str(json.loads(name))
     except json.JSONDecodeError as error:
-        raise NotationError(f"the quoted name {name} is not valid: {error.msg}") from None
+        raise NotationError("the quoted name {name} is not valid: {msg}", name=name, msg=error.msg) from None
 
 
 def _unreadable(text: str, position: int, expected: str) -> NotationError:
     rest = text[position:].strip()
     position = len(text) - len(text[position:].lstrip())
     found = f"found {_shortened(rest)!r}" if rest else "the text ends"
-    return NotationError(f"expected {expected} at character {position + 1}, but {found}")
+    return NotationError(
+        "expected {expected} at character {position}, but {found}",
+        expected=expected,
+        position=position + 1,
+        found=found,
+    )
 
 
 def _shortened(text: str) -> str:

@@ -112,8 +112,11 @@ class Pair:
             return len(self.freedoms[space])
         except KeyError:
             raise PairError(
-                f"the {self.name} pair ({self.german}) does not exist in {space} chains; it exists in "
-                + " and ".join(f"{s} ones with f = {len(d)}" for s, d in self.freedoms.items())
+                "the {name} pair ({german}) does not exist in {space} chains; it exists in {items}",
+                name=self.name,
+                german=self.german,
+                space=space,
+                items=" and ".join(f"{s} ones with f = {len(d)}" for s, d in self.freedoms.items()),
             ) from None
 
     def u(self, space: Space) -> int:
@@ -230,7 +233,7 @@ def pair(name: str) -> Pair:
     """
     found = _BY_NAME.get(name) or _BY_FULL_NAME.get(name.replace("-", "_").casefold())
     if found is None:
-        raise PairError(f"unknown pair {name!r}{nearest(name, _BY_FULL_NAME)}")
+        raise PairError("unknown pair {name!r}{suggestion}", name=name, suggestion=nearest(name, _BY_FULL_NAME))
     return found
 
 
@@ -268,9 +271,9 @@ def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
     for symbol, meanings in distinct[0].items():
         if len(meanings) > 1:
             raise PairError(
-                f"{symbol!r} is ambiguous: "
-                + " or ".join(f"{p.name} ({p.german})" for p in meanings)
-                + "; write the full name"
+                "{symbol!r} is ambiguous: {meanings}; write the full name",
+                symbol=symbol,
+                meanings=" or ".join(f"{p.name} ({p.german})" for p in meanings),
             )
     return named | {symbol: meanings[0] for symbol, meanings in distinct[0].items()}
 
@@ -291,11 +294,12 @@ def _refuse_unknown(letters: list[str]) -> None:
     for symbol in letters:
         if symbol not in known:
             raise PairError(
-                f"unknown joint symbol {symbol!r}{nearest(symbol, (*known, *_BY_FULL_NAME))}; the symbols are "
-                + ", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols}))
-                + " (international) and "
-                + ", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS))
-                + " (German), or the full name of a pair"
+                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {items} (international) and "
+                "{fromkeys} (German), or the full name of a pair",
+                symbol=symbol,
+                suggestion=nearest(symbol, (*known, *_BY_FULL_NAME)),
+                items=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
+                fromkeys=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
             )
 
 
@@ -309,7 +313,9 @@ def _mixed(letters: list[str]) -> PairError:
             for s in letters
         ]
         readings.append(f"{_TITLE[alphabet]}: {', '.join(words)}")
-    return PairError(f"the symbols mix two alphabets ({'; '.join(readings)}); write all joints in one of them")
+    return PairError(
+        "the symbols mix two alphabets ({readings}); write all joints in one of them", readings="; ".join(readings)
+    )
 
 
 _TITLE = {Alphabet.GERMAN: "German", Alphabet.INTERNATIONAL: "international"}
@@ -332,14 +338,20 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
     )
     freedom = len(next(iter(meant.freedoms.values())))
     return PairError(
-        f"{symbol!r} is the {meant.name} pair ({meant.german}, f = {freedom}), which {space} chains do not have: "
-        f"their joints have at most f = {space.greatest_freedom} and are "
-        + ", ".join(
+        "{symbol!r} is the {name} pair ({german}, f = {freedom}), which {space} chains do not have: "
+        "their joints have at most f = {greatest_freedom} and are {pairs}{hint}",
+        symbol=symbol,
+        name=meant.name,
+        german=meant.german,
+        freedom=freedom,
+        space=space,
+        greatest_freedom=space.greatest_freedom,
+        pairs=", ".join(
             p.name if p.symbol(alphabet) == p.name else f"{p.symbol(alphabet)} ({p.name})"
             for p in PAIRS
             if space in p.freedoms
-        )
-        + hint
+        ),
+        hint=hint,
     )
 
 
@@ -347,6 +359,9 @@ def _two_alphabets(german: dict[str, tuple[Pair, ...]], other: dict[str, tuple[P
     symbol = next(s for s in german if german[s] != other[s])
     one, two = (" or ".join(p.name for p in r[symbol]) for r in (german, other))
     return PairError(
-        f"{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; "
-        f"write the full name ({one} or {two}) or add a joint that only one alphabet has"
+        "{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; write "
+        "the full name ({one} or {two}) or add a joint that only one alphabet has",
+        symbol=symbol,
+        one=one,
+        two=two,
     )

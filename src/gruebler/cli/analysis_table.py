@@ -11,16 +11,15 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.outputs import Output
+from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion
 from gruebler.linkages import CamDisc, GenevaDriver, Linkage, NonCircular
 
 __all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]
 
-Reals = NDArray[np.float64]
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
@@ -75,9 +74,9 @@ def columns(
     linkage, mechanism = motion.linkage, motion.linkage.mechanism
     out = []
     for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
-        turning = drive.direction.startswith("R")
+        turning = drive.turning
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
-    turning = mechanism.drives[0].direction.startswith("R")
+    turning = mechanism.drives[0].turning
     per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
     timed = len(mechanism.drives) > 1 or rates is not None
     v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
@@ -163,10 +162,7 @@ def _cell(value: float) -> str:
 def check_csv(path: Path | None) -> None:
     """`GrueblerError` if the name of the file promises something else than a table."""
     if path is not None and path.suffix.lower() not in ("", ".csv", ".txt"):
-        raise GrueblerError(
-            f"{path}: a table is written as CSV; end the name with .csv",
-            f"{path}: eine Tabelle wird als CSV geschrieben; der Name endet auf .csv",
-        )
+        raise GrueblerError("{path}: a table is written as CSV; end the name with .csv", path=path)
 
 
 def as_csv(made: Sequence[Column]) -> str:

@@ -6,9 +6,9 @@ import cmath
 from math import acos, asin, degrees, isclose, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import measures
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
 from gruebler.fourbar import FourBar, InvertedSliderCrank
@@ -21,7 +21,6 @@ from gruebler.text import Text
 
 __all__ = ["conchoid", "four_bar"]
 
-Reals = NDArray[np.float64]
 
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""
@@ -52,7 +51,7 @@ def _read_points(points: str) -> list[tuple[float, float]]:
     except ValueError:
         pairs = []
     if not pairs or any(len(pair) != 2 for pair in pairs):
-        raise LinkageError(f"coupler points are written u,v; u,v; ... in numbers, not {points!r}")
+        raise LinkageError("coupler points are written u,v; u,v; ... in numbers, not {points!r}", points=points)
     return [(u, v) for u, v in pairs]
 
 
@@ -65,7 +64,14 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     """
     size = FourBar(a, b, c, d)
     if "a" not in size.turning:
-        raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
+        raise LinkageError(
+            "the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {type}",
+            a=a,
+            b=b,
+            c=c,
+            d=d,
+            type=size.type,
+        )
     chosen = _read_points(points)
     as_step(step)
     way = SolutionBuilder(unit)
@@ -104,7 +110,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     """
     size = InvertedSliderCrank(a, d)
     if isclose(a, d):
-        raise LinkageError(f"with a = d = {d:g} the joint A runs through B0, where the coupler has no direction")
+        raise LinkageError("with a = d = {d:g} the joint A runs through B0, where the coupler has no direction", d=d)
     as_step(step)
     builder = SolutionBuilder(unit)
     builder.say(

@@ -29,7 +29,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     (80.0, 0.195075)
     """
     if not b == c == e or a + d >= 2 * b:
-        raise LinkageError(f"the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}")
+        raise LinkageError("the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}", b=b, c=c, e=e)
     size = FourBar(a, b, c, d)
     builder = SolutionBuilder(unit)
     builder.say(
@@ -133,7 +133,7 @@ def watt_linkage(
     values = turns(start, stop, as_step(step))
     motion = size.motion(values - tilt, branch=-1)
     if not motion.complete:
-        raise LinkageError(f"the left rocker cannot reach these angles: {motion.message}")
+        raise LinkageError("the left rocker cannot reach these angles: {message}", message=motion.message)
     local = motion.point(coupler / 2).value
     path = left + (local[:, 0] + 1j * local[:, 1]) * cmath.exp(1j * tilt)
     right = np.degrees(motion.output.value + tilt) % 360 - 180
@@ -163,7 +163,9 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left:
     excess = {sign: lambda t, s=sign: s * at(t).real - side for sign in (-1, 1)}
     reach = next((t for t in np.radians(np.arange(1.0, 60.0)) if all(excess[s](s * t) > 0 for s in (-1, 1))), None)
     if reach is None:
-        raise LinkageError(f"F does not leave the strip of {side:g} {builder.unit} at both ends within 60 degrees")
+        raise LinkageError(
+            "F does not leave the strip of {side:g} {unit} at both ends within 60 degrees", side=side, unit=builder.unit
+        )
     ends = [float(brentq(excess[sign], 0, sign * reach, xtol=1e-14)) for sign in (-1, 1)]
     low, high = (at(t).imag for t in ends)
     name = Text(f"stroke with |F_x| ≤ {number(side)} {builder.unit}", f"Hub mit |F_x| ≤ {number(side)} {builder.unit}")
@@ -232,7 +234,7 @@ def double_rocker(
     tilt = radians(frame)
     motion = size.motion(values - tilt)
     if not motion.complete:
-        raise LinkageError(f"the rocker d cannot reach these angles: {motion.message}")
+        raise LinkageError("the rocker d cannot reach these angles: {message}", message=motion.message)
     spin = cmath.exp(1j * tilt)
     local = motion.point(a - ac).value
     columns = [spin * (z[:, 0] + 1j * z[:, 1]) for z in (motion.B.value, motion.A.value, local)]
@@ -315,7 +317,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     0.0
     """
     if not a == b == e:
-        raise LinkageError(f"an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}")
+        raise LinkageError("an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}", a=a, b=b, e=e)
     size = SliderCrank(a, b)
     builder = SolutionBuilder(unit)
     builder.say(

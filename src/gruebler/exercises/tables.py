@@ -256,5 +256,10 @@ def teaching_table(name: str) -> tuple[Table, ...]:
     ['Kurbelschwinge', 'Kurbelschwinge', 'Doppelkurbel', 'Doppelschwinge mit umlaufender Koppel']
     """
     if name not in TABLES:
-        raise GrueblerError(f"the teaching tables are {', '.join(TABLES)}, not {name!r}{nearest(name, TABLES)}")
+        raise GrueblerError(
+            "the teaching tables are {tables}, not {name!r}{suggestion}",
+            tables=", ".join(TABLES),
+            name=name,
+            suggestion=nearest(name, TABLES),
+        )
     return TABLES[name]()

@@ -263,5 +263,5 @@ def turning_ranges(
     [(0.0, 10.0, 'double crank'), (70.0, 130.0, 'crank-rocker')]
     """
     if turns not in ("a", "b", "c"):
-        raise LinkageError(f"the link that is to turn against the frame must be a, b or c, not {turns!r}")
+        raise LinkageError("the link that is to turn against the frame must be a, b or c, not {turns!r}", turns=turns)
     return tuple(part for part in types_along(a=a, b=b, c=c, d=d) if turns in part.grashof.turning)

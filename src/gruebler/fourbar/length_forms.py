@@ -69,7 +69,10 @@ def _loop(mechanism: Mechanism, way: str) -> tuple[str, ...]:
     text = chain.text()
     shown = text if len(text) < 120 else text[:117] + "..."
     raise LinkageError(
-        f"{way} needs four links in a loop with joints {_LOOPS[way]}, from the frame over the crank; found {shown}"
+        "{way} needs four links in a loop with joints {loops}, from the frame over the crank; found {shown}",
+        way=way,
+        loops=_LOOPS[way],
+        shown=shown,
     )
 
 

@@ -80,7 +80,7 @@ def exact_number(value: object, what: str) -> Fraction:
             return Fraction(str(value))
     except (ValueError, ZeroDivisionError):
         pass
-    raise GearError(f"{what}: expected a finite number such as 24, 12.5 or 7/2, not {value!r}")
+    raise GearError("{what}: expected a finite number such as 24, 12.5 or 7/2, not {value!r}", what=what, value=value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,21 +101,28 @@ class Mesh:
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise GearError(f"no kind of mesh is called {self.kind!r}: {', '.join(KINDS)}{nearest(self.kind, KINDS)}")
+            raise GearError(
+                "no kind of mesh is called {kind!r}: {kinds}{suggestion}",
+                kind=self.kind,
+                kinds=", ".join(KINDS),
+                suggestion=nearest(self.kind, KINDS),
+            )
         if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
-            raise GearError(f"a mesh joins two different links and is carried by a third: {self}")
+            raise GearError("a mesh joins two different links and is carried by a third: {self_}", self_=self)
         for name, given in ((self.a, self.size_a), (self.b, self.size_b)):
             if not isinstance(name, str) or not name:
-                raise GearError(f"a link has a name, not {name!r}")
+                raise GearError("a link has a name, not {name!r}", name=name)
             size = exact_number(given, f"wheel on {name}")
             if size == 0 or (size < 0 and not KINDS[self.kind].signed):
-                raise GearError(f"wheel on {name}: {self.kind} takes a positive size, not {size}")
+                raise GearError(
+                    "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
+                )
         object.__setattr__(self, "size_a", exact_number(self.size_a, self.a))
         object.__setattr__(self, "size_b", exact_number(self.size_b, self.b))
         if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
-            raise GearError(f"an internal wheel (minus) is larger than the wheel in it: {self}")
+            raise GearError("an internal wheel (minus) is larger than the wheel in it: {self_}", self_=self)
         if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
-            raise GearError(f"two internal wheels do not mesh: {self}")
+            raise GearError("two internal wheels do not mesh: {self_}", self_=self)
 
     def __str__(self) -> str:
         """The text of the mesh, as `read_train` takes it back.
@@ -187,7 +194,14 @@ class Train:
             for link, unit in mesh.units().items():
                 if link != FRAME and found.setdefault(link, unit) != unit:
                     hint = "" if Unit.TURNING in (unit, found[link]) else "; give the rack by its pitch instead"
-                    raise GearError(f"{link} is {found[link]} in one mesh and {unit} in '{mesh}'{hint}")
+                    raise GearError(
+                        "{link} is {found} in one mesh and {unit} in '{mesh}'{hint}",
+                        link=link,
+                        found=found[link],
+                        unit=unit,
+                        mesh=mesh,
+                        hint=hint,
+                    )
         return found
 
     @property
@@ -216,7 +230,10 @@ class Train:
         """The link, if the train has it; otherwise an error that offers the nearest name."""
         if link not in self.links:
             raise GearError(
-                f"the train has no moving link {link!r}: {', '.join(self.links)}{nearest(link, self.links)}"
+                "the train has no moving link {link!r}: {links}{suggestion}",
+                link=link,
+                links=", ".join(self.links),
+                suggestion=nearest(link, self.links),
             )
         return link
 
@@ -245,9 +262,11 @@ class Train:
         found = self.relations(*links)
         if len(found) != 1:
             number = f"{len(found)} relations" if found else "no relation"
-            raise GearError(f"there is {number} between the speeds of {', '.join(links)}, not one")
+            raise GearError(
+                "there is {number} between the speeds of {links}, not one", number=number, links=", ".join(links)
+            )
         if not self.comparable(found[0]):
-            raise GearError(f"{', '.join(found[0])}: {MIXED}")
+            raise GearError("{found}: {mixed}", found=", ".join(found[0]), mixed=MIXED)
         return found[0]
 
     def _repr_svg_(self) -> str | None:

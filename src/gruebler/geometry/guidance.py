@@ -112,7 +112,12 @@ def guidance(key: str) -> Guidance:
         if one.key == key:
             return one
     keys = [one.key for one in GUIDANCES]
-    raise LinkageError(f"there is no straight-line linkage {key!r}{nearest(key, keys)}; known are {', '.join(keys)}")
+    raise LinkageError(
+        "there is no straight-line linkage {key!r}{suggestion}; known are {keys}",
+        key=key,
+        suggestion=nearest(key, keys),
+        keys=", ".join(keys),
+    )
 
 
 # --- the table --------------------------------------------------------------------------------------

@@ -11,10 +11,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
-from gruebler.geometry.relative import Complexes
 from gruebler.kinematics import move
+from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_branch, as_finite
 
@@ -58,7 +59,7 @@ def lever_pose(linkage: Linkage, point: str, drive: float) -> LeverPose:
     """
     motion = move(linkage, drive)
     if not motion.complete:
-        raise LinkageError(motion.message())
+        raise LinkageError("{reason}", reason=stop_message(motion))
     names = linkage.mechanism.chain.joint_names()
     turning = [complex(motion.complex_point(name)[0]) for name in names if name.startswith("R")]
     if len(names) != 4 or len(turning) not in (3, 4):
@@ -96,14 +97,14 @@ def lever_contact(
     path = crank + arm * _coupler(size, to_b0, side, where)
     largest = max(size.a, size.d, abs(arm))
     if abs(path[1]) < _ZERO * largest:
-        raise LinkageError(f"the path has a cusp {where}, and no tangent")
+        raise LinkageError("the path has a cusp {where}, and no tangent", where=where)
     heading = path[1] / abs(path[1])
     seen = path[1:] / heading
     orders = np.arange(1, _ORDER - 1)
     growth = ((np.abs(seen[1:]) / abs(seen[0])) ** (1 / orders)).max()
     high = 1 + np.flatnonzero(np.abs(seen[1:].imag) > _ZERO * abs(seen[0]) * growth**orders)
     if not len(high):
-        raise LinkageError(f"the path is straight to order {_ORDER - 1} {where}")
+        raise LinkageError("the path is straight to order {order} {where}", order=_ORDER - 1, where=where)
     points = int(high[0]) + 1
     slope = float(seen.imag[points - 1] / seen.real[0] ** points)
     return LeverContact(points, slope, float(np.angle(heading)), complex(path[0]))
@@ -143,7 +144,7 @@ def _over(a: Complexes, b: Complexes) -> Complexes:
 def _root(a: Complexes, where: str) -> Complexes:
     """The square root of a real series that begins with a positive number."""
     if not a[0].real > 0:
-        raise LinkageError(f"the output is in a dead centre or out of reach {where}")
+        raise LinkageError("the output is in a dead centre or out of reach {where}", where=where)
     out = np.zeros_like(a)
     out[0] = math.sqrt(a[0].real)
     for n in range(1, len(a)):

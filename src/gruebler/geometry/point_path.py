@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.notebook import Brief
 
@@ -120,9 +120,9 @@ def point_path(
     frame = linkage.mechanism.frame
     places = [point] if isinstance(point, LinkPoint) else [p for p in linkage.points_named(point) if p.link != frame]
     if not places or places[-1].link == frame:
-        raise LinkageError(f"the point {said} lies on the frame {frame!r}: it has no path")
+        raise LinkageError("the point {said} lies on the frame {frame!r}: it has no path", said=said, frame=frame)
     cycle = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
     trail = PointPath(cycle, places[-1])
     if np.abs(trail.at(trail.grid, 1)[1]).max() <= _STILL * trail.size:
-        raise LinkageError(f"the point {said} does not move: it has no path")
+        raise LinkageError("the point {said} does not move: it has no path", said=said)
     return trail

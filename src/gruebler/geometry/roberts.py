@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.fourbar.crank_motion import CrankMotion
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_numbers
 from gruebler.mechanism import Mechanism
@@ -136,12 +136,12 @@ def cognate_sizes(
     numbers = [as_numbers(name, value) for name, value in given.items()]
     for name, length in zip("abcd", numbers[:4], strict=True):
         if (length <= 0).any():
-            raise LinkageError(f"{name} must be positive, not {length.min():g}")
+            raise LinkageError("{name} must be positive, not {min:g}", name=name, min=length.min())
     try:
         la, lb, lc, ld, lu, lv = np.broadcast_arrays(*numbers)
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(given, numbers, strict=True))
-        raise LinkageError(f"arrays of one shape are needed, not {shapes}") from None
+        raise LinkageError("arrays of one shape are needed, not {shapes}", shapes=shapes) from None
     arm = lu + 1j * lv
     s, t = arm / lb, (lb - arm) / lb
     k, m = np.abs(s), np.abs(t)
@@ -250,15 +250,21 @@ def _pose(
     arm = complex(as_finite("u", u), as_finite("v", v))
     for name, joint in (("A", 0.0), ("B", size.b)):
         if abs(arm - joint) <= _AT_A_JOINT * size.b:
-            raise LinkageError(f"the coupler point lies on the joint {name}: it traces an arc, and has no cognates")
+            raise LinkageError(
+                "the coupler point lies on the joint {name}: it traces an arc, and has no cognates", name=name
+            )
     if phi is None:
         if not size.limits:
-            raise LinkageError(f"it cannot be assembled in any position: {size!r}")
+            raise LinkageError("it cannot be assembled in any position: {size!r}", size=size)
         start, end = size.limits[0]
         phi = start + (end - start) * (1 / 3 if _folds(size) else 1 / 2)
     motion = size.motion(as_finite("phi", phi), branch=branch)
     if not motion.assembled:
-        raise LinkageError(f"it cannot be assembled at the crank angle {math.degrees(phi):g} degrees: {motion.message}")
+        raise LinkageError(
+            "it cannot be assembled at the crank angle {phi:g} degrees: {message}",
+            phi=math.degrees(phi),
+            message=motion.message,
+        )
     a, b = (complex(*(float(x) for x in track.value)) for track in (motion.A, motion.B))
     _check_moving(size, a, b)
     s = arm / size.b
@@ -288,6 +294,7 @@ def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
         still = "rocker stands still"
     if still:
         raise LinkageError(
-            f"the {still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank would "
-            "turn with that link does not move"
+            "the {still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank "
+            "would turn with that link does not move",
+            still=still,
         )

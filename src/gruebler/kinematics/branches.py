@@ -18,12 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler._numeric.motion.program import GROUP
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan
 
 __all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
-
-Reals = NDArray[np.float64]
 
 
 def part_at_fault(plan: Plan, number: int) -> Dyad | HigherGroup:
@@ -46,11 +45,20 @@ def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ..
     labels = re.findall(r"[+-]|\d+", text)
     if "".join(labels) != re.sub(r"[\s,]", "", text) or len(labels) != len(parts):
         wanted = ", ".join(f"{'+ or -' if isinstance(p, Dyad) else 'a number'} for {_name(plan, p)}" for p in parts)
-        raise LinkageError(f"a branch of this linkage is {wanted or 'empty: it has one assembly mode'}; found {text!r}")
+        raise LinkageError(
+            "a branch of this linkage is {value}; found {text_!r}",
+            value=wanted or "empty: it has one assembly mode",
+            text_=text,
+        )
     for part, label in zip(parts, labels, strict=True):
         if isinstance(part, Dyad) != (label in "+-") or label == "0":
             expected = "+ or -" if isinstance(part, Dyad) else "a number from 1"
-            raise LinkageError(f"branch: expected {expected} for {_name(plan, part)}, but found {label!r}")
+            raise LinkageError(
+                "branch: expected {expected} for {name}, but found {label!r}",
+                expected=expected,
+                name=_name(plan, part),
+                label=label,
+            )
     return tuple(labels)
 
 

@@ -96,8 +96,9 @@ def _check_phase(lower: Linkage, keys: Keys, found: Condition) -> None:
     off -= part * floor(off / part + 0.5)
     if abs(off) > _MESHES:
         raise LinkageError(
-            f"the non-circular wheels do not mesh at home: turn {keys[found.sides[1]][1]!r}, or its direction, by "
-            f"{degrees(off):.9g}°"
+            "the non-circular wheels do not mesh at home: turn {keys!r}, or its direction, by {off:.9g}°",
+            keys=keys[found.sides[1]][1],
+            off=degrees(off),
         )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler import notebook
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
@@ -21,9 +22,6 @@ from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sl
 from gruebler.notebook import Brief
 
 __all__ = ["Motion", "Stop", "joint_openings"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -88,7 +86,7 @@ class Motion(Brief):
         """Where and why it stopped, and in which rows rates are not finite; else empty."""
         from gruebler.kinematics.messages import stop_message
 
-        return stop_message(self, lang)
+        return stop_message(self).in_language(lang)
 
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
@@ -159,16 +157,23 @@ class Motion(Brief):
         links: Sequence[str] = self.plan.lower.mechanism.chain.links
         if link not in links:
             known = self.linkage.mechanism.chain.links
-            raise LinkageError(f"there is no link {link!r}{nearest(link, known)}; the links are {', '.join(known)}")
+            raise LinkageError(
+                "there is no link {link!r}{suggestion}; the links are {known}",
+                link=link,
+                suggestion=nearest(link, known),
+                known=", ".join(known),
+            )
         return links.index(link)
 
     def _ordered(self, order: int) -> None:
         if not 0 <= order <= self.order:
-            raise LinkageError(
-                f"this motion was solved up to order {self.order}; for order {order} ask move(..., order={order})"
-                if 0 <= order <= 3
-                else f"the order of a derivative is 0, 1, 2 or 3, not {order!r}"
-            )
+            if 0 <= order <= 3:
+                raise LinkageError(
+                    "this motion was solved up to order {solved}; for order {order} ask move(..., order={order})",
+                    solved=self.order,
+                    order=order,
+                )
+            raise LinkageError("the order of a derivative is 0, 1, 2 or 3, not {order!r}", order=order)
 
 
 def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
@@ -177,7 +182,9 @@ def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
     number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
     if number is None or not sliding_joint(motion.linkage, number):
         sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
-        raise LinkageError(f"{joint!r} is no sliding joint; there are {', '.join(sliding) or 'none'}")
+        raise LinkageError(
+            "{joint!r} is no sliding joint; there are {value}", joint=joint, value=", ".join(sliding) or "none"
+        )
     first, other = mechanism.chain.joints[number].links[:2]
     elements = motion.linkage.elements
     if not isinstance(elements[number, first], Line) or (

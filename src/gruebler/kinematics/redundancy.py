@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.assur import decompose
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Pair, pair
@@ -29,8 +29,6 @@ __all__ = [
     "independent_part",
 ]
 
-
-Reals = NDArray[np.float64]
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `gruebler freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
@@ -104,9 +102,12 @@ def independent_part(linkage: Linkage) -> Independent:
     if freedoms < len(drives):
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
-            f"In the given position its joints leave mobility {freedoms}, less than the number of drives "
-            f"({len(drives)}); the drives are blocked by {names or 'one another'}. `gruebler freedoms` analyses its "
-            "mobility with these dimensions."
+            "In the given position its joints leave mobility {freedoms}, less than the number of drives "
+            "({count}); the drives are blocked by {value}. `gruebler freedoms` analyses its mobility with "
+            "these dimensions.",
+            freedoms=freedoms,
+            count=len(drives),
+            value=names or "one another",
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
@@ -162,7 +163,7 @@ class ReferenceConditions:
         out = []
         for k, drive in enumerate(self.linkage.mechanism.drives):
             first, other = self.linkage.reference(k)
-            if drive.direction.startswith("R"):
+            if drive.turning:
                 out.append(self._turn(first, other))
                 continue
             lined = first if isinstance(self.linkage.elements[drive.joint, first], Line) else other
@@ -189,7 +190,9 @@ class ReferenceConditions:
         far = np.abs(residual)
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < _NEAR:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
-            raise LinkageError(f"home: the joints are not closed there; {worst} is open by {far.max():.1e} sizes")
+            raise LinkageError(
+                "home: the joints are not closed there; {worst} is open by {max:.1e} sizes", worst=worst, max=far.max()
+            )
         return x
 
     def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:

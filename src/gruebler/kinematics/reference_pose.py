@@ -9,14 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import home_angles
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Line
 
 __all__ = ["ReferencePose", "check_reference", "pose_at_reference"]
-
-Reals = NDArray[np.float64]
 
 
 class ReferencePose(NamedTuple):
@@ -31,7 +30,7 @@ def pose_at_reference(plan: Plan, near: Reals) -> ReferencePose:
     """The home position; turning drives by whole turns as near as possible to given values, but not with wheels."""
     drives = np.array([_drive(plan, k) for k in range(len(plan.linkage.mechanism.drives))])
     for k, drive in enumerate(plan.linkage.mechanism.drives):
-        if drive.direction.startswith("R") and not plan.wheels:
+        if drive.turning and not plan.wheels:
             drives[k] += 2 * pi * round((near[k] - drives[k]) / (2 * pi))
     signs = np.array([_sign(plan, dyad) for dyad in plan.dyads])
     unknowns = [_against(plan, root, part.base) for part in plan.higher_groups for root in part.roots]
@@ -46,7 +45,7 @@ def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[n
         home = plan.lower.reference_pose[link]
         gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
         if gap > 0.05:
-            raise LinkageError(f"home: the joints are not closed there; {link!r} would have to lie elsewhere")
+            raise LinkageError("home: the joints are not closed there; {link!r} would have to lie elsewhere", link=link)
 
 
 def _put(plan: Plan, element: int) -> complex:
@@ -67,7 +66,7 @@ def _drive(plan: Plan, k: int) -> float:
     assert plan.lower.reference_pose is not None
     first, other = plan.lower.reference(k)
     drive = plan.lower.mechanism.drives[k]
-    if drive.direction.startswith("R"):
+    if drive.turning:
         return plan.lower.reference_pose[other].angle - plan.lower.reference_pose[first].angle
     near, far = plan.keys.index((drive.joint, first)), plan.keys.index((drive.joint, other))
     return float((_line(plan, near).conjugate() * (_put(plan, far) - _put(plan, near))).real)

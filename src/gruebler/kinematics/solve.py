@@ -7,8 +7,9 @@ from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.branches import (
     Unassembled,
@@ -28,7 +29,6 @@ from gruebler.linkages import Linkage
 
 __all__ = ["all_branches", "cached_plan", "motion_from_rows", "move", "starting_configuration"]
 
-Reals = NDArray[np.float64]
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
 _DOUBTFUL = 1e-6  # a root below it may be wrong by as much as 1e-16 over it, and so may the pose
 _REASONS = {1: "limit", 2: "singular", 3: "start"}
@@ -79,7 +79,7 @@ def move(
     path = drive_path(made, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
-        raise LinkageError(f"the order is 0, 1, 2 or 3, not {order!r}")
+        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     try:
         signs, unknowns = starting_configuration(made, path[0], branch)

@@ -205,7 +205,9 @@ _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
 def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> None:
     """Check that a joint has the elements of its pair; `LinkageError` names the joint."""
     if pair.name not in _WANTED:
-        raise LinkageError(f"{name}: dimensions of this kind of joint ({pair.name}) are not known here")
+        raise LinkageError(
+            "{name}: dimensions of this kind of joint ({name_2}) are not known here", name=name, name_2=pair.name
+        )
     made = {type(e) for e in elements.values()}
     if any(made == set(kinds) for kinds in _WANTED[pair.name]):
         return
@@ -215,7 +217,7 @@ def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> N
         else f"{_KINDS[one]} on one of its links and {_KINDS[other]} on the other"
         for one, other in _WANTED[pair.name]
     )
-    raise LinkageError(f"{name} needs {wanted}")
+    raise LinkageError("{name} needs {wanted}", name=name, wanted=wanted)
 
 
 def read_element(raw: object, where: str) -> Element:
@@ -228,7 +230,9 @@ def read_element(raw: object, where: str) -> Element:
         return _round(raw, where)
     if isinstance(raw, CamDisc | GenevaDriver | GenevaWheel | NonCircular):
         if isinstance(raw, NonCircular) and _whole(raw.teeth, where) < 0:
-            raise LinkageError(f"{where}: teeth: expected a positive number, but found {raw.teeth}")
+            raise LinkageError(
+                "{where}: teeth: expected a positive number, but found {teeth}", where=where, teeth=raw.teeth
+            )
         x, y, angle = (_number(value, where) for value in raw[:3])
         return raw._replace(x=x, y=y, angle=angle)
     if isinstance(raw, Pin | Line):
@@ -236,9 +240,9 @@ def read_element(raw: object, where: str) -> Element:
     elif isinstance(raw, list | tuple):
         numbers = tuple(raw)
     else:
-        raise LinkageError(f"{where}: expected [x, y] or [x, y, angle], but found {raw!r}")
+        raise LinkageError("{where}: expected [x, y] or [x, y, angle], but found {raw!r}", where=where, raw=raw)
     if len(numbers) not in (2, 3):
-        raise LinkageError(f"{where}: expected two or three numbers, but found {len(numbers)}")
+        raise LinkageError("{where}: expected two or three numbers, but found {count}", where=where, count=len(numbers))
     made = [_number(value, where) for value in numbers]
     return Pin(*made) if len(made) == 2 else Line(*made)
 
@@ -246,28 +250,38 @@ def read_element(raw: object, where: str) -> Element:
 def _round(raw: Wheel | Circle, where: str) -> Wheel | Circle:
     x, y, radius = (_number(value, where) for value in raw[:3])
     if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
-        raise LinkageError(f"{where}: a radius is positive, or negative for internal toothing, not {radius!r}")
+        raise LinkageError(
+            "{where}: a radius is positive, or negative for internal toothing, not {radius!r}",
+            where=where,
+            radius=radius,
+        )
     if isinstance(raw, Circle):
         return Circle(x, y, radius)
     teeth = _whole(raw.teeth, where)
     if teeth * radius < 0:
-        raise LinkageError(f"{where}: radius and teeth are both negative (internal toothing) or both positive")
+        raise LinkageError(
+            "{where}: radius and teeth are both negative (internal toothing) or both positive", where=where
+        )
     if raw.belt not in ("", "open", "crossed"):
-        raise LinkageError(f"{where}: a belt is 'open' or 'crossed', not {raw.belt!r}")
+        raise LinkageError("{where}: a belt is 'open' or 'crossed', not {belt!r}", where=where, belt=raw.belt)
     if raw.belt and radius < 0:
-        raise LinkageError(f"{where}: a wheel of a belt has a positive radius, not {radius:g}")
+        raise LinkageError(
+            "{where}: a wheel of a belt has a positive radius, not {radius:g}", where=where, radius=radius
+        )
     return Wheel(x, y, radius, teeth, raw.belt)
 
 
 def _whole(teeth: object, where: str) -> int:
     if isinstance(teeth, bool) or not isinstance(teeth, int) or not -(10**6) < teeth < 10**6:
-        raise LinkageError(f"{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}")
+        raise LinkageError(
+            "{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}", where=where, teeth=teeth
+        )
     return teeth
 
 
 def _number(value: object, where: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not _usable(value):
-        raise LinkageError(f"{where}: expected finite numbers, but found {value!r}")
+        raise LinkageError("{where}: expected finite numbers, but found {value!r}", where=where, value=value)
     return float(value)
 
 

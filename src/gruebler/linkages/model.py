@@ -84,13 +84,15 @@ class Linkage:
     ) -> None:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
-            raise LinkageError(f"dimensions are those of planar mechanisms; this one is {chain.space}")
+            raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
         made: dict[tuple[int, str], Element] = {}
         for link, mine in elements.items():
             for joint, raw in mine.items():
                 number = joint_number(mechanism, joint)
                 if link not in chain.joints[number].links:
-                    raise LinkageError(f"{chain.joint_names()[number]} is no joint of {link!r}")
+                    raise LinkageError(
+                        "{joint_names} is no joint of {link!r}", joint_names=chain.joint_names()[number], link=link
+                    )
                 made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
         self._check_joints(mechanism, made)
         made = resolve_wheels(mechanism, made)
@@ -101,7 +103,7 @@ class Linkage:
         }
         for name in named:
             if name in chain.links or chain.find_joint(name) is not None:
-                raise LinkageError(f"the point {name!r} has the name of a link or joint")
+                raise LinkageError("the point {name!r} has the name of a link or joint", name=name)
         for link in outputs:
             _link(mechanism, link, "outputs")
         object.__setattr__(self, "mechanism", mechanism)
@@ -121,7 +123,7 @@ class Linkage:
         for number, joint in enumerate(mechanism.chain.joints):
             for link in joint.links:
                 if (number, link) not in made:
-                    raise LinkageError(f"{names[number]} has no dimensions on {link!r}")
+                    raise LinkageError("{names} has no dimensions on {link!r}", names=names[number], link=link)
             check_elements_fit(joint.pair, names[number], {link: made[number, link] for link in joint.links})
         if any(isinstance(element, CENTRED) for element in made.values()):
             return  # shafts on one axis
@@ -132,8 +134,11 @@ class Linkage:
                     size = max(hypot(*pin), hypot(*other), 1e-300)
                     if hypot(pin.x - other.x, pin.y - other.y) <= 1e-12 * size or pin == other:
                         raise LinkageError(
-                            f"on {link!r} the points of {names[m]} and {names[n]} coincide: a link needs a length "
-                            "(turning joints of several links at one place are written as one, such as R(a-b-c))"
+                            "on {link!r} the points of {names} and {names_2} coincide: a link needs a length "
+                            "(turning joints of several links at one place are written as one, such as R(a-b-c))",
+                            link=link,
+                            names=names[m],
+                            names_2=names[n],
                         )
 
     @classmethod
@@ -167,7 +172,11 @@ class Linkage:
         """What a joint is on one of its links."""
         number = joint_number(self.mechanism, joint)
         if (number, link) not in self.elements:
-            raise LinkageError(f"{self.mechanism.chain.joint_names()[number]} is no joint of {link!r}")
+            raise LinkageError(
+                "{joint_names} is no joint of {link!r}",
+                joint_names=self.mechanism.chain.joint_names()[number],
+                link=link,
+            )
         return self.elements[number, link]
 
     def length(self, link: str, first: str | int, second: str | int) -> float:
@@ -186,7 +195,12 @@ class Linkage:
         number = chain.find_joint(name)
         if number is None:
             known = [*self.points, *chain.joint_names()]
-            raise LinkageError(f"there is no point {name!r}{nearest(name, known)}; known are {', '.join(known)}")
+            raise LinkageError(
+                "there is no point {name!r}{suggestion}; known are {known}",
+                name=name,
+                suggestion=nearest(name, known),
+                known=", ".join(known),
+            )
         links = sorted(chain.joints[number].links, key=lambda link: link != self.mechanism.frame)
         return tuple(LinkPoint(link, *self.elements[number, link][:2]) for link in links)
 
@@ -228,7 +242,7 @@ class Linkage:
     def scaled(self, factor: float) -> Linkage:
         """Every length times a positive factor."""
         if not 0 < factor < 1e100:
-            raise LinkageError(f"a scale is a positive number, not {factor!r}")
+            raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
 
         def element(e: Element) -> Element:
             if isinstance(e, Wheel | Circle):
@@ -319,11 +333,20 @@ def joint_number(mechanism: Mechanism, joint: str | int) -> int:
     if isinstance(joint, int):
         if 0 <= joint < len(chain.joints):
             return joint
-        raise LinkageError(f"there is no joint number {joint}; the chain has joints 0 to {len(chain.joints) - 1}")
+        raise LinkageError(
+            "there is no joint number {joint}; the chain has joints 0 to {count}",
+            joint=joint,
+            count=len(chain.joints) - 1,
+        )
     number = chain.find_joint(joint)
     if number is None:
         names = chain.joint_names()
-        raise LinkageError(f"{joint!r} is not one of the joints{nearest(joint, names)}; they are {', '.join(names)}")
+        raise LinkageError(
+            "{joint!r} is not one of the joints{suggestion}; they are {names}",
+            joint=joint,
+            suggestion=nearest(joint, names),
+            names=", ".join(names),
+        )
     return number
 
 
@@ -331,7 +354,11 @@ def _link(mechanism: Mechanism, link: str, where: str) -> str:
     if link not in mechanism.chain.links:
         known = mechanism.chain.links
         raise LinkageError(
-            f"{where}: there is no link {link!r}{nearest(str(link), known)}; links are {', '.join(known)}"
+            "{where}: there is no link {link!r}{suggestion}; links are {known}",
+            where=where,
+            link=link,
+            suggestion=nearest(str(link), known),
+            known=", ".join(known),
         )
     return link
 
@@ -342,17 +369,17 @@ def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> Li
 
 
 def _refuse_point(name: str) -> LinkPoint:
-    raise LinkageError(f"the point {name!r} needs a link and two coordinates")
+    raise LinkageError("the point {name!r} needs a link and two coordinates", name=name)
 
 
 def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
     out = {}
     for link in mechanism.chain.links:
         if link not in home and link != mechanism.frame:
-            raise LinkageError(f"home: the position of {link!r} is missing")
+            raise LinkageError("home: the position of {link!r} is missing", link=link)
         line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
         if not isinstance(line, Line):
-            raise LinkageError(f"home, {link}: expected x, y and an angle")
+            raise LinkageError("home, {link}: expected x, y and an angle", link=link)
         out[link] = Pose2D(*line)
     for link in home:
         _link(mechanism, link, "home")
@@ -382,7 +409,7 @@ def _from_drawing(
     seen = {}
     for name, (link, x, y) in points.items():
         if link not in home:
-            raise LinkageError(f"the point {name!r}: there is no link {link!r}")
+            raise LinkageError("the point {name!r}: there is no link {link!r}", name=name, link=link)
         pin = read_element([x, y], f"the point {name!r}")
         seen[name] = (link, *home[link].to_local(pin.x, pin.y))
     return Linkage(mechanism, elements, seen, unit=unit, reference_pose=home, outputs=outputs)
@@ -395,25 +422,28 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
     drawn: dict[tuple[int, str], Element] = {}
     for number, joint in enumerate(chain.joints):
         if number not in given:
-            raise LinkageError(f"the place of {names[number]} is missing")
+            raise LinkageError("the place of {names} is missing", names=names[number])
         raw, slot = given[number], None
         if isinstance(raw, Mapping):
             for link in joint.links:
                 if link not in raw:
-                    raise LinkageError(f"{names[number]}: the element of {link!r} is missing")
+                    raise LinkageError("{names}: the element of {link!r} is missing", names=names[number], link=link)
                 drawn[number, link] = read_element(raw[link], f"{link}, {names[number]}")
             continue
         if isinstance(raw, list | tuple) and len(raw) == 4:
             *raw, slot = raw
             if slot not in joint.links:
-                raise LinkageError(f"{names[number]}: the slot is in one of its links, not in {slot!r}")
+                raise LinkageError(
+                    "{names}: the slot is in one of its links, not in {slot!r}", names=names[number], slot=slot
+                )
         element = read_element(raw, names[number])
         if joint.pair.name == "roll_slide" and slot is None:
             raise LinkageError(
-                f"{names[number]}: say which link has the slot: [x, y, angle, link]; wheels are given for each link"
+                "{names}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
+                names=names[number],
             )
         if isinstance(element, CENTRED):
-            raise LinkageError(f"{names[number]}: wheels are given for each of its links")
+            raise LinkageError("{names}: wheels are given for each of its links", names=names[number])
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element
     for (number, link), element in list(drawn.items()):

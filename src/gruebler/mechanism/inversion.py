@@ -76,7 +76,7 @@ def driven_mechanisms(
     4
     """
     if drives < 1:
-        raise ChainError(f"a driven mechanism has at least one drive, not {drives}")
+        raise ChainError("a driven mechanism has at least one drive, not {drives}", drives=drives)
     freedoms = _freedoms(chain)
     choices = [
         (frame, chosen, out)

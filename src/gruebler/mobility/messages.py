@@ -159,7 +159,7 @@ _SPACES = {
 
 def _column(lang: str) -> int:
     if lang not in LANGUAGES:
-        raise GrueblerError(f"unknown language {lang!r}: expected en or de")
+        raise GrueblerError("unknown language {lang_!r}: expected en or de", lang_=lang)
     return LANGUAGES.index(lang)
 
 

@@ -81,7 +81,7 @@ def pebble_mobility(chain: Chain, *, points: bool | None = None) -> int:
     license_ = theorem(chain)
     use_points = points if points is not None else not license_.bodies
     if not (license_.points if use_points else license_.bodies):
-        raise ChainError(f"the pebble game cannot answer: {license_.reason}")
+        raise ChainError("the pebble game cannot answer: {reason}", reason=license_.reason)
     if use_points:
         vertices, edges = _point_graph(chain)
         return 2 * vertices - 3 - pebble_rank(vertices, edges, 2, 3)

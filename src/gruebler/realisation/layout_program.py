@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
 
 __all__ = ["KernelLayout", "LayoutProgram", "check_drawable", "joint_places", "layout_program"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
 _RRR, _RRP, _RPR = 2, 3, 4
@@ -156,7 +155,7 @@ class LayoutProgram:
         points = places[:, 0] + 1j * places[:, 1]
         lines = np.exp(1j * places[:, 2]) * self.askew
         size, program = self.size(drawing), self.plan.program
-        turning = [d.direction.startswith("R") for d in self.mechanism.drives]
+        turning = [d.turning for d in self.mechanism.drives]
         most = np.where(turning, self.plan.longest_steps, self.plan.longest_steps * (size / self.plan.lower.size))
         made = program._replace(points=points, lines=lines, size=size, most=most)
         signs = np.ones(len(self.plan.dyads))
@@ -198,11 +197,14 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
 def check_drawable(chain: Chain) -> None:
     """`LinkageError` for joints whose dimensions are not known."""
     if chain.space is not Space.PLANAR:
-        raise LinkageError(f"dimensions are found for planar mechanisms; this one is {chain.space}")
+        raise LinkageError("dimensions are found for planar mechanisms; this one is {space}", space=chain.space)
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
         if joint.pair.name not in _DRAWN:
             raise LinkageError(
-                f"{name}: dimensions of {joint.pair.name} joints are not found yet; known are {', '.join(_DRAWN)}"
+                "{name}: dimensions of {name_2} joints are not found yet; known are {drawn}",
+                name=name,
+                name_2=joint.pair.name,
+                drawn=", ".join(_DRAWN),
             )
 
 

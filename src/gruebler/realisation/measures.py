@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.plan import Plan
 
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 __all__ = ["conditioning"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _ARM = 0.3  # the length by which angles are multiplied, in parts of the size
 _SCALE = 2.0  # a larger group: singular value to sine

@@ -95,7 +95,7 @@ class Realisation(Brief):
         said = []
         names = self.mechanism.drive_names()
         for name, drive, well in zip(names, self.mechanism.drives, self.ranges, strict=True):
-            kind = "turning" if drive.direction.startswith("R") else "sliding"
+            kind = "turning" if drive.turning else "sliding"
             if self.full:
                 ranges = {"full": well}
             elif self.span is None:

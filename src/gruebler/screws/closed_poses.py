@@ -6,9 +6,10 @@ from collections.abc import Iterable, Sequence
 from math import cos, inf, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Line, Linkage, Pin
 from gruebler.screws.closing import Closing, JointFrames
 from gruebler.screws.double_roots import refined_at_double_root
@@ -20,7 +21,6 @@ from gruebler.screws.rigid_motions import inverse_motion
 
 __all__ = ["closed_pose", "has_only_lower_pairs"]
 
-Reals = NDArray[np.float64]
 
 _EXACT = 1e-15  # a home that is closed so well is meant as it is
 _NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
@@ -74,7 +74,9 @@ def _planar(linkage: Linkage) -> Closing:
 
 def _frame(element: object, size: float) -> Reals:
     if not isinstance(element, Pin | Line):
-        raise LinkageError(f"mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws")
+        raise LinkageError(
+            "mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws", element=element
+        )
     return _matrix(element.x / size, element.y / size, element.angle if isinstance(element, Line) else 0.0)
 
 
@@ -94,7 +96,9 @@ def _settled(closing: Closing, home: Reals) -> Reals:
     pose = closing.settled(home)
     if abs(closing.residual(pose)).max() > _CLOSED or abs(pose - home).max() > _NEAR:
         gap = abs(closing.residual(home)).max()
-        raise LinkageError(f"the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size")
+        raise LinkageError(
+            "the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size", gap=gap
+        )
     inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
     return refined_at_double_root(closing, pose) if inexact else pose
 
@@ -121,7 +125,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
 
     motion = move(linkage, [tuple(at)], branch=branch)
     if not len(motion):
-        raise LinkageError(motion.message())
+        raise LinkageError("{reason}", reason=stop_message(motion))
     chain = linkage.mechanism.chain
     rows = []
     for link in chain.links:
@@ -135,7 +139,12 @@ def _check_count(at: Sequence[float], drives: int) -> None:
     if not drives:
         raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
     if len(at) != drives:
-        raise LinkageError(f"expected {drives} drive value{'s' * (drives > 1)}, one for each, but found {len(at)}")
+        raise LinkageError(
+            "expected {drives} drive value{value}, one for each, but found {count}",
+            drives=drives,
+            value="s" * (drives > 1),
+            count=len(at),
+        )
 
 
 def _sided(linkage: Linkage, drive: int, value: float) -> float:
@@ -184,7 +193,8 @@ def _assembled(closing: Closing) -> Reals:
             break
     if not found:
         raise LinkageError(
-            f"no position was found in which the joints can be closed: they stay open by {least:.1e} of the linkage's "
-            "size at least"
+            "no position was found in which the joints can be closed: they stay open by {least:.1e} of the "
+            "linkage's size at least",
+            least=least,
         )
     return _centred(closing, refined_at_double_root(closing, max(found, key=lambda one: one[:3])[3]))

@@ -197,7 +197,7 @@ _REASONS: dict[str, tuple[str, str]] = {
 
 def _column(lang: str) -> int:
     if lang not in LANGUAGES:
-        raise GrueblerError(f"unknown language {lang!r}: expected en or de")
+        raise GrueblerError("unknown language {lang_!r}: expected en or de", lang_=lang)
     return LANGUAGES.index(lang)
 
 

@@ -9,7 +9,6 @@ from math import isfinite
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
@@ -25,8 +24,6 @@ from gruebler.screws.model import SpatialLinkage
 from gruebler.screws.reasons import reasons
 
 __all__ = ["Freedoms", "freedom_report", "freedoms"]
-
-Reals = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -152,9 +149,9 @@ def freedoms(
     (2, 1, 2)
     """
     if not isinstance(linkage, Linkage | SpatialLinkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
     if isinstance(tolerance, bool) or not isinstance(tolerance, int | float) or not 0 < tolerance < 0.01:
-        raise LinkageError(f"the tolerance is a number between 0 and 0.01, not {tolerance!r}")
+        raise LinkageError("the tolerance is a number between 0 and 0.01, not {tolerance!r}", tolerance=tolerance)
     closing, pose = closed_pose(linkage, _values(at), branch)
     instant = instant_mobility(closing, pose, float(tolerance))
     report = mobility_report(linkage.mechanism.chain, frame=linkage.mechanism.frame)
@@ -169,7 +166,7 @@ def _values(at: float | Sequence[float] | None) -> list[float] | None:
     values = list(at) if isinstance(at, Sequence | np.ndarray) and not isinstance(at, str) else [at]
     for value in values:
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
-            raise LinkageError(f"a drive value is a finite number, not {value!r}")
+            raise LinkageError("a drive value is a finite number, not {value!r}", value=value)
     return [float(value) for value in values]
 
 

@@ -8,16 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
 
 __all__ = ["Loads", "Wrench", "loads_over_rows"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Rows = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 _STANDARD = 9.80665
 
@@ -68,14 +66,16 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
     for name, given in loads.masses.items():
         mass = _over_rows(f"the mass at {_said(name)}", given, (len(motion),))
         if (mass < 0).any():
-            raise LinkageError(f"the mass at {_said(name)} is negative: {mass.min():g}")
+            raise LinkageError("the mass at {said} is negative: {min:g}", said=_said(name), min=mass.min())
         out.append(Wrench(_place(motion, name), (mass * complex(*gravity)).astype(np.complex128), none))
     links = motion.linkage.mechanism.chain.links
     for link, given in loads.moments.items():
         if link not in links:
             raise LinkageError(
-                f"a moment acts on a link, but there is no link {link!r}{nearest(str(link), links)}; "
-                f"the links are {', '.join(links)}"
+                "a moment acts on a link, but there is no link {link!r}{suggestion}; the links are {links}",
+                link=link,
+                suggestion=nearest(str(link), links),
+                links=", ".join(links),
             )
         moment = _over_rows(f"the moment on {link!r}", given, (len(motion),))
         out.append(Wrench(LinkPoint(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
@@ -86,7 +86,11 @@ def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
     place = name if isinstance(name, LinkPoint) else motion.linkage.points_named(name)[-1]
     links = motion.linkage.mechanism.chain.links
     if place.link not in links:
-        raise LinkageError(f"a force acts on a link, but there is no link {place.link!r}; they are {', '.join(links)}")
+        raise LinkageError(
+            "a force acts on a link, but there is no link {link!r}; they are {links}",
+            link=place.link,
+            links=", ".join(links),
+        )
     return place
 
 
@@ -100,9 +104,11 @@ def _over_rows(what: str, given: ArrayLike, shape: tuple[int, ...]) -> Reals:
         numbers = np.asarray(given, np.float64)
         out: Reals = np.broadcast_to(numbers, shape)
     except (TypeError, ValueError):
-        raise LinkageError(f"{what}: expected {wanted}, but found {given!r}") from None
+        raise LinkageError(
+            "{what}: expected {wanted}, but found {given!r}", what=what, wanted=wanted, given=given
+        ) from None
     if numbers.ndim == 0 and len(shape) == 2:
-        raise LinkageError(f"{what}: expected {wanted}, but found {given!r}")
+        raise LinkageError("{what}: expected {wanted}, but found {given!r}", what=what, wanted=wanted, given=given)
     if not (np.abs(numbers) < 1e100).all():
-        raise LinkageError(f"{what}: expected finite numbers, but found {given!r}")
+        raise LinkageError("{what}: expected finite numbers, but found {given!r}", what=what, given=given)
     return out

@@ -7,12 +7,14 @@ from functools import cached_property
 
 import numpy as np
 
+from gruebler.arrays import Flags, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
+from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
 from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
-from gruebler.statics.loads import Flags, Loads, Reals, Rows, Wrench, loads_over_rows
+from gruebler.statics.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.statics.motion_rates import drive_speed, with_velocities
 
 __all__ = ["Statics", "statics"]
@@ -83,7 +85,7 @@ class Statics(Brief):
             sum(float(np.abs(wrench.force).max() + np.abs(wrench.moment).max() / size) for wrench in self.wrenches)
             or 1.0
         )
-        return np.array([force * (size if drive.direction.startswith("R") else 1.0) for drive in mechanism.drives])
+        return np.array([force * (size if drive.turning else 1.0) for drive in mechanism.drives])
 
     def force(self, joint: str | int, link: str | None = None) -> Reals:
         """The force of a joint on one of its links (without a name: the last that is not the frame); (rows, 2).
@@ -119,7 +121,7 @@ class Statics(Brief):
 
     def _values(self, flags: Flags) -> str:
         rows = np.flatnonzero(flags)
-        turning = self.motion.linkage.mechanism.drives[0].direction.startswith("R")
+        turning = self.motion.linkage.mechanism.drives[0].turning
         values = self.motion.drives[rows[:_MOST_SAID], 0]
         said = [f"{np.degrees(value):.6g}°" if turning else f"{value:.6g}" for value in values]
         return ", ".join(said) + (", ..." if len(rows) > _MOST_SAID else "")
@@ -131,7 +133,9 @@ class Statics(Brief):
         if link is None:
             return number, next(one for one in reversed(links) if one != mechanism.frame)
         if link not in links:
-            raise LinkageError(f"{mechanism.chain.joint_names()[number]} is no joint of {link!r}")
+            raise LinkageError(
+                "{joint_names} is no joint of {link!r}", joint_names=mechanism.chain.joint_names()[number], link=link
+            )
         return number, link
 
     def _signs(self, number: int, link: str) -> list[tuple[int, int]]:
@@ -171,14 +175,10 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     if not motion.plan.lower.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released:
-        raise LinkageError(
-            "the linkage is overconstrained: how its joints share the loads depends on how they yield",
-            "das Getriebe ist übergeschlossen: Wie sich die Lasten auf die Gelenke verteilen, hängt von ihrer "
-            "Nachgiebigkeit ab",
-        )
+        raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
-        raise LinkageError(f"the motion has no rows. {motion.message()}".strip())
+        raise LinkageError("the motion has no rows. {reason}", reason=stop_message(motion))
     return Statics(motion, wrenches, reactions(motion, wrenches), _virtual_work(motion, wrenches))
 
 

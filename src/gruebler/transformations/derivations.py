@@ -46,11 +46,13 @@ def replay(chain: Chain, kind: str, where: Mapping[str, Any]) -> Step:
     True
     """
     if kind not in OPERATIONS:
-        raise TransformationError(f"there is no transformation {kind!r}; there are {', '.join(OPERATIONS)}")
+        raise TransformationError(
+            "there is no transformation {kind!r}; there are {operations}", kind=kind, operations=", ".join(OPERATIONS)
+        )
     try:
         return OPERATIONS[kind](chain, **where)
     except TypeError as error:
-        raise TransformationError(f"{kind}: the record does not fit: {error}") from None
+        raise TransformationError("{kind}: the record does not fit: {error}", kind=kind, error=error) from None
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,11 @@ class Derivation:
         for number, step in enumerate(self.steps, 1):
             if step.before != before:
                 raise TransformationError(
-                    f"step {number} starts from {step.before}, but step {number - 1} leaves {before}"
+                    "step {number} starts from {before}, but step {number_2} leaves {before_2}",
+                    number=number,
+                    before=step.before,
+                    number_2=number - 1,
+                    before_2=before,
                 )
             before = step.chain
 
@@ -106,7 +112,7 @@ class Derivation:
             try:
                 document = json.loads(document)
             except json.JSONDecodeError as error:
-                raise NotationError(f"not a JSON document: {error}") from None
+                raise NotationError("not a JSON document: {error}", error=error) from None
         match document:
             case {"start": start, "steps": [*steps], **rest} if not rest:
                 out = cls(Chain.from_json(start))
@@ -117,9 +123,16 @@ class Derivation:
                 case {"kind": str(kind), "where": Mapping() as where, **rest} if rest.keys() <= {"result"}:
                     out = out.then(kind, **where)
                 case _:
-                    raise NotationError(f'step {number} must be an object with "kind", "where" and perhaps "result"')
+                    raise NotationError(
+                        'step {number} must be an object with "kind", "where" and perhaps "result"', number=number
+                    )
             if "result" in step and str(out.chain) != step["result"]:
-                raise TransformationError(f"step {number} gives {out.chain}, but the document says {step['result']}")
+                raise TransformationError(
+                    "step {number} gives {chain}, but the document says {step}",
+                    number=number,
+                    chain=out.chain,
+                    step=step["result"],
+                )
         return out
 
     def explain(self, lang: str = "en") -> str:

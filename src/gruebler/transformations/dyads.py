@@ -56,7 +56,7 @@ def insert_dyad(chain: Chain, form: str, between: Sequence[Attachment], links: S
     first, middle, last = pairs_from_letters(form, 3, "dyad")
     word = letters_of_pairs((first, middle, last))
     if word not in DYADS and word not in {dyad[::-1] for dyad in DYADS}:
-        raise TransformationError(f"{form!r} is no dyad; the forms are {', '.join(DYADS)}")
+        raise TransformationError("{form!r} is no dyad; the forms are {dyads}", form=form, dyads=", ".join(DYADS))
     one, other = _two(between)
     check_not_on_one_link(chain, [one, other], "dyad")
     x, y = new_link_names(chain, 2, links)
@@ -117,13 +117,13 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
     """How the dyad of these two links can be inserted again; `TransformationError` if they are not a dyad."""
     check_counting(chain)
     if len(links) != 2:
-        raise TransformationError(f"a dyad has two links, not {len(links)}")
+        raise TransformationError("a dyad has two links, not {count}", count=len(links))
     x, y = links
     joints = {link: _two_joints(chain, link, "dyad") for link in (x, y)}
     middle = [k for k in joints[x] if k in joints[y]]
     if len(middle) != 1 or chain.joints[middle[0]].count != 1:
         raise TransformationError(
-            f"{x} and {y} are no dyad: they must have just one joint together, and it must be simple"
+            "{x} and {y} are no dyad: they must have just one joint together, and it must be simple", x=x, y=y
         )
     (first,) = (k for k in joints[x] if k not in middle)
     (last,) = (k for k in joints[y] if k not in middle)
@@ -131,7 +131,11 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
     if letters not in DYADS and (letters or "")[::-1] not in DYADS:
         kinds = ", ".join(chain.joints[k].pair.name for k in (first, middle[0], last))
         raise TransformationError(
-            f"{x} and {y} are no dyad: its forms are {', '.join(DYADS)}, these joints are {kinds}"
+            "{x} and {y} are no dyad: its forms are {dyads}, these joints are {kinds}",
+            x=x,
+            y=y,
+            dyads=", ".join(DYADS),
+            kinds=kinds,
         )
     return _insertion(chain, letters or "", (x, y), (first, last), "dyad")
 
@@ -143,7 +147,9 @@ def coupler_at(chain: Chain, link: str) -> Insertion:
     letters = letters_of_pairs(chain.joints[k].pair for k in (first, last))
     if letters is None:
         kinds = " and ".join(chain.joints[k].pair.name for k in (first, last))
-        raise TransformationError(f"{link} is no coupler: its joints must have one freedom each, and they are {kinds}")
+        raise TransformationError(
+            "{link} is no coupler: its joints must have one freedom each, and they are {kinds}", link=link, kinds=kinds
+        )
     return _insertion(chain, letters, (link,), (first, last), "coupler")
 
 
@@ -152,8 +158,11 @@ def _insertion(chain: Chain, letters: str, links: tuple[str, ...], ends: tuple[i
     both = next((a for a in spread_links[0] if a in spread_links[1]), None)
     if both is not None:
         raise TransformationError(
-            f"{' and '.join(links)} {'is' if len(links) == 1 else 'are'} no {thing} between different links: both ends "
-            f"are on {both!r}"
+            "{links} {value} no {thing} between different links: both ends are on {both!r}",
+            links=" and ".join(links),
+            value="is" if len(links) == 1 else "are",
+            thing=thing,
+            both=both,
         )
     rest, number = without_links(chain, links)
     places: list[Attachment] = [
@@ -166,7 +175,12 @@ def _two_joints(chain: Chain, link: str, thing: str) -> tuple[int, int]:
     chain.index(link)
     mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
     if len(mine) != 2:
-        raise TransformationError(f"{link} cannot belong to a {thing}: it carries {_joints(len(mine))}, not two")
+        raise TransformationError(
+            "{link} cannot belong to a {thing}: it carries {joints}, not two",
+            link=link,
+            thing=thing,
+            joints=_joints(len(mine)),
+        )
     return mine[0], mine[1]
 
 

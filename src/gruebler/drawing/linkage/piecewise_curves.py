@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle
+from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, angles, as_text, decimals
 from gruebler.drawing.linkage.posed_linkage import drive_rows
 from gruebler.drawing.structure.messages import title
@@ -21,7 +21,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
 
-Reals = NDArray[np.float64]
 Between = tuple[float, float] | None
 Branch = str | Iterable[str] | None
 
@@ -118,12 +117,9 @@ def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lan
     Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
     """
     if not isinstance(linkage, Linkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
     if not linkage.mechanism.drives:
-        raise LinkageError(
-            "no joint is driven, so there is nothing to be plotted; name a drive",
-            "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
-        )
+        raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
     cycle = drive_cycle(linkage, branch)
     drives = drive_rows(cycle, between, ROWS)
     if between is None and cycle.span.full:
