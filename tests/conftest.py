@@ -1,5 +1,9 @@
 """Settings that all tests share."""
 
+import signal
+from collections.abc import Iterator
+
+import pytest
 from hypothesis import HealthCheck, settings
 
 # Compilation and the machine's load make single examples slow now and then; slowness is not what these tests judge.
@@ -9,3 +13,26 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],  # both depend on load and on luck
 )
 settings.load_profile("gruebler")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--longest", type=float, metavar="SECONDS", help="skip a test once it has taken so long")
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Iterator[None]:
+    """With --longest: what would take too long in the interpreted tier is skipped, and counted as such."""
+    longest = item.config.getoption("--longest")
+    if longest is None:
+        return (yield)
+
+    def stop(*_: object) -> None:
+        pytest.skip(f"takes more than {longest:g} s")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, longest)
+    try:
+        return (yield)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
