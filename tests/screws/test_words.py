@@ -6,8 +6,9 @@ import string
 
 import pytest
 
-from gruebler import GrueblerError, LinkageError
+from gruebler import GrueblerError
 from gruebler.catalog import entries
+from gruebler.errors import LinkageError
 from gruebler.formats.linkages import write_linkage
 from gruebler.formats.screws import read_any_linkage, screws_to_json, spatial_from_json
 from gruebler.fourbar import FourBar

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import FACE, MESH, POLAR, RACK, REACH, RIDE
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contours import COEFFICIENTS, PiecewiseLaw, cam_law, turn_law
 from gruebler.kinematics.noncircular import transfer_of
@@ -17,10 +18,7 @@ from gruebler.linkages import CamDisc, Circle, Element, GenevaDriver, Line, Link
 from gruebler.linkages.elements import INVERSE, direction
 from gruebler.linkages.wheels import rolling_factors
 
-__all__ = ["PIN", "SLIDE", "Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
-
-PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE = range(8)
-"""Kinds of closing conditions, as in the kernel `closure`."""
+__all__ = ["Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
 
 Keys = tuple[tuple[int, str], ...]
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit
