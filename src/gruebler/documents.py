@@ -42,6 +42,8 @@ def load_document(path: Path, fail: Failing) -> Any:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise fail(message("is not UTF-8 text")) from None
+    if not text.strip():
+        raise fail(message("is empty"))
     if form == "TOML" and any(line.count(".") > _DOTS for line in text.splitlines()):
         raise fail(message("is nested too deeply: a line has more than {limit} dots", limit=_DOTS))
     try:
@@ -107,7 +109,7 @@ def convert_document(data: object, kind: type[Record], fail: Failing, where: str
 
 _PROBLEMS = (
     (r"Expected `(?P<wanted>[^`]*)`, got `(?P<found>[^`]*)`", message("expected {wanted}, got {found}")),
-    (r"Object missing required field `(?P<key>[^`]*)`", message("object missing required field {key}")),
+    (r"Object missing required field `(?P<key>[^`]*)`", message("the key {key!r} is missing")),
 )
 """What msgspec says most often."""
 

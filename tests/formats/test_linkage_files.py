@@ -257,7 +257,7 @@ def test_mistakes_one_by_one(tmp_path, right, wrong, words):
 BAD_DOORS = [
     ({"four_bar": {"a": 0, "b": 70, "c": 40, "d": 70}}, "four_bar: a must be positive, not 0"),
     ({"four_bar": {"a": math.nan, "b": 70, "c": 40, "d": 70}}, "four_bar: a must be a finite number"),
-    ({"four_bar": {"a": 1, "b": 70, "c": 40}}, "four_bar: object missing required field d"),
+    ({"four_bar": {"a": 1, "b": 70, "c": 40}}, "four_bar: the key 'd' is missing"),
     ({"four_bar": {"a": 1, "b": 2, "c": 2, "d": 2, "branch": 2}}, "four_bar.branch: expected 1 or -1, but found 2"),
     ({"slider_crank": {"a": "2", "b": 3}}, "slider_crank.a: expected float, got str"),
     ({"slider_crank": {"a": 10**400, "b": 3}}, "slider_crank.a: number out of range"),
@@ -335,7 +335,7 @@ def test_what_is_no_file(tmp_path):
             "unit: expected str, got int",
             "unit: erwartet wird str, nicht int",
         ),
-        ('unit = "mm"\nfour_bar = {a=1, b=1, c=1}', "missing required field d", "es fehlt der Schlüssel d"),
+        ('unit = "mm"\nfour_bar = {a=1, b=1, c=1}', "the key 'd' is missing", "der Schlüssel 'd' fehlt"),
         ('unit = "mm"\nfour_bar = [', "is not TOML", "kein gültiges TOML"),
         ('unit = "mm"\npoints.K = {link="x", at=[0]}\nfour_bar = {a=1, b=1, c=1, d=1}', "no link 'x'", "ein Glied 'x'"),
     ],

@@ -14,8 +14,7 @@ from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_ste
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.geometry.sizing import longest_in_band
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.text import Message, in_every_language, message
 
@@ -78,7 +77,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
         message("The coupler point lies u along A-B and v to its left; θ is the direction from A to B:"),
         "K = A + u·(cos θ, sin θ) + v·(-sin θ, cos θ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     motion = size.motion(drives)
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
@@ -108,7 +107,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
         message("The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:"),
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     rows = []
     for phi in drives.tolist():
         joint = a * cmath.exp(1j * phi)
