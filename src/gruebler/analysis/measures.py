@@ -12,7 +12,7 @@
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
   output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
   ``dwell_time``;
-- ``change_points`` (tuple of `GroupChangePoint`: drive, links, form; ``change_points_notes`` say if some are not
+- ``change_points`` (tuple of `GroupChangePoint`: drive, links, form; ``change_points_error`` says if some are not
   known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
 - ``transmission`` (`TransmissionExtremes`: extremes, smallest, largest, legs, good; None if undefined, then
@@ -50,7 +50,6 @@ from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.kinematics.root_finding import sample_function
 from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
-from gruebler.text import error_in_language
 
 __all__ = ["Measures", "Transfer", "measures"]
 
@@ -96,18 +95,18 @@ class Measures(Brief):
     output_turns: int
     travel: float | None
     change_points: tuple[GroupChangePoint, ...]
-    change_points_notes: dict[str, str]
-    """Why those of larger groups are not known, by language; empty if they are."""
+    change_points_error: LinkageError | None
+    """Why those of larger groups are not known; None if they are."""
     transfer: Transfer
     transmission: TransmissionExtremes | None
-    transmission_notes: dict[str, str]
-    """Why there is no transmission angle, by language; empty if there is one."""
+    transmission_error: NoTransmissionAngleError | None
+    """Why there is no transmission angle; None if there is one."""
     speed_rpm: float | None
 
     @property
     def transmission_note(self) -> str:
         """Why there is no transmission angle, in English; empty if there is one."""
-        return self.transmission_notes["en"]
+        return str(self.transmission_error or "")
 
     @property
     def inner(self) -> OutputDeadCentre | Dwell | None:
@@ -208,7 +207,8 @@ class Measures(Brief):
         """The measures as lines of prose, in English (``en``) or German (``de``)."""
         from gruebler.analysis.messages import explain_measures
 
-        return "\n".join(explain_measures(self, lang))
+        lines = [line.in_language(lang) for line in explain_measures(self)]
+        return "\n".join(line[:1].upper() + line[1:] for line in lines)
 
     def to_json(self) -> dict[str, Any]:
         """The measures as plain data; angles in degrees, times in seconds."""
@@ -253,14 +253,16 @@ def measures(
         ends = low, high
     centres, rests = stops(cycle, looked_at)
     turns = output_turns(cycle, looked_at)
+    changes_error: LinkageError | None = None
     try:
-        changes, unknown = change_points(cycle), {"en": "", "de": ""}
-    except LinkageError as why:
-        changes, unknown = dyad_change_points(cycle), {lang: error_in_language(why, lang) for lang in ("en", "de")}
+        changes = change_points(cycle)
+    except LinkageError as error:
+        changes, changes_error = dyad_change_points(cycle), error
+    transmission_error: NoTransmissionAngleError | None = None
     try:
-        transmission, notes = measure_transmission(cycle, looked_at), {"en": "", "de": ""}
-    except NoTransmissionAngleError as why:
-        transmission, notes = None, {lang: error_in_language(why, lang) for lang in ("en", "de")}
+        transmission = measure_transmission(cycle, looked_at)
+    except NoTransmissionAngleError as error:
+        transmission, transmission_error = None, error
     return Measures(
         linkage,
         looked_at,
@@ -276,10 +278,10 @@ def measures(
         if turns
         else _travel(cycle, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
         changes,
-        unknown,
+        changes_error,
         _transfer(cycle, looked_at),
         transmission,
-        notes,
+        transmission_error,
         speed,
     )
 

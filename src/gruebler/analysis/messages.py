@@ -1,10 +1,12 @@
-"""Measures in words, in English and German, and as plain data."""
+"""What is said of measures, and measures as plain data."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from math import degrees
 from typing import TYPE_CHECKING, Any
+
+from gruebler.text import Message, joined, message
 
 if TYPE_CHECKING:
     from gruebler.analysis.events import Dwell
@@ -15,179 +17,137 @@ __all__ = ["explain_measures", "measures_as_dict"]
 
 _CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
 
-_TEXTS = {
-    "full": ("The drive turns fully.", "Der Antrieb läuft voll um."),
-    "turns": (
-        "The drive turns fully; everything repeats after {turns} turns.",
-        "Der Antrieb läuft voll um; alles wiederholt sich nach {turns} Umdrehungen.",
-    ),
-    "range": ("The drive moves from {low} to {high}.", "Der Antrieb bewegt sich von {low} bis {high}."),
-    "turning range": ("The drive turns from {low} to {high}.", "Der Antrieb dreht von {low} bis {high}."),
-    "limit": (
-        "At {at} the group {form} {{{links}}} can no longer be assembled.",
-        "Bei {at} lässt sich die Gruppe {form} {{{links}}} nicht mehr zusammenbauen.",
-    ),
-    "singular": (
-        "At {at} two assembly modes of the group {form} {{{links}}} meet.",
-        "Bei {at} treffen sich zwei Einbaulagen der Gruppe {form} {{{links}}}.",
-    ),
-    "still": ("The output {name} does not move.", "Der Abtrieb {name} steht still."),
-    "not turning": ("The output {name} does not turn.", "Der Abtrieb {name} dreht sich nicht."),
-    "uniform": (
-        "The transmission to {name} is uniform: i = {ratio:.9g}.",
-        "Die Übersetzung auf {name} ist gleichförmig: i = {ratio:.9g}.",
-    ),
-    "goes round once": (
-        "The output {name} makes one full turn in each period.",
-        "Der Abtrieb {name} läuft in jeder Periode einmal um.",
-    ),
-    "goes round": (
-        "The output {name} makes {turns} full turns in each period.",
-        "Der Abtrieb {name} läuft in jeder Periode {turns}-mal um.",
-    ),
-    "swing": ("The output {name} swings through {travel}.", "Der Abtrieb {name} schwingt um {travel}."),
-    "stroke": ("The output {name} has a stroke of {travel}.", "Der Abtrieb {name} hat einen Hub von {travel}."),
-    "inner": ("Inner dead centre at {at}: {output}.", "Innere Totlage bei {at}: {output}."),
-    "outer": ("Outer dead centre at {at}: {output}.", "Äußere Totlage bei {at}: {output}."),
-    "": ("Dead centre at {at}: {output}.", "Totlage bei {at}: {output}."),
-    "flat": ("The output pauses at {at}: {output}.", "Der Abtrieb rastet kurz bei {at}: {output}."),
-    "dwell inner": (
-        "Dwell in the inner position from {begin} to {end}, {duration}: {output}.",
-        "Rast in der inneren Lage von {begin} bis {end}, {duration}: {output}.",
-    ),
-    "dwell outer": (
-        "Dwell in the outer position from {begin} to {end}, {duration}: {output}.",
-        "Rast in der äußeren Lage von {begin} bis {end}, {duration}: {output}.",
-    ),
-    "dwell": (
-        "Dwell from {begin} to {end}, {duration}: {output}.",
-        "Rast von {begin} bis {end}, {duration}: {output}.",
-    ),
-    "dwells": (
-        "The output rests for {share:.9g} % of the drive's motion.",
-        "Der Abtrieb rastet während {share:.9g} % der Antriebsbewegung.",
-    ),
-    "strokes": (
-        "Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
-        "Antriebswinkel: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
-    ),
-    "strokes moving": (
-        "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
-        "Antriebswinkel ohne Rasten: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
-    ),
-    "slow forward": (
-        "In the positive sense the way outward is the slow one.",
-        "Im positiven Drehsinn ist der Weg nach außen der langsame.",
-    ),
-    "slow back": (
-        "In the positive sense the way inward is the slow one.",
-        "Im positiven Drehsinn ist der Weg nach innen der langsame.",
-    ),
-    "times": (
-        "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
-        "Bei {rpm:g} Umdrehungen je Minute: {forward:.6g} s von innen nach außen, {back:.6g} s zurück.",
-    ),
-    "dwell time": ("At rest: {time:.6g} s in a period.", "In Rast: {time:.6g} s je Periode."),
-    "several": ("More than two curves of positions meet there.", "Dort treffen sich mehr als zwei Lagenkurven."),
-    "change": (
-        "Change point of {form} {{{links}}} at {at}.",
-        "Verzweigungslage (durchschlagend) von {form} {{{links}}} bei {at}.",
-    ),
-    "unknown changes": (
-        "Change points of larger groups are not known: {why}",
-        "Verzweigungslagen größerer Gruppen sind nicht bekannt: {why}",
-    ),
-    "mu": (
-        "Transmission angle {small} at {at} (leg {links}) to {large}; deviation angle up to {alpha}.",
-        "Übertragungswinkel {small} bei {at} (Glied {links}) bis {large}; Ablenkwinkel bis {alpha}.",
-    ),
-    "constant": ("Transmission angle {small} throughout.", "Übertragungswinkel durchweg {small}."),
-    "good": ("It does not fall below 40°.", "Er unterschreitet 40° nicht."),
-    "poor": ("It falls below 40°.", "Er unterschreitet 40°."),
+_DEAD_CENTRES = {
+    "inner": message("Inner dead centre at {drive}: {output}."),
+    "outer": message("Outer dead centre at {drive}: {output}."),
+    "": message("Dead centre at {drive}: {output}."),
+    "flat": message("The output pauses at {drive}: {output}."),
+}
+_DWELLS = {
+    "inner": message("Dwell in the inner position from {begin} to {end}, {duration}: {output}."),
+    "outer": message("Dwell in the outer position from {begin} to {end}, {duration}: {output}."),
+    "": message("Dwell from {begin} to {end}, {duration}: {output}."),
 }
 
 
-def explain_measures(measures: Measures, lang: str) -> Iterator[str]:
-    """See `Measures.explain`."""
-    column = 1 if lang == "de" else 0
-
-    def say(key: str, **values: Any) -> str:
-        return _TEXTS[key][column].format(**values)
-
-    yield from _drive_lines(measures, say)
+def explain_measures(measures: Measures) -> Iterator[Message]:
+    """The lines of `Measures.explain`; their first letter may be a small one."""
+    yield from _drive_lines(measures)
     name = measures.output.name
     if measures.transfer.still:
-        yield say("not turning" if measures.output.turning else "still", name=name)
+        if measures.output.turning:
+            yield message("The output {name} does not turn.", name=name)
+        else:
+            yield message("The output {name} does not move.", name=name)
     elif measures.transfer.uniform:
-        yield say("uniform", name=name, ratio=measures.transfer.ratio)
+        yield message(
+            "The transmission to {name} is uniform: i = {ratio:.9g}.", name=name, ratio=measures.transfer.ratio
+        )
+    elif abs(measures.output_turns) == 1:
+        yield message("The output {name} makes one full turn in each period.", name=name)
     elif measures.output_turns:
         turns = abs(measures.output_turns)
-        yield say("goes round once", name=name) if turns == 1 else say("goes round", name=name, turns=turns)
+        yield message("The output {name} makes {turns} full turns in each period.", name=name, turns=turns)
     elif measures.travel is not None:
-        key = "swing" if measures.output.turning else "stroke"
-        yield say(key, name=name, travel=_output(measures, measures.travel))
-    yield from _stop_lines(measures, say)
+        travel = _output(measures, measures.travel)
+        if measures.output.turning:
+            yield message("The output {name} swings through {travel}.", name=name, travel=travel)
+        else:
+            yield message("The output {name} has a stroke of {travel}.", name=name, travel=travel)
+    yield from _stop_lines(measures)
     for point in measures.change_points:
-        line = say("change", form=point.form, links=", ".join(point.links), at=_drive(measures, point.drive))
-        yield f"{line} {say('several')}" if point.several else line
-    if measures.change_points_notes[lang]:
-        yield say("unknown changes", why=measures.change_points_notes[lang])
+        form, links, drive = point.form, ", ".join(point.links), _drive(measures, point.drive)
+        line = message("Change point of {form} {{{links}}} at {drive}.", form=form, links=links, drive=drive)
+        yield joined([line, message("More than two curves of positions meet there.")], " ") if point.several else line
+    if measures.change_points_error is not None:
+        yield message("Change points of larger groups are not known: {why}", why=measures.change_points_error)
+    yield from _transmission_lines(measures)
+
+
+def _transmission_lines(measures: Measures) -> Iterator[Message]:
     if measures.transmission is None:
-        note = measures.transmission_notes[lang]
-        yield note[:1].upper() + note[1:] + "."
+        yield message("{why}.", why=measures.transmission_error)
         return
     worst, best = measures.transmission.smallest, measures.transmission.largest
-    yield say(
-        "mu" if best.mu - worst.mu > _CONSTANT else "constant",
-        small=_angle(worst.mu),
-        at=_drive(measures, worst.drive),
-        links=", ".join(worst.links),
-        large=_angle(best.mu),
-        alpha=_angle(worst.deviation),
-    )
-    yield say("good" if measures.transmission.good else "poor")
+    if best.mu - worst.mu > _CONSTANT:
+        yield message(
+            "Transmission angle {smallest} at {drive} (leg {links}) to {largest}; deviation angle up to {deviation}.",
+            smallest=_angle(worst.mu),
+            drive=_drive(measures, worst.drive),
+            links=", ".join(worst.links),
+            largest=_angle(best.mu),
+            deviation=_angle(worst.deviation),
+        )
+    else:
+        yield message("Transmission angle {angle} throughout.", angle=_angle(worst.mu))
+    if measures.transmission.good:
+        yield message("It does not fall below 40°.")
+    else:
+        yield message("It falls below 40°.")
 
 
-def _stop_lines(measures: Measures, say: Any) -> Iterator[str]:
-    """Dead centres, dwells, and the ways between them."""
+def _stop_lines(measures: Measures) -> Iterator[Message]:
+    """Dead centres, dwells, and the strokes between them."""
     for centre in measures.dead_centres:
-        key = "flat" if centre.kind == "flat" else centre.side
-        yield say(key, at=_drive(measures, centre.drive), output=_output(measures, centre.output))
+        text = _DEAD_CENTRES["flat" if centre.kind == "flat" else centre.side]
+        yield text.filled(drive=_drive(measures, centre.drive), output=_output(measures, centre.output))
     for dwell in measures.dwells:
         begin, end, duration = (
             _drive(measures, value) for value in (dwell.begin, _end(measures, dwell), dwell.duration)
         )
-        key = f"dwell {dwell.side}".strip()
-        yield say(key, begin=begin, end=end, duration=duration, output=_output(measures, dwell.output))
+        output = _output(measures, dwell.output)
+        yield _DWELLS[dwell.side].filled(begin=begin, end=end, duration=duration, output=output)
     if measures.dwells:
-        yield say("dwells", share=100 * measures.dwell_share)
+        yield message("The output rests for {share:.9g} % of the drive's motion.", share=100 * measures.dwell_share)
     if measures.phi_forward is not None and measures.phi_back is not None:
-        forward, back = (_drive(measures, x) for x in (measures.phi_forward, measures.phi_back))
-        yield say(
-            "strokes moving" if measures.dwells else "strokes", forward=forward, back=back, ratio=measures.time_ratio
-        )
-        if abs(measures.phi_forward - measures.phi_back) > _CONSTANT:
-            yield say("slow forward" if measures.phi_forward > measures.phi_back else "slow back")
+        yield from _stroke_lines(measures, measures.phi_forward, measures.phi_back)
     if measures.times is not None:
-        yield say("times", rpm=measures.speed_rpm, forward=measures.times.forward, back=measures.times.back)
+        yield message(
+            "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
+            rpm=measures.speed_rpm,
+            forward=measures.times.forward,
+            back=measures.times.back,
+        )
     if measures.dwells and measures.dwell_time is not None:
-        yield say("dwell time", time=measures.dwell_time)
+        yield message("At rest: {time:.6g} s in a period.", time=measures.dwell_time)
 
 
-def _drive_lines(measures: Measures, say: Any) -> Iterator[str]:
+def _stroke_lines(measures: Measures, phi_forward: float, phi_back: float) -> Iterator[Message]:
+    if measures.dwells:
+        text = message(
+            "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}."
+        )
+    else:
+        text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.")
+    forward, back = _drive(measures, phi_forward), _drive(measures, phi_back)
+    yield text.filled(forward=forward, back=back, ratio=measures.time_ratio)
+    if phi_forward - phi_back > _CONSTANT:
+        yield message("In the positive sense the way outward is the slow one.")
+    elif phi_back - phi_forward > _CONSTANT:
+        yield message("In the positive sense the way inward is the slow one.")
+
+
+def _drive_lines(measures: Measures) -> Iterator[Message]:
     span = measures.span
     if span.full:
-        yield say("full") if span.turns == 1 else say("turns", turns=span.turns)
+        if span.turns == 1:
+            yield message("The drive turns fully.")
+        else:
+            yield message("The drive turns fully; everything repeats after {turns} turns.", turns=span.turns)
         return
-    yield say(
-        "turning range" if measures.turning_drive else "range",
-        low=_drive(measures, span.low),
-        high=_drive(measures, span.high),
-    )
-    for stop, at in zip(span.stops, (span.low, span.high), strict=True):
-        if stop is not None:
-            key = "limit" if stop.reason == "limit" else "singular"
-            yield say(key, at=_drive(measures, at), form=stop.form, links=", ".join(stop.links))
+    low, high = _drive(measures, span.low), _drive(measures, span.high)
+    if measures.turning_drive:
+        yield message("The drive turns from {low} to {high}.", low=low, high=high)
+    else:
+        yield message("The drive moves from {low} to {high}.", low=low, high=high)
+    for stop, drive in zip(span.stops, (low, high), strict=True):
+        if stop is None:
+            continue
+        if stop.reason == "limit":
+            text = message("At {drive} the group {form} {{{links}}} can no longer be assembled.")
+        else:
+            text = message("At {drive} two assembly modes of the group {form} {{{links}}} meet.")
+        yield text.filled(drive=drive, form=stop.form, links=", ".join(stop.links))
 
 
 def _end(measures: Measures, dwell: Dwell) -> float:
@@ -196,18 +156,22 @@ def _end(measures: Measures, dwell: Dwell) -> float:
     return dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
 
 
-def _angle(value: float) -> str:
-    return f"{round(degrees(value), 7) + 0.0:.7g}°"
+def _angle(value: float) -> Message:
+    return message("{degrees:.7g}°", degrees=round(degrees(value), 7) + 0.0)
 
 
-def _drive(measures: Measures, value: float) -> str:
-    return _angle(value) if measures.turning_drive else f"{value:.7g} {measures.linkage.unit}"
+def _length(measures: Measures, value: float) -> Message:
+    return message("{length:.7g} {unit}", length=value, unit=measures.linkage.unit)
 
 
-def _output(measures: Measures, value: float) -> str:
+def _drive(measures: Measures, value: float) -> Message:
+    return _angle(value) if measures.turning_drive else _length(measures, value)
+
+
+def _output(measures: Measures, value: float) -> Message:
     if measures.output.turning:
         return _angle(value)
-    return f"{0.0 if abs(value) < 1e-12 * measures.linkage.size else value:.7g} {measures.linkage.unit}"
+    return _length(measures, 0.0 if abs(value) < 1e-12 * measures.linkage.size else value)
 
 
 def measures_as_dict(measures: Measures) -> dict[str, Any]:
@@ -284,6 +248,6 @@ def measures_as_dict(measures: Measures) -> dict[str, Any]:
             "good": transmission.good,
             "extremes": [extreme(e) for e in transmission.extremes],
         },
-        "change_points_note": measures.change_points_notes["en"],
+        "change_points_note": str(measures.change_points_error or ""),
         "transmission_note": measures.transmission_note,
     }

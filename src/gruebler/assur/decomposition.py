@@ -20,6 +20,7 @@ from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.notebook import Brief
+from gruebler.text import Message, joined
 
 __all__ = ["Decomposition", "JointShare", "SolvedGroup", "decompose"]
 
@@ -146,9 +147,14 @@ class Decomposition(Brief):
 
     def message(self, lang: str = "en") -> str:
         """What keeps it from being complete: links left free, drives or constraints against one another; else empty."""
+        return self.reason.in_language(lang)
+
+    @property
+    def reason(self) -> Message:
+        """What `message` says, in any language."""
         from gruebler.assur.messages import open_groups_message
 
-        return " ".join(open_groups_message(self, lang))
+        return joined(open_groups_message(self), " ")
 
     def explain(self, lang: str = "en") -> str:
         """The decomposition as a text of a few lines, in English (``en``) or German (``de``)."""

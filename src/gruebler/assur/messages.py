@@ -1,4 +1,4 @@
-"""Decompositions in words, English and German."""
+"""Decompositions in words."""
 
 from __future__ import annotations
 
@@ -8,119 +8,109 @@ from typing import TYPE_CHECKING
 from gruebler.assur.forms import roman
 from gruebler.chain.pairs import Alphabet
 from gruebler.mobility import generic, overconstrained
+from gruebler.text import Message, message, plural, translate
 
 if TYPE_CHECKING:
     from gruebler.assur.decomposition import Decomposition, SolvedGroup
 
 __all__ = ["decomposition_formula", "explain_decomposition", "open_groups_message"]
 
-_WORDS = {
-    "en": {
-        "drive": "drive",
-        "drives": "drives",
-        "none": "no drive",
-        "moves": "moves {links} directly",
-        "group": "{k}. {form}: links {links}; outer joints {outer}{inner}. Class {number}, order {order}.",
-        "on": "on {base}",
-        "inner": "; inner joints {joints}",
-        "class": "The mechanism has class {number}.",
-        "only": "The drives are all there is.",
-        "rest": "Not determined: {links}.",
-        "over": "Constraints or drives work against one another: there are no Assur groups.",
-        "part": "Overconstrained: {links} (constraints too many: {k}).",
-    },
-    "de": {
-        "drive": "Antrieb",
-        "drives": "Antriebe",
-        "none": "kein Antrieb",
-        "moves": "bewegt {links} unmittelbar",
-        "group": "{k}. {form}: Glieder {links}; äußere Gelenke {outer}{inner}. Klasse {number}, Ordnung {order}.",
-        "on": "auf {base}",
-        "inner": "; innere Gelenke {joints}",
-        "class": "Das Getriebe hat die Klasse {number}.",
-        "only": "Die Antriebe sind alles, was sich bewegt.",
-        "rest": "Nicht bestimmt: {links}.",
-        "over": "Bindungen oder Antriebe arbeiten gegeneinander: Es gibt keine Assur-Gruppen.",
-        "part": "Überbestimmt: {links} (Bindungen zu viel: {k}).",
-    },
-}
-
-
-def _alphabet(lang: str) -> Alphabet:
-    return Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
-
 
 def decomposition_formula(decomposition: Decomposition, lang: str) -> str:
     """The structural formula."""
-    words, alphabet = _WORDS[lang], _alphabet(lang)
+    alphabet, frame = Alphabet.of_language(lang), decomposition.mechanism.frame
     drives = decomposition.mechanism.drive_names(alphabet)
-    head = f"{words['drive']} {', '.join(drives)}" if drives else words["none"]
-    frame = decomposition.mechanism.frame
-    groups = [
-        f"{group.form(alphabet)}{{{_bodies(group)}{'' if frame in group.base else '; ' + _base(group, words)}}}"
-        for group in decomposition.groups
-    ]
-    rest = [f"?{{{', '.join(decomposition.rest)}}}"] if decomposition.rest else []
-    return " -> ".join([head, *groups, *rest])
+    formula = [translate("drive {joints}", lang, joints=_names(drives)) if drives else translate("no drive", lang)]
+    for group in decomposition.groups:
+        base = "" if frame in group.base else f"; {_base(group, lang)}"
+        formula.append(f"{group.form(alphabet)}{{{_bodies(group)}{base}}}")
+    if decomposition.rest:
+        formula.append(f"?{{{_names(decomposition.rest)}}}")
+    return " -> ".join(formula)
 
 
-def explain_decomposition(found: Decomposition, lang: str) -> str:
+def explain_decomposition(decomposition: Decomposition, lang: str) -> str:
     """The whole decomposition, a line for each part."""
-    words, alphabet = _WORDS[lang], _alphabet(lang)
-    names = found.mechanism.chain.joint_names(alphabet)
-    lines = [decomposition_formula(found, lang)]
-    if found.driven:
-        drives = found.mechanism.drive_names(alphabet)
-        word = words["drive"] if len(drives) == 1 else words["drives"]
+    mechanism, alphabet = decomposition.mechanism, Alphabet.of_language(lang)
+    names = mechanism.chain.joint_names(alphabet)
+    lines = [decomposition_formula(decomposition, lang)]
+    if decomposition.driven:
+        drives, links = mechanism.drive_names(alphabet), _names(decomposition.driven)
         lines.append(
-            f"{word[0].upper()}{word[1:]} {', '.join(drives)}: {words['moves'].format(links=_some(found.driven))}."
-        )
-    for k, group in enumerate(found.groups, 1):
-        inner = words["inner"].format(joints=_some([names[j] for j in group.inner])) if group.inner else ""
-        lines.append(
-            words["group"].format(
-                k=k,
-                form=group.form(alphabet),
-                links=_bodies(group) + ("" if found.mechanism.frame in group.base else f" ({_base(group, words)})"),
-                outer=_some([names[j] for j in group.outer]),
-                inner=inner,
-                number=roman(group.class_number),
-                order=group.order,
+            plural(
+                "Drive {joints}: moves {links} directly.",
+                "Drives {joints}: moves {links} directly.",
+                len(drives),
+                lang,
+                joints=_names(drives),
+                links=links,
             )
         )
-    if found.complete:
-        lines.append(words["class"].format(number=roman(found.class_number)) if found.groups else words["only"])
-    return "\n".join([*lines, *open_groups_message(found, lang)])
+    for k, group in enumerate(decomposition.groups, 1):
+        values = {
+            "k": k,
+            "form": group.form(alphabet),
+            "links": _bodies(group) + ("" if mechanism.frame in group.base else f" ({_base(group, lang)})"),
+            "outer": _names([names[j] for j in group.outer]),
+            "group_class": roman(group.class_number),
+            "order": group.order,
+        }
+        if group.inner:
+            inner = _names([names[j] for j in group.inner])
+            lines.append(
+                translate(
+                    "{k}. {form}: links {links}; outer joints {outer}; inner joints {inner}. Class {group_class}, "
+                    "order {order}.",
+                    lang,
+                    inner=inner,
+                    **values,
+                )
+            )
+        else:
+            lines.append(
+                translate(
+                    "{k}. {form}: links {links}; outer joints {outer}. Class {group_class}, order {order}.",
+                    lang,
+                    **values,
+                )
+            )
+    if decomposition.complete and decomposition.groups:
+        highest = roman(decomposition.class_number)
+        lines.append(translate("The mechanism has class {group_class}.", lang, group_class=highest))
+    elif decomposition.complete:
+        lines.append(translate("The drives are all there is.", lang))
+    lines += [line.in_language(lang) for line in open_groups_message(decomposition)]
+    return "\n".join(lines)
 
 
-def open_groups_message(decomposition: Decomposition, lang: str) -> list[str]:
+def open_groups_message(decomposition: Decomposition) -> list[Message]:
     """What keeps the decomposition from being complete, a sentence or two a line; nothing if it is."""
-    words = _WORDS[lang]
     if decomposition.report is None:
         return []
-    lines = [words["rest"].format(links=_some(decomposition.rest))]
+    lines = [message("Not determined: {links}.", links=_names(decomposition.rest))]
     if decomposition.overconstrained:
-        lines = [words["over"]]
+        lines = [message("Constraints or drives work against one another: there are no Assur groups.")]
+        text = message("Overconstrained: {links} (constraints too many: {count}).")
         lines += [
-            words["part"].format(links=_some(part.links), k=part.redundancy)
+            text.filled(links=_names(part.links), count=part.redundancy)
             for part in overconstrained(generic(decomposition.mechanism.chain))
         ]
     if decomposition.report.remaining or decomposition.report.redundant_drives:
-        lines.append(decomposition.report.explain(lang))
+        lines.append(decomposition.report.message)
     return lines
 
 
 def _bodies(group: SolvedGroup) -> str:
     """The bodies of a group, each with what it carries in square brackets."""
     return ", ".join(
-        "+".join(body) + (f"[{_some(carried)}]" if carried else "")
+        "+".join(body) + (f"[{_names(carried)}]" if carried else "")
         for body, carried in zip(group.bodies, group.carried, strict=True)
     )
 
 
-def _base(group: SolvedGroup, words: dict[str, str]) -> str:
-    return words["on"].format(base="+".join(group.base))
+def _base(group: SolvedGroup, lang: str) -> str:
+    return translate("on {base}", lang, base="+".join(group.base))
 
 
-def _some(names: Sequence[str]) -> str:
+def _names(names: Sequence[str]) -> str:
     return ", ".join(names)

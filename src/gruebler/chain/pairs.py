@@ -60,6 +60,15 @@ class Alphabet(StrEnum):
     GERMAN = "german"
     INTERNATIONAL = "international"
 
+    @classmethod
+    def of_language(cls, lang: str) -> Alphabet:
+        """The symbols that a reader of this language expects.
+
+        >>> Alphabet.of_language("de"), Alphabet.of_language("en")
+        (<Alphabet.GERMAN: 'german'>, <Alphabet.INTERNATIONAL: 'international'>)
+        """
+        return cls.GERMAN if lang == "de" else cls.INTERNATIONAL
+
 
 class Contact(StrEnum):
     """How the two elements touch: in a surface (lower), in a line or point (higher), or through a body between."""
@@ -122,6 +131,14 @@ class Pair:
     def u(self, space: Space) -> int:
         """Motions taken away in this space, u = b - f."""
         return space.b - self.f(space)
+
+    def full_name(self, lang: str = "en") -> str:
+        """The name in a language, as a text may write it.
+
+        >>> pair("R").full_name("de")
+        'Drehgelenk'
+        """
+        return self.german if lang == "de" else self.name
 
     def symbol(self, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str:
         """The symbol in this alphabet, or the full name where the alphabet has none."""

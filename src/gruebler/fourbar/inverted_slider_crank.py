@@ -51,7 +51,7 @@ class InvertedSliderCrank:
     swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
 
     >>> shaper = InvertedSliderCrank(a=30, d=50)
-    >>> print(shaper.type.german, round(shaper.dead_centres.time_ratio, 6))
+    >>> print(shaper.type.name("de"), round(shaper.dead_centres.time_ratio, 6))
     schwingende Kurbelschleife 2.38791
     """
 

@@ -30,6 +30,7 @@ from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.kinematics.solve import move
 from gruebler.linkages import Linkage, LinkPoint, with_lower_pairs
 from gruebler.notebook import Brief
+from gruebler.text import message
 
 __all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
 
@@ -274,18 +275,12 @@ class Circuit(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
-        return _OPEN[self.traced.ended]["de" if lang == "de" else "en"] if self.traced.ended else ""
+        return _OPEN[self.traced.ended].in_language(lang) if self.traced.ended else ""
 
 
 _OPEN = {
-    "long": {
-        "en": "The circuit was not followed to its end: it is longer than what was asked for.",
-        "de": "Der Umlauf wurde nicht zu Ende verfolgt: er ist länger als verlangt.",
-    },
-    "singular": {
-        "en": "The circuit ends in a singular position from which it cannot be followed.",
-        "de": "Der Umlauf endet in einer singulären Lage, aus der er nicht weiter verfolgt werden kann.",
-    },
+    "long": message("The circuit was not followed to its end: it is longer than what was asked for."),
+    "singular": message("The circuit ends in a singular position from which it cannot be followed."),
 }
 
 

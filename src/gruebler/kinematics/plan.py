@@ -230,7 +230,7 @@ def plan(linkage: Linkage) -> Plan:
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)
     if not parts.complete:
-        raise LinkageError("the linkage cannot be moved by its drives. {message}", message=parts.message())
+        raise LinkageError("the linkage cannot be moved by its drives. {reason}", reason=parts.reason)
     return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 

@@ -34,7 +34,7 @@ class Growth:
 
     @property
     def core(self) -> Chain:
-        """The loop, or what is left when no dyad can be taken away."""
+        """The loop, or what is left when no dyad can be removed."""
         return self.derivation.start
 
     @property
@@ -59,7 +59,7 @@ def is_loop(chain: Chain) -> bool:
 
 
 def removable_dyads(chain: Chain) -> Iterator[Insertion]:
-    """The dyads that can be taken away such that every link left keeps two joints or more.
+    """The dyads that can be removed such that every link left keeps two joints or more.
 
     >>> [dyad.links for dyad in removable_dyads(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))]
     [('0', '1'), ('4', '5')]
