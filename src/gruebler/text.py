@@ -31,6 +31,7 @@ __all__ = [
     "decimal_sign_in",
     "error_in_language",
     "joined",
+    "joined_by_and",
     "joined_by_or",
     "listed",
     "message",
@@ -173,6 +174,16 @@ def listed(items: Iterable[object], lang: str = "en", last: Message = _AND) -> s
     """
     words = [item.in_language(lang) if isinstance(item, Message) else str(item) for item in items]
     return f"{', '.join(words[:-1])} {last.in_language(lang)} {words[-1]}" if len(words) > 1 else "".join(words)
+
+
+def joined_by_and(items: Sequence[object]) -> Message:
+    """All the items, as one message.
+
+    >>> str(joined_by_and(["coupler", "rocker"]))
+    'coupler and rocker'
+    """
+    last = joined(items[-1:])
+    return message("{items} and {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
 
 
 def joined_by_or(items: Sequence[object]) -> Message:

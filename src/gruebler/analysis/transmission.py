@@ -119,9 +119,9 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     if not chosen:
         names = ", ".join(group.links)
         raise NoTransmissionAngleError(
-            "there is no transmission angle: no link with two joints drives the group {form} {{{names}}}",
+            "there is no transmission angle: no link with two joints drives the group {form} {{{links}}}",
             form=group.form(),
-            names=names,
+            links=names,
         )
     if any(leg.form == "PP" for leg in chosen.values()):
         links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")

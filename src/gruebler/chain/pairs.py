@@ -20,6 +20,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from gruebler.errors import PairError, nearest
+from gruebler.text import Message, joined, joined_by_or, message
 
 __all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "pair", "read_symbols"]
 
@@ -42,6 +43,11 @@ class Space(StrEnum):
         return _DIRECTIONS[self]
 
     @property
+    def adjective(self) -> Message:
+        """The word for a chain in it, for messages."""
+        return _ADJECTIVES[self]
+
+    @property
     def greatest_freedom(self) -> int:
         """The most freedoms that still make a joint: b - 1."""
         return self.b - 1
@@ -51,6 +57,13 @@ _DIRECTIONS = {
     Space.PLANAR: ("Rz", "Tx", "Ty"),
     Space.SPHERICAL: ("Rx", "Ry", "Rz"),
     Space.SPATIAL: ("Rx", "Ry", "Rz", "Tx", "Ty", "Tz"),
+}
+
+
+_ADJECTIVES = {
+    Space.PLANAR: message("planar"),
+    Space.SPHERICAL: message("spherical"),
+    Space.SPATIAL: message("spatial"),
 }
 
 
@@ -86,6 +99,15 @@ class Closure(StrEnum):
     MATERIAL = "material"
 
 
+@dataclass(frozen=True)
+class PairTitle(Message):
+    """The full name of a pair, in the reader's language."""
+
+    def in_language(self, lang: str) -> str:
+        """The name in a language."""
+        return pair(self.text).full_name(lang)
+
+
 @dataclass(frozen=True, slots=True)
 class Pair:
     """One row of the table. Compared and hashed by its name."""
@@ -102,6 +124,11 @@ class Pair:
     """The closures met in practice, the usual one first."""
     is_group: bool
     """Whether relative motions compose to motions of the same kind, so that more than two links can share it."""
+
+    @property
+    def title(self) -> PairTitle:
+        """Its full name, for messages."""
+        return PairTitle(self.name)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Pair) and self.name == other.name
@@ -121,11 +148,17 @@ class Pair:
             return len(self.freedoms[space])
         except KeyError:
             raise PairError(
-                "the {name} pair ({german}) does not exist in {space} chains; it exists in {items}",
+                "the {name} pair ({german}) does not exist in {space} chains; it exists in {others}",
                 name=self.name,
                 german=self.german,
-                space=space,
-                items=" and ".join(f"{s} ones with f = {len(d)}" for s, d in self.freedoms.items()),
+                space=space.adjective,
+                others=joined(
+                    (
+                        message("{space} ones with f = {f}", space=s.adjective, f=len(d))
+                        for s, d in self.freedoms.items()
+                    ),
+                    ", ",
+                ),
             ) from None
 
     def u(self, space: Space) -> int:
@@ -290,7 +323,7 @@ def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
             raise PairError(
                 "{symbol!r} is ambiguous: {meanings}; write the full name",
                 symbol=symbol,
-                meanings=" or ".join(f"{p.name} ({p.german})" for p in meanings),
+                meanings=joined_by_or([f"{p.name} ({p.german})" for p in meanings]),
             )
     return named | {symbol: meanings[0] for symbol, meanings in distinct[0].items()}
 
@@ -311,31 +344,32 @@ def _refuse_unknown(letters: list[str]) -> None:
     for symbol in letters:
         if symbol not in known:
             raise PairError(
-                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {items} (international) and "
-                "{fromkeys} (German), or the full name of a pair",
+                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {international} (international) and "
+                "{german} (German), or the full name of a pair",
                 symbol=symbol,
                 suggestion=nearest(symbol, (*known, *_BY_FULL_NAME)),
-                items=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
-                fromkeys=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
+                international=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
+                german=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
             )
 
 
 def _mixed(letters: list[str]) -> PairError:
-    readings = []
-    for alphabet in Alphabet:
-        words = [
-            f"{s} = {' or '.join(p.name for p in _meanings(s, alphabet))}"
-            if _meanings(s, alphabet)
-            else f"{s} is unknown"
-            for s in letters
-        ]
-        readings.append(f"{_TITLE[alphabet]}: {', '.join(words)}")
+    german, international = (
+        joined(_symbol_meaning(s, _meanings(s, alphabet)) for s in letters)
+        for alphabet in (Alphabet.GERMAN, Alphabet.INTERNATIONAL)
+    )
     return PairError(
-        "the symbols mix two alphabets ({readings}); write all joints in one of them", readings="; ".join(readings)
+        "the symbols mix two alphabets (German: {german}; international: {international}); write all joints in one of "
+        "them",
+        german=german,
+        international=international,
     )
 
 
-_TITLE = {Alphabet.GERMAN: "German", Alphabet.INTERNATIONAL: "international"}
+def _symbol_meaning(symbol: str, pairs: tuple[Pair, ...]) -> Message:
+    if not pairs:
+        return message("{symbol} is unknown", symbol=symbol)
+    return message("{symbol} = {pairs}", symbol=symbol, pairs=joined_by_or([p.title for p in pairs]))
 
 
 def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Space) -> PairError:
@@ -349,32 +383,30 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
         for p in _meanings(symbol, a)
         if space in p.freedoms
     }
-    hint = "".join(
-        f"; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}"
-        for name, right in others.items()
-    )
+    other_alphabet = message("; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}")
+    hints = [other_alphabet.filled(name=pair(name).title, symbol=symbol, right=right) for name, right in others.items()]
     freedom = len(next(iter(meant.freedoms.values())))
     return PairError(
         "{symbol!r} is the {name} pair ({german}, f = {freedom}), which {space} chains do not have: "
-        "their joints have at most f = {greatest_freedom} and are {pairs}{hint}",
+        "their joints have at most f = {greatest_freedom} and are {pairs}{hints}",
         symbol=symbol,
         name=meant.name,
         german=meant.german,
         freedom=freedom,
-        space=space,
+        space=space.adjective,
         greatest_freedom=space.greatest_freedom,
         pairs=", ".join(
             p.name if p.symbol(alphabet) == p.name else f"{p.symbol(alphabet)} ({p.name})"
             for p in PAIRS
             if space in p.freedoms
         ),
-        hint=hint,
+        hints=joined(hints, ""),
     )
 
 
 def _two_alphabets(german: dict[str, tuple[Pair, ...]], other: dict[str, tuple[Pair, ...]]) -> PairError:
     symbol = next(s for s in german if german[s] != other[s])
-    one, two = (" or ".join(p.name for p in r[symbol]) for r in (german, other))
+    one, two = (joined_by_or([p.title for p in r[symbol]]) for r in (german, other))
     return PairError(
         "{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; write "
         "the full name ({one} or {two}) or add a joint that only one alphabet has",

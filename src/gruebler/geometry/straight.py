@@ -195,13 +195,13 @@ def _points(path: Path, parameters: Reals) -> Complexes:
     points = np.asarray(path(parameters), np.complex128)
     if points.shape != parameters.shape:
         raise LinkageError(
-            "a path gives one point for each parameter, but {shape} for {shape_2}",
-            shape=points.shape,
-            shape_2=parameters.shape,
+            "a path gives one point for each parameter, but found {points} for {parameters}",
+            points=points.shape,
+            parameters=parameters.shape,
         )
     missing = np.flatnonzero(~np.isfinite(points))
     if len(missing):
-        raise LinkageError("the path has no point at the parameter {parameters:.6g}", parameters=parameters[missing[0]])
+        raise LinkageError("the path has no point at the parameter {parameter:.6g}", parameter=parameters[missing[0]])
     return points
 
 

@@ -367,9 +367,13 @@ def _start(
         if largest > _SINGULAR:
             break
     if best is None:
-        where = f"at {drive:.9g}" if drive is not None else f"at any of {_TRIALS} values of its drive"
         raise LinkageError(
-            "the linkage cannot be assembled {where}; another drive value or a home may help", where=where
+            "the linkage cannot be assembled at any of {count} values of its drive; another drive value or a home may "
+            "help"
+            if drive is None
+            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a home may help",
+            count=_TRIALS,
+            drive=drive,
         )
     return best
 

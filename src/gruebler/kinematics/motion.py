@@ -20,6 +20,7 @@ from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, Link
 from gruebler.linkages.elements import INVERSE
 from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sliding_joint
 from gruebler.notebook import Brief
+from gruebler.text import message
 
 __all__ = ["Motion", "Stop", "joint_openings"]
 
@@ -183,7 +184,9 @@ def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
     if number is None or not sliding_joint(motion.linkage, number):
         sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
         raise LinkageError(
-            "{joint!r} is no sliding joint; there are {value}", joint=joint, value=", ".join(sliding) or "none"
+            "{joint!r} is no sliding joint; there are {joints}",
+            joint=joint,
+            joints=", ".join(sliding) or message("none"),
         )
     first, other = mechanism.chain.joints[number].links[:2]
     elements = motion.linkage.elements

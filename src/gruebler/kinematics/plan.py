@@ -352,6 +352,6 @@ class _Planner:
                         out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
-                            "{joint_names}: {error}", joint_names=self.chain.joint_names()[joint], error=error
+                            "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
                         ) from None
         return tuple(out)

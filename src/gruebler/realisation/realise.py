@@ -97,5 +97,5 @@ def with_drives(mechanism: Mechanism) -> Mechanism:
 def _check(name: str, value: object, least: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**32:
         raise LinkageError(
-            "{name} is a whole number of at least {least}, not {value!r}", name=name, least=least, value=value
+            "{name} is a whole number of at least {least}, not {found!r}", name=name, least=least, found=value
         )

@@ -140,9 +140,10 @@ def _check_count(at: Sequence[float], drives: int) -> None:
         raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
     if len(at) != drives:
         raise LinkageError(
-            "expected {drives} drive value{value}, one for each, but found {count}",
+            "expected 1 drive value, but found {count}"
+            if drives == 1
+            else "expected {drives} drive values, one for each, but found {count}",
             drives=drives,
-            value="s" * (drives > 1),
             count=len(at),
         )
 

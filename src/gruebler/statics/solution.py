@@ -135,7 +135,7 @@ class Statics(Brief):
             return number, next(one for one in reversed(links) if one != mechanism.frame)
         if link not in links:
             raise LinkageError(
-                "{joint_names} is no joint of {link!r}", joint_names=mechanism.chain.joint_names()[number], link=link
+                "{joint} is no joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
             )
         return number, link
 

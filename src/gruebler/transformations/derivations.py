@@ -73,11 +73,11 @@ class Derivation:
         for number, step in enumerate(self.steps, 1):
             if step.before != before:
                 raise TransformationError(
-                    "step {number} starts from {before}, but step {number_2} leaves {before_2}",
+                    "step {number} starts from {chain}, but step {previous} leaves {result}",
                     number=number,
-                    before=step.before,
-                    number_2=number - 1,
-                    before_2=before,
+                    chain=step.before,
+                    previous=number - 1,
+                    result=before,
                 )
             before = step.chain
 

@@ -47,7 +47,7 @@ def explain_step(step: Step, lang: str) -> str:
 
     values = {key: str(value) for key, value in where.items()}
     for key in {"form", "pairs"} & values.keys():
-        pairs = pairs_from_letters(values[key], len(values[key]), "dyad")
+        pairs = pairs_from_letters(values[key], len(values[key]), message("dyad"))
         values[key] = "".join(p.symbol(alphabet) for p in pairs)
     places = where.get("between") or where.get("at")
     if isinstance(places, list):
