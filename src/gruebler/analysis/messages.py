@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
+from gruebler.assur.forms import form_message
 from gruebler.text import Message, joined, message
 
 if TYPE_CHECKING:
@@ -56,7 +57,7 @@ def explain_measures(measures: Measures) -> Iterator[Message]:
             yield message("The output {name} has a stroke of {travel}.", name=name, travel=travel)
     yield from _stop_lines(measures)
     for point in measures.change_points:
-        form, links, drive = point.form, ", ".join(point.links), _drive(measures, point.drive)
+        form, links, drive = form_message(point.form), ", ".join(point.links), _drive(measures, point.drive)
         line = message("Change point of {form} {{{links}}} at {drive}.", form=form, links=links, drive=drive)
         yield joined([line, message("More than two curves of positions meet there.")], " ") if point.several else line
     if measures.change_points_error is not None:
@@ -147,7 +148,7 @@ def _drive_lines(measures: Measures) -> Iterator[Message]:
             text = message("At {drive} the group {form} {{{links}}} can no longer be assembled.")
         else:
             text = message("At {drive} two assembly modes of the group {form} {{{links}}} meet.")
-        yield text.filled(drive=drive, form=stop.form, links=", ".join(stop.links))
+        yield text.filled(drive=drive, form=form_message(stop.form), links=", ".join(stop.links))
 
 
 def _end(measures: Measures, dwell: Dwell) -> float:

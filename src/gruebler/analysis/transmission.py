@@ -15,6 +15,7 @@ from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.arrays import Complexes, Reals
 from gruebler.assur import SolvedGroup
+from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
@@ -120,7 +121,7 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
         names = ", ".join(group.links)
         raise NoTransmissionAngleError(
             "there is no transmission angle: no link with two joints drives the group {form} {{{links}}}",
-            form=group.form(),
+            form=in_alphabets(group.form),
             links=names,
         )
     if any(leg.form == "PP" for leg in chosen.values()):

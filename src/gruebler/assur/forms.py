@@ -5,13 +5,15 @@ Definitions and sources: docs/theory/assur.md, "Form, class, order".
 
 from __future__ import annotations
 
+import re
 from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from gruebler.chain.pairs import Alphabet, Pair, Space, pair
+from gruebler.chain.pairs import Alphabet, Pair, Space, in_alphabets, pair
+from gruebler.text import Message
 
-__all__ = ["DYADS", "GroupJoint", "class_number", "form_name", "roman"]
+__all__ = ["DYADS", "GroupJoint", "class_number", "form_message", "form_name", "roman"]
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP stays loose."""
@@ -34,6 +36,7 @@ _PAIRS = {
     for p in map(pair, ("revolute", "prismatic", "rolling", "roll_slide", "double_slide"))
 }
 _LETTERS = {p.name: letter for letter, p in _PAIRS.items()}
+_GERMAN = str.maketrans({letter: p.symbol(Alphabet.GERMAN) for letter, p in _PAIRS.items() if len(letter) == 1})
 _RANK = {letter: k for k, letter in enumerate(_PAIRS)}
 
 
@@ -90,6 +93,17 @@ def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alpha
         for leg, number in sorted(legs.items(), key=lambda item: [_RANK[x] for x in item[0]])
     ]
     return "+".join(parts + [_PAIRS[x].symbols.get(alphabet, x) for x in _sorted(outer[hub])])
+
+
+def form_message(form: str) -> Message:
+    """The name of a form for a message, in the alphabet of the reader; a code or a joint's name stays what it is.
+
+    >>> form_message("2-RR+P").in_language("de"), form_message("c1:0").in_language("de")
+    ('2-DD+S', 'c1:0')
+    """
+    named = re.fullmatch(rf"(?:{'|'.join(_PAIRS)}|[0-9+-])+", form) is not None
+    german = form.translate(_GERMAN) if named else form
+    return in_alphabets(lambda alphabet: german if alphabet is Alphabet.GERMAN else form)
 
 
 def class_number(links: int, joints: Sequence[GroupJoint]) -> int:

@@ -14,7 +14,7 @@ their sections 2.5 and 2.6.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
@@ -22,7 +22,7 @@ from types import MappingProxyType
 from gruebler.errors import PairError, nearest
 from gruebler.text import Message, joined, joined_by_or, message
 
-__all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "pair", "read_symbols"]
+__all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "in_alphabets", "pair", "read_symbols"]
 
 
 class Space(StrEnum):
@@ -108,6 +108,24 @@ class PairTitle(Message):
         return pair(self.text).full_name(lang)
 
 
+@dataclass(frozen=True)
+class SymbolText(Message):
+    """A text with joint symbols, in the alphabet that the reader expects; made by `in_alphabets`."""
+
+    def in_language(self, lang: str) -> str:
+        """The text in the alphabet of a language."""
+        return str(self.values[Alphabet.of_language(lang)])
+
+
+def in_alphabets(write: Callable[[Alphabet], str]) -> SymbolText:
+    """What a function writes in each alphabet, as one message.
+
+    >>> in_alphabets(pair("prismatic").symbol).in_language("de")
+    'S'
+    """
+    return SymbolText("", {alphabet: write(alphabet) for alphabet in Alphabet})
+
+
 @dataclass(frozen=True, slots=True)
 class Pair:
     """One row of the table. Compared and hashed by its name."""
@@ -168,7 +186,7 @@ class Pair:
     def full_name(self, lang: str = "en") -> str:
         """The name in a language, as a text may write it.
 
-        >>> pair("R").full_name("de")
+        >>> pair("revolute").full_name("de")
         'Drehgelenk'
         """
         return self.german if lang == "de" else self.name

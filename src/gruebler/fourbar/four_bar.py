@@ -265,7 +265,7 @@ class FourBar:
             B=CrankRates(*map(points, joint_b)),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
+            reason=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
         )
 
     def _add_rates(self, crank: CrankRates, theta: list[Reals], psi: list[Reals], sine: Reals) -> None:

@@ -187,7 +187,7 @@ class InvertedSliderCrank:
             B=CrankRates(b0 - foot[0], *(-rate for rate in foot[1:])),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
+            reason=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
             displacement=block,
         )
 

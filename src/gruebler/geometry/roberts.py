@@ -264,7 +264,7 @@ def _pose(
         raise LinkageError(
             "it cannot be assembled at the crank angle {phi:g} degrees: {reason}",
             phi=math.degrees(phi),
-            reason=motion.message,
+            reason=motion.reason,
         )
     a, b = (complex(*(float(x) for x in track.value)) for track in (motion.A, motion.B))
     _check_moving(size, a, b)

@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.motion.program import GROUP
 from gruebler.arrays import Reals
+from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan
-from gruebler.text import joined, message
+from gruebler.text import Message, joined, message
 
 __all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
 
@@ -66,9 +67,9 @@ def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ..
     return tuple(labels)
 
 
-def _name(plan: Plan, part: Dyad | HigherGroup) -> str:
+def _name(plan: Plan, part: Dyad | HigherGroup) -> Message:
     group = plan.decomposition.groups[part.group]
-    return f"{group.form()} {{{', '.join(group.links)}}}"
+    return message("{form} {{{links}}}", form=in_alphabets(group.form), links=", ".join(group.links))
 
 
 def starting_state(

@@ -5,10 +5,13 @@ from __future__ import annotations
 from math import degrees
 from typing import TYPE_CHECKING
 
+from gruebler.assur.forms import form_message
+from gruebler.chain.pairs import in_alphabets
 from gruebler.text import Message, joined, message
 
 if TYPE_CHECKING:
     from gruebler.kinematics.motion import Motion
+    from gruebler.mechanism import Mechanism
 
 __all__ = ["drive_value_text", "stop_message"]
 
@@ -33,7 +36,7 @@ def stop_message(motion: Motion) -> Message:
     if motion.stop is not None:
         stop = motion.stop
         drives, links = drive_value_text(motion, stop.drives), ", ".join(stop.links)
-        parts.append(_STOPS[stop.reason].filled(drives=drives, form=stop.form, links=links))
+        parts.append(_STOPS[stop.reason].filled(drives=drives, form=form_message(stop.form), links=links))
     return joined(parts, " ")
 
 
@@ -41,9 +44,14 @@ def drive_value_text(motion: Motion, values: tuple[float, ...]) -> Message:
     """Drive values with the names of their joints, turning ones in degrees."""
     mechanism = motion.linkage.mechanism
     parts = []
-    for name, drive, value in zip(mechanism.drive_names(), mechanism.drives, values, strict=True):
+    for k, (drive, value) in enumerate(zip(mechanism.drives, values, strict=True)):
+        name = _drive_name(mechanism, k)
         if drive.turning:
             parts.append(message("{name} = {value:.9g}°", name=name, value=degrees(value)))
         else:
             parts.append(message("{name} = {value:.9g} {unit}", name=name, value=value, unit=motion.linkage.unit))
     return joined(parts)
+
+
+def _drive_name(mechanism: Mechanism, drive: int) -> Message:
+    return in_alphabets(lambda alphabet: mechanism.drive_names(alphabet)[drive])

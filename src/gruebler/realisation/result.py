@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import CycleSpan, drive_cycle
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
@@ -80,7 +81,7 @@ class Realisation(Brief):
                 seed=self.seed,
             )
         sentences = []
-        names = self.mechanism.drive_names()
+        names = self.mechanism.drive_names(Alphabet.of_language(lang))
         for name, drive, well_conditioned in zip(names, self.mechanism.drives, self.ranges, strict=True):
             texts = _TURNING if drive.turning else _SLIDING
             if self.full:
