@@ -178,16 +178,6 @@ def listed(items: Iterable[object], lang: str = "en", last: Message = _AND) -> s
     return f"{', '.join(words[:-1])} {last.in_language(lang)} {words[-1]}" if len(words) > 1 else "".join(words)
 
 
-def joined_by_and(items: Sequence[object]) -> Message:
-    """All the items, as one message.
-
-    >>> str(joined_by_and(["coupler", "rocker"]))
-    'coupler and rocker'
-    """
-    last = joined(items[-1:])
-    return message("{items} and {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
-
-
 def joined_by_or(items: Sequence[object]) -> Message:
     """Items between which one has to choose, as one message.
 
@@ -196,6 +186,16 @@ def joined_by_or(items: Sequence[object]) -> Message:
     """
     last = joined(items[-1:])
     return message("{items} or {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
+
+
+def joined_by_and(items: Sequence[object]) -> Message:
+    """Items that go together, as one message.
+
+    >>> joined_by_and(["a", message("{x} mm", x=1.5), "c"]).in_language("de")
+    'a, 1,5 mm und c'
+    """
+    last = joined(items[-1:])
+    return message("{items} and {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
 
 
 _ARITIES = {

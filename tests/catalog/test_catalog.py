@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gruebler import CatalogError, Chain
+from gruebler import Chain
 from gruebler.catalog import (
     Query,
     catalog_folder,
@@ -18,6 +18,7 @@ from gruebler.catalog import (
     exercises,
     search,
 )
+from gruebler.errors import CatalogError
 from gruebler.formats import Claims, read_entry
 from gruebler.formats.linkages import linkage_from_json, linkage_to_json
 from gruebler.isomorphism import is_isomorphic

@@ -4,7 +4,8 @@ import json
 
 import pytest
 
-from gruebler import Chain, ChainError, GrueblerError
+from gruebler import Chain, GrueblerError
+from gruebler.errors import ChainError
 from gruebler.mobility import mobility_report
 from gruebler.mobility.idle import IdleCondition
 from gruebler.mobility.messages import _MEANINGS, _VERDICTS

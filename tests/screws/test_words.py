@@ -5,8 +5,9 @@ import math
 
 import pytest
 
-from gruebler import GrueblerError, LinkageError
+from gruebler import GrueblerError
 from gruebler.catalog import entries
+from gruebler.errors import LinkageError
 from gruebler.formats.linkages import write_linkage
 from gruebler.formats.screws import read_any_linkage, screws_to_json, spatial_from_json
 from gruebler.fourbar import FourBar

@@ -9,13 +9,13 @@ import numpy as np
 
 from gruebler.arrays import Flags, Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connections, reactions
+from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
+from gruebler.forces.motion_rates import drive_speed, with_velocities
 from gruebler.kinematics import Motion
 from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
-from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
-from gruebler.statics.loads import Loads, Rows, Wrench, loads_over_rows
-from gruebler.statics.motion_rates import drive_speed, with_velocities
 from gruebler.text import Message, joined, message
 
 __all__ = ["Statics", "statics"]
