@@ -8,8 +8,7 @@ from gruebler import Chain, GrueblerError
 from gruebler.errors import ChainError
 from gruebler.mobility import mobility_report
 from gruebler.mobility.idle import IdleCondition
-from gruebler.mobility.messages import _MEANINGS, _VERDICTS
-from gruebler.mobility.report import Verdict
+from gruebler.mobility.report import _MEANINGS, _VERDICTS, Verdict
 from gruebler.text import error_in_language
 
 VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"

@@ -12,7 +12,7 @@ from gruebler.formats.linkages import write_linkage
 from gruebler.formats.screws import read_any_linkage, screws_to_json, spatial_from_json
 from gruebler.fourbar import FourBar
 from gruebler.screws import Evidence, freedoms
-from gruebler.screws.messages import _FINITE
+from gruebler.screws.mobility_report import _FINITE
 from tests.screws import machines as m
 
 SHAKY = m.locomotive(3, error=0.01)

@@ -13,7 +13,6 @@ from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connec
 from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.forces.motion_rates import drive_speed, with_velocities
 from gruebler.kinematics import Motion
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
 from gruebler.text import Message, joined, message
@@ -179,7 +178,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
-        raise LinkageError("the motion has no rows. {reason}", reason=stop_message(motion))
+        raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)
     return Statics(motion, wrenches, reactions(motion, wrenches), _virtual_work(motion, wrenches))
 
 

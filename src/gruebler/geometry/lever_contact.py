@@ -15,7 +15,6 @@ from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.kinematics import move
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_branch, as_finite
 from gruebler.text import Message, message
@@ -60,7 +59,7 @@ def lever_pose(linkage: Linkage, point: str, drive: float) -> LeverPose:
     """
     motion = move(linkage, drive)
     if not motion.complete:
-        raise LinkageError("{reason}", reason=stop_message(motion))
+        raise LinkageError("{reason}", reason=motion.reason)
     names = linkage.mechanism.chain.joint_names()
     turning = [complex(motion.complex_point(name)[0]) for name in names if name.startswith("R")]
     if len(names) != 4 or len(turning) not in (3, 4):

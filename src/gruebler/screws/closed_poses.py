@@ -9,7 +9,6 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Line, Linkage, Pin
 from gruebler.screws.closing import Closing, JointFrames
 from gruebler.screws.double_roots import refined_at_double_root
@@ -125,7 +124,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
 
     motion = move(linkage, [tuple(at)], branch=branch)
     if not len(motion):
-        raise LinkageError("{reason}", reason=stop_message(motion))
+        raise LinkageError("{reason}", reason=motion.reason)
     chain = linkage.mechanism.chain
     rows = []
     for link in chain.links:

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import NotationError, TransformationError
+from gruebler.text import translate
 from gruebler.transformations.contacts import replace_roll_slide, restore_roll_slide
 from gruebler.transformations.contraction import contract, expand
 from gruebler.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
@@ -137,6 +139,9 @@ class Derivation:
 
     def explain(self, lang: str = "en") -> str:
         """A line for the start and for each step, in English (``en``) or German (``de``)."""
-        from gruebler.transformations.messages import explain_derivation
-
-        return explain_derivation(self, lang)
+        alphabet = Alphabet.of_language(lang)
+        lines = [translate("Start: {chain}.", lang, chain=self.start.text(alphabet))]
+        lines += [f"{number}. {step.explain(lang)}" for number, step in enumerate(self.steps, 1)]
+        if self.steps:
+            lines.append(translate("The chain: {chain}.", lang, chain=self.chain.text(alphabet)))
+        return "\n".join(lines)
