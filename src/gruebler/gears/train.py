@@ -42,9 +42,9 @@ class Unit(StrEnum):
 
 
 _UNITS = {
-    Unit.TURNING: message("turning"),
-    Unit.PER_RADIAN: message("per radian"),
-    Unit.PER_TURN: message("per turn"),
+    Unit.TURNING: message("a turning link"),
+    Unit.PER_RADIAN: message("sliding per radian"),
+    Unit.PER_TURN: message("sliding per turn"),
 }
 
 
