@@ -306,7 +306,7 @@ four_bar = { a = 25, b = 70, c = 40, d = 70 }
         ("assumed = true", 'assumed = true\nsource = "page 3"', "dimensions: either assumed = true, or a source"),
         ("a = 25", "a = 0", "dimensions: four_bar: a must be positive, not 0.0"),
         ("a = 25", "a = 25, brnch = 1", "unknown key 'dimensions.four_bar.brnch'; did you mean 'branch'?"),
-        ('unit = "mm"', "", "dimensions: object missing required field unit"),
+        ('unit = "mm"', "", "dimensions: the key 'unit' is missing"),
         ("four_bar", "places", "dimensions: places: 'a' is not one of the joints"),
         ('unit = "mm"', 'unit = "mm"\ndrive = "R(frame-crank)"', "dimensions.drive: for an entry without drives"),
         ('unit = "mm"', 'unit = "mm"\nrange = [0, nan]', "dimensions.range: expected two numbers"),

@@ -113,7 +113,7 @@ unit = "mm"
         ("lead = 5", 'lead = "five"', r"lead: expected float"),
         ("x = [0, 0, 1]", "x = [0, 1]", "expected 3 numbers"),
         ("x = [0, 0, 1]", "z = [0, 0, 1]", "a prismatic joint needs its x axis"),
-        ('unit = "mm"', "", "missing required field unit"),
+        ('unit = "mm"', "", "the key 'unit' is missing"),
         ('"P(frame-nut)" =', '"P(frame-drum)" =', "is not one of the joints"),
         ("spatial: ", "spatial: R(a-b) ", "joints, frame or drives"),
         ("[screws.joints]", "[screws.joints.joints]", "is not one of the joints|unknown key"),

@@ -183,6 +183,13 @@ class Linkage:
         a, b = self.element(first, link), self.element(second, link)
         return hypot(a.x - b.x, a.y - b.y)
 
+    @property
+    def required_pose(self) -> Mapping[str, Pose2D]:
+        """The reference pose; `LinkageError` if the linkage has none."""
+        if self.reference_pose is None:
+            raise LinkageError("the linkage has no reference pose: give the place of every link in one position")
+        return self.reference_pose
+
     def points_named(self, name: str) -> tuple[LinkPoint, ...]:
         """The point of that name, of the joint of that name (on each of its links, the frame's first), or of LINK:X,Y.
 
