@@ -25,7 +25,7 @@ def test_short_messages_are_left_as_they_are(text):
 
 
 def test_the_ends_of_a_long_message_are_kept():
-    error = GrueblerError(f"file.toml: unknown key {'k' * 10_000!r}; did you mean 'unit'?")
+    error = GrueblerError("file.toml: unknown key {key!r}; did you mean 'unit'?", key="k" * 10_000)
     assert str(error).startswith("file.toml: unknown key 'kkk")
     assert str(error).endswith("kkk'; did you mean 'unit'?")
     assert "(10,003 characters)" in str(error)
@@ -58,6 +58,6 @@ def test_large_values_are_printed_in_one_line(value):
 
 def test_a_motion_in_an_error_is_one_line():
     motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), np.linspace(0, 6, 361))
-    with pytest.raises(LinkageError, match=r"expected a linkage, but found <Motion linkage=") as caught:
+    with pytest.raises(LinkageError, match=r"but found <Motion linkage=") as caught:
         circuit(motion)
     assert len(str(caught.value)) < 500

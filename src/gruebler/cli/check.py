@@ -22,7 +22,7 @@ from gruebler.formats.catalog_records import entry_of_data
 from gruebler.formats.linkages import linkage_from_json
 from gruebler.formats.screws import read_any_linkage, spatial_from_json
 from gruebler.mobility import mobility_report
-from gruebler.mobility.messages import verdict_word
+from gruebler.mobility.report import verdict_word
 
 __all__ = ["add", "explanation", "print_checked", "run"]
 
