@@ -36,7 +36,6 @@ __all__ = [
     "joined",
     "joined_by_and",
     "joined_by_or",
-    "joint_alphabet",
     "listed",
     "message",
     "number",
@@ -254,15 +253,6 @@ def in_every_language(write: Callable[[str], str]) -> Text:
     Text(en='ternary', de='ternär')
     """
     return Text(**{lang: write(lang) for lang in LANGUAGES})
-
-
-def joint_alphabet(lang: str) -> str:
-    """The alphabet in which a language writes joints: a name of `chain.pairs.Alphabet`.
-
-    >>> joint_alphabet("en"), joint_alphabet("de")
-    ('international', 'german')
-    """
-    return "german" if lang == "de" else "international"
 
 
 def number_separator(lang: str) -> str:

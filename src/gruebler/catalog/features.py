@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import Mechanism
-from gruebler.text import arity, joint_alphabet, message
+from gruebler.text import arity, message
 
 __all__ = ["AccessFeatures", "access_features"]
 
@@ -36,7 +36,7 @@ class AccessFeatures:
 
     def described(self, lang: str = "en") -> tuple[tuple[str, str], ...]:
         """A label and a value for each of the four features."""
-        alphabet = Alphabet(joint_alphabet(lang))
+        alphabet = Alphabet.of_language(lang)
         links = ", ".join(f"{count} {arity(k, lang)}" for k, count in self.links_by_joints)
         joints = ", ".join(
             f"{count} {_name(kind, count, lang)} ({kind.symbol(alphabet)})" for kind, count in self.joints_by_pair

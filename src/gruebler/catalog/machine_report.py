@@ -11,13 +11,14 @@ import numpy as np
 
 from gruebler.catalog.feature_query import entry_features, entry_mechanism, features_to_json
 from gruebler.catalog.features import AccessFeatures
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
 from gruebler.formats.catalog_records import Entry
 from gruebler.linkages import Linkage
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import MobilityReport, mobility_report
 from gruebler.notebook import Brief
-from gruebler.text import LANGUAGES, joint_alphabet, message
+from gruebler.text import LANGUAGES, message
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
@@ -232,7 +233,7 @@ def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]
     yield "mobility", found.mobility.explain(lang).splitlines()
     yield "moves", _moves_lines(found, say, lang)
     yield "features", [f"{label}: {value}" for label, value in found.features.described(lang)]
-    alphabet = joint_alphabet(lang)
+    alphabet = Alphabet.of_language(lang)
     if found.drives is None:
         yield "drive", [say("hand")]
     else:

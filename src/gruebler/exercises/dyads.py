@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.exercises.solution import Solution, SolutionBuilder, SolutionStep, Value
 from gruebler.mechanism import Mechanism
 from gruebler.mechanism.inversion import family
 from gruebler.mobility import count_freedoms, counted, mobility_report
-from gruebler.text import Text, in_every_language, joined_by_and, joint_alphabet, message
+from gruebler.text import Text, in_every_language, joined_by_and, message
 from gruebler.transformations import Extension, extend
 
 __all__ = ["coupler", "dyad"]
@@ -94,7 +95,7 @@ def _numbered(start: Chain, extended: Chain) -> Chain:
 
 def _written(chain: Chain) -> Text:
     """The chain in the symbols of each language."""
-    return in_every_language(lambda lang: chain.text(joint_alphabet(lang)))
+    return in_every_language(lambda lang: chain.text(Alphabet.of_language(lang)))
 
 
 def _add_before(builder: SolutionBuilder, start: Chain) -> int:

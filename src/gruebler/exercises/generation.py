@@ -10,6 +10,7 @@ from random import Random
 from typing import NamedTuple
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.enumeration import chains
 from gruebler.errors import GrueblerError
 from gruebler.exercises.solution import figure
@@ -18,7 +19,7 @@ from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.mobility import counted, mobility_report
-from gruebler.text import Message, Text, in_every_language, joined, joined_by_and, joint_alphabet, message
+from gruebler.text import Message, Text, in_every_language, joined, joined_by_and, message
 
 __all__ = ["KINDS", "LEVELS", "generate", "generated_from_id", "is_generated"]
 
@@ -116,7 +117,7 @@ def _mobility(random: Random, level: int) -> _Draft:
 
 def _written(chain: Chain) -> Text:
     """The chain in the symbols of each language."""
-    return in_every_language(lambda lang: chain.text(joint_alphabet(lang)))
+    return in_every_language(lambda lang: chain.text(Alphabet.of_language(lang)))
 
 
 def _shuffled(random: Random, chain: Chain) -> Chain:

@@ -19,7 +19,7 @@ from gruebler.exercises.solution import Table, Value
 from gruebler.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
 from gruebler.geneva import Geneva
 from gruebler.linkages import Linkage
-from gruebler.text import Message, Text, arity, in_every_language, joined, joint_alphabet, message
+from gruebler.text import Message, Text, arity, in_every_language, joined, message
 
 __all__ = ["TABLES", "teaching_table"]
 
@@ -58,7 +58,7 @@ def _joint_row(kind: Pair) -> tuple[Value, ...]:
         str(len(spatial)) if spatial else "-",
         str(6 - len(spatial)) if spatial else "-",
         str(len(planar)) if planar else "-",
-        in_every_language(lambda lang: kind.symbols.get(Alphabet(joint_alphabet(lang)), "-")),
+        in_every_language(lambda lang: kind.symbols.get(Alphabet.of_language(lang), "-")),
         Text(kind.name.replace("_", " "), kind.german),
         _CONTACTS[kind.contact],
         joined(_CLOSURES[closure.value] for closure in kind.closures),

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.mechanism import Mechanism
-from gruebler.text import arity, joint_alphabet, message, translate
+from gruebler.text import arity, message, translate
 
 __all__ = ["chain_name", "describe", "title"]
 
@@ -53,7 +54,7 @@ def describe(thing: Chain | Mechanism, lang: str = "en") -> str:
     'Links: 3 (binary: 3). Joints: 3. Independent loops: 1. R(0-1) R(1-2) R(2-0).'
     """
     chain = thing if isinstance(thing, Chain) else thing.chain
-    alphabet = joint_alphabet(lang)
+    alphabet = Alphabet.of_language(lang)
     kinds = ", ".join(f"{arity(k, lang)}: {n}" for k, n in chain.link_kinds.items())
     parts = [
         translate(
