@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element
 from xml.sax.saxutils import quoteattr
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
+from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, with_slot_ends
 from gruebler.formats.text_files import parse_xml, read_number
 from gruebler.text import Message, message
 
@@ -26,7 +26,7 @@ __all__ = ["drawing_from_linkage2", "linkage2_from_drawing"]
 _FRAME = "frame"
 _UNITS = {"millimeters": "mm", "inches": "in"}
 _MECHANISM_LAYER = 16
-_ON_LINE = 1e-9  # of the size
+_ON_LINE = 1e-9  # of the length
 _LINK_TAGS = ("Link", "element")
 
 
@@ -168,105 +168,54 @@ def _slot(
 
 def linkage2_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     """The text of a ``.linkage2`` file; the limits of slots are further points of the links that have them."""
-    writer = _Writer(drawing)
+    driven = {drive.joint: drive for drive in drawing.drives or ()}
+    actuators = {
+        joint.links[0]: joint.name for joint in drawing.joints if joint.name in driven and _cylinder(drawing, joint)
+    }
+    joints = tuple(replace(joint, slot=None) if joint.name in actuators.values() else joint for joint in drawing.joints)
+    drawing, slots = with_slot_ends(replace(drawing, joints=joints))
+    numbers = {joint.name: number for number, joint in enumerate(drawing.joints)}
+    members: dict[str, list[str]] = {}
+    lines = []
     for joint in drawing.joints:
-        writer.put(joint)
-    undriven = [drive.joint for drive in drawing.drives or () if drive.joint not in writer.driven]
-    if undriven:
-        left_out.append(message("drives of joints {joints}", joints=", ".join(undriven)))
+        links = list(joint.links if joint.slot is None else joint.links[1:])
+        drive = driven.get(joint.name)
+        turned = drive is not None and joint.slot is None and drive.fixed == drawing.frame
+        if drive is not None and (turned or joint.name in actuators.values()):
+            del driven[joint.name]
+        if drive is not None and turned:
+            links.sort(key=lambda link: link != drive.moved)
+        for link in links:
+            if link != drawing.frame or len(links) == 1:
+                members.setdefault(link, []).append(joint.name)
+        attributes = [f'id="{numbers[joint.name]}"', f'x="{joint.x!r}"', f'y="{joint.y!r}"']
+        attributes += [f"name={quoteattr(joint.name)}"] + ['anchor="true"'] * (drawing.frame in links)
+        attributes += ['input="true"'] * turned + ['slider="true"'] * (joint.slot is not None)
+        limits = "".join(f'\n\t\t<slidelimit id="{numbers[end]}"/>' for end in slots.get(joint.name, ()))
+        end = f">{limits}\n\t</connector>" if limits else "/>"
+        lines.append(f"\t<connector {' '.join(attributes)}{end}")
+    if len(members.get(drawing.frame, ())) == 1:
+        del members[drawing.frame]  # an anchor without link
+    for number, (link, mine) in enumerate(members.items()):
+        actuator = ' actuator="true"' if link in actuators else ""
+        lines.append(f'\t<Link id="{number}" name={quoteattr(link)}{actuator}>')
+        lines += [f'\t\t<connector id="{numbers[member]}"/>' for member in mine]
+        lines.append("\t</Link>")
+    if driven:
+        left_out.append(message("drives of joints {joints}", joints=", ".join(driven)))
     if drawing.unit not in _UNITS.values():
         left_out.append(message("the unit {unit}", unit=drawing.unit))
-    return writer.text()
+    units = {name: word.capitalize() for word, name in _UNITS.items()}.get(drawing.unit, "Millimeters")
+    program = f'\t<program zoom="1" xoffset="0" yoffset="0" scalefactor="1" units="{units}"/>'
+    return "\n".join(["<linkage2>", program, *lines, "</linkage2>"]) + "\n"
 
 
-class _Writer:
-    """Connectors and links of a file, numbered as they come."""
-
-    def __init__(self, drawing: PinDrawing) -> None:
-        self.drawing = drawing
-        self.driven: set[str] = set()
-        self._connectors: list[str] = []
-        self._members: dict[str, list[int]] = {}
-        self._drives = {drive.joint: drive for drive in drawing.drives or ()}
-        places = [(joint.x, joint.y) for joint in drawing.joints]
-        xs, ys = zip(*places, strict=True)
-        self._reach = (max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0) / 2
-        self._actuators = {
-            joint.links[0]: joint for joint in drawing.joints if joint.name in self._drives and self._cylinder(joint)
-        }
-
-    def _cylinder(self, joint: DrawnJoint) -> bool:
-        """Whether a driven slot is all that its link has, but for a pin on its line: then they are an actuator."""
-        base = joint.links[0]
-        others = [other for other in self.drawing.joints if base in other.links and other is not joint]
-        if joint.slot is None or not joint.turns or base == self.drawing.frame or len(others) != 1:
-            return False
-        pin = others[0]
-        across = cos(joint.slot) * (pin.y - joint.y) - sin(joint.slot) * (pin.x - joint.x)
-        return pin.slot is None and len(pin.links) > 1 and abs(across) <= _ON_LINE * self._reach
-
-    def put(self, joint: DrawnJoint) -> None:
-        """A joint as connectors."""
-        frame = self.drawing.frame
-        actuator = self._actuators.get(joint.links[0]) is joint
-        if actuator:  # an end of a link that changes its length
-            self.driven.add(joint.name)
-            joint = replace(joint, slot=None)
-        base = None if joint.slot is None else joint.links[0]
-        links = joint.links if base is None else joint.links[1:]
-        drive = self._drives.get(joint.name)
-        anchor = frame in links
-        driven = drive is not None and base is None and anchor and drive.fixed == frame
-        if driven:
-            self.driven.add(joint.name)
-        limits = () if joint.slot is None or base is None else self._limits(joint, base, joint.slot)
-        if driven and drive is not None:
-            links = (drive.moved, *(link for link in links if link != drive.moved))
-        self._connector(joint.name, joint.x, joint.y, links, anchor=anchor, driven=driven, limits=limits)
-        if joint.slot is not None and not joint.turns:  # a second pin in the slot keeps it from turning
-            x, y = joint.x + self._reach / 2 * cos(joint.slot), joint.y + self._reach / 2 * sin(joint.slot)
-            self._connector("", x, y, links, anchor=anchor, limits=limits)
-
-    def _limits(self, joint: DrawnJoint, base: str, slot: float) -> tuple[int, ...]:
-        """The numbers of two new connectors at the ends of a slot."""
-        dx, dy = self._reach * cos(slot), self._reach * sin(slot)
-        anchor = base == self.drawing.frame
-        return tuple(
-            self._connector("", joint.x + side * dx, joint.y + side * dy, (base,), anchor=anchor) for side in (-1, 1)
-        )
-
-    def _connector(
-        self,
-        name: str,
-        x: float,
-        y: float,
-        links: tuple[str, ...],
-        *,
-        anchor: bool,
-        driven: bool = False,
-        limits: tuple[int, ...] = (),
-    ) -> int:
-        number = len(self._connectors)
-        for link in links:
-            if link != self.drawing.frame or len(links) == 1:
-                self._members.setdefault(link, []).append(number)
-        attributes = [f'id="{number}"', f'x="{x!r}"', f'y="{y!r}"']
-        attributes += [f"name={quoteattr(name)}"] * bool(name) + ['anchor="true"'] * anchor
-        attributes += ['input="true"'] * driven + ['slider="true"'] * bool(limits)
-        inner = "".join(f'\n\t\t<slidelimit id="{limit}"/>' for limit in limits)
-        end = f">{inner}\n\t</connector>" if limits else "/>"
-        self._connectors.append(f"\t<connector {' '.join(attributes)}{end}")
-        return number
-
-    def text(self) -> str:
-        """The whole file."""
-        units = {name: word.capitalize() for word, name in _UNITS.items()}.get(self.drawing.unit, "Millimeters")
-        lines = ["<linkage2>", f'\t<program zoom="1" xoffset="0" yoffset="0" scalefactor="1" units="{units}"/>']
-        lines += self._connectors
-        members = {link: mine for link, mine in self._members.items() if link != self.drawing.frame or len(mine) > 1}
-        for number, (link, mine) in enumerate(members.items()):
-            actuator = f' actuator="true" throw="{self._reach!r}"' if link in self._actuators else ""
-            lines.append(f'\t<Link id="{number}" name={quoteattr(link)}{actuator}>')
-            lines += [f'\t\t<connector id="{member}"/>' for member in mine]
-            lines.append("\t</Link>")
-        return "\n".join([*lines, "</linkage2>"]) + "\n"
+def _cylinder(drawing: PinDrawing, joint: DrawnJoint) -> bool:
+    """Whether a driven slot is all that its link has, but for a pin on its line: then they are an actuator."""
+    base = joint.links[0]
+    others = [other for other in drawing.joints if base in other.links and other is not joint]
+    if joint.slot is None or not joint.turns or base == drawing.frame or len(others) != 1:
+        return False
+    pin = others[0]
+    across = cos(joint.slot) * (pin.y - joint.y) - sin(joint.slot) * (pin.x - joint.x)
+    return pin.slot is None and len(pin.links) > 1 and abs(across) <= _ON_LINE * hypot(pin.x - joint.x, pin.y - joint.y)

@@ -25,7 +25,7 @@ from gruebler.linkages.elements import direction
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.text import Message, message
 
-__all__ = ["DrawnDrive", "DrawnJoint", "PinDrawing", "drawing_of", "linkage_of"]
+__all__ = ["DrawnDrive", "DrawnJoint", "PinDrawing", "drawing_of", "linkage_of", "with_slot_ends"]
 
 _MOST = 3000  # joints, and links; real mechanisms have fewer than a hundred
 _MOST_AT_A_PIN = 60
@@ -378,6 +378,37 @@ def _pins_in_slots(lower: Linkage, placed: Sequence[DrawnJoint]) -> dict[int, in
         if abs(across) <= _SAME * lower.size and base not in pin.links:
             found[others[0]] = slide
     return found
+
+
+def with_slot_ends(drawing: PinDrawing) -> tuple[PinDrawing, dict[str, tuple[str, str]]]:
+    """The same drawing for formats in which a slot runs between two points of its link; and the ends of each slot.
+
+    The ends are further points, and a slide has two pins in the slot, which keep it from turning.
+
+    >>> slide = DrawnJoint("A", 0.0, 0.0, ("frame", "block"), 0.0, turns=False)
+    >>> drawing, slots = with_slot_ends(PinDrawing("frame", (slide, DrawnJoint("B", 4.0, 0.0, ("block",)))))
+    >>> [(joint.name, joint.x, joint.slot) for joint in drawing.joints if joint.slot is not None], slots["A"]
+    ([('A', 0.0, 0.0), ('A pin', 1.0, 0.0)], ('A start', 'A end'))
+    """
+    reach = _extent(drawing.joints) / 2
+    joints: list[DrawnJoint] = []
+    slots: dict[str, tuple[str, str]] = {}
+    for joint in drawing.joints:
+        if joint.slot is None:
+            joints.append(joint)
+            continue
+        dx, dy = reach * cos(joint.slot), reach * sin(joint.slot)
+        ends = (f"{joint.name} start", f"{joint.name} end")
+        base = joint.links[:1]
+        joints.append(DrawnJoint(ends[0], joint.x - dx, joint.y - dy, base))
+        joints.append(DrawnJoint(ends[1], joint.x + dx, joint.y + dy, base))
+        joints.append(replace(joint, turns=True))
+        slots[joint.name] = ends
+        if not joint.turns:
+            pin = replace(joint, name=f"{joint.name} pin", x=joint.x + dx / 2, y=joint.y + dy / 2, turns=True)
+            joints.append(pin)
+            slots[pin.name] = ends
+    return replace(drawing, joints=tuple(joints)), slots
 
 
 def _posed(linkage: Linkage) -> Linkage:
