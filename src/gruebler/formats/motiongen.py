@@ -1,9 +1,9 @@
 """Mechanisms of MotionGen: JSON of the matrices B, S, I, of the places p and of the coupler points c.
 
-``B[body][joint]`` is 1 where a body has a joint, body 0 is the frame; ``S`` has ``[end, pin, end, body]`` for a pin in a
-slot between two joints of a body; ``I`` has ``[a, pivot, b, 0]`` for a driven angle and ``[end, pin, end, 1]`` for a
-pin that is driven along a slot; ``p`` are the places, ``c`` is 1 for points to look at. Source: the program's
-structures for path synthesis (BSIdict_468.json, datasetProcess.py).
+``B[body][joint]`` is 1 where a body has a joint, body 0 is the frame; ``S`` has ``[end, pin, end, body]`` for a
+pin in a slot between two joints of a body; ``I`` has ``[a, pivot, b, 0]`` for a driven angle and
+``[end, pin, end, 1]`` for a pin that is driven along a slot; ``p`` are the places, ``c`` is 1 for points to look at.
+Source: the program's structures for path synthesis (BSIdict_468.json, datasetProcess.py).
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def drawing_from_motiongen(document: Any, left_out: list[Message]) -> PinDrawing
     except msgspec.ValidationError as error:
         raise GrueblerError("is no mechanism of MotionGen: {reason}", reason=error) from None
     count = len(record.p)
-    if any(len(row) != count or not set(row) <= {0, 1} for row in record.B):
+    if not record.B or any(len(row) != count or not set(row) <= {0, 1} for row in record.B):
         raise GrueblerError("B: expected rows of 0 and 1, as many in each as places p: {count}", count=count)
     bodies = [_FRAME, *(f"body {number}" for number in range(1, len(record.B)))]
     for name, rows in (("S", record.S), ("I", record.I)):
