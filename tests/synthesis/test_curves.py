@@ -107,14 +107,16 @@ def test_closing_conditions_against_differences(text):
     linkage = realise(Mechanism.parse(text), seed=1).linkage
     closure = DesignClosure(linkage)
     q, p = closure.poses(circuit(linkage).at([0.3, 0.9])), closure.sizes
-    made = closure.slopes(q, p)
-    assert np.abs(made.gaps).max() < 1e-11 * linkage.size
-    for matrix, count, by_pose in ((made.by_pose, closure.unknowns, True), (made.by_sizes, len(p), False)):
+    joined = closure.joined(q, p)
+    assert np.abs(closure.gaps(joined)).max() < 1e-11 * linkage.size
+    every = np.broadcast_to(np.eye(closure.equations), (len(q), closure.equations, closure.equations))
+    by_sizes = closure.weighted_by_sizes(joined, every)
+    for matrix, count, by_pose in ((closure.by_pose(joined), closure.unknowns, True), (by_sizes, len(p), False)):
         for k in range(count):
             step = np.zeros(count)
             step[k] = 1e-6
             moved = [(q + s * step, p) if by_pose else (q, p + s * step) for s in (1, -1)]
-            gaps = [closure.slopes(*pair).gaps for pair in moved]
+            gaps = [closure.gaps(closure.joined(*pair)) for pair in moved]
             assert matrix[:, :, k] == pytest.approx((gaps[0] - gaps[1]) / 2e-6, abs=1e-5)
 
 
@@ -125,7 +127,8 @@ def test_poses_change_with_dimensions_as_derived(text):
     closure = DesignClosure(linkage)
     size = linkage.size
     q, p = closure.poses(circuit(linkage).at([0.4])), closure.sizes
-    motion, by_sizes = closure.tangents(q, p, size=size)
+    derivatives = closure.derivatives(q, p, size=size)
+    by_sizes = derivatives.gradient(np.eye(closure.unknowns)[None])
     for k in range(len(p)):
         step = np.zeros(len(p))
         step[k] = 1e-6 * size
@@ -134,7 +137,8 @@ def test_poses_change_with_dimensions_as_derived(text):
         across = (moved - q)[0] - by_sizes[0] @ step
         weights = np.tile([1 / size, 1 / size, 1], len(closure.links))
         assert np.abs(weights * across).max() < 1e-8  # of second order in the step
-    assert closure.slopes(q + 1e-6 * motion, p).gaps == pytest.approx(0, abs=1e-9 * size)
+    moved = closure.joined(q + 1e-6 * derivatives.motion, p)
+    assert closure.gaps(moved) == pytest.approx(0, abs=1e-9 * size)
 
 
 def test_a_six_bar_follows_a_figure_eight_better_than_a_four_bar():

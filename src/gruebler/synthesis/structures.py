@@ -234,27 +234,28 @@ def _improved(closure: DesignClosure, state: _State, z: Complexes, size: float) 
     damping = 1e-3
     for _ in range(_STEPS):
         c = closure.column[state.link]
-        motion, by_sizes = closure.tangents(state.q, state.p, size=size)
+        derivatives = closure.derivatives(state.q, state.p, size=size)
         turn = np.exp(1j * state.q[:, c + 2])
         arm = turn * complex(state.u, state.v)
         rest = state.q[:, c] + 1j * state.q[:, c + 1] + arm - z
         by_pose = np.zeros((len(z), closure.unknowns), np.complex128)
         by_pose[:, c], by_pose[:, c + 1], by_pose[:, c + 2] = 1.0, 1j, 1j * arm
-        along = np.einsum("nk,nk->n", by_pose, motion)
-        slopes = np.concatenate(
-            [np.einsum("nk,nkm->nm", by_pose, by_sizes), turn[:, None], (1j * turn)[:, None]], axis=1
-        )
-        normal = 1j * along / np.maximum(np.abs(along), 1e-12 * size)
-        value = np.real(np.conj(normal) * rest)
-        matrix = np.real(np.conj(normal)[:, None] * slopes)
+        along = np.einsum("nk,nk->n", by_pose, derivatives.motion)
+        tangent = along / np.maximum(np.abs(along), 1e-12 * size)
+        # Of each point the distance across the path and that along it, by dimensions and the point's place on the link.
+        sides = np.stack([np.conj(1j * tangent), np.conj(tangent)], axis=1)
+        by_point = np.real(sides[:, :, None] * np.stack([turn, 1j * turn], axis=1)[:, None, :])
+        by_sizes = derivatives.gradient(np.real(sides[:, :, None] * by_pose[:, None, :]))
+        slopes = np.concatenate([by_sizes, by_point], axis=2)
+        value, matrix = np.real(sides[:, 0] * rest), slopes[:, 0]
         gram = matrix.T @ matrix
         right = matrix.T @ value
         weight = np.diag(gram).mean() + 1e-30
         step = -np.linalg.solve(gram + damping * weight * np.eye(len(gram)), right)
-        slide = -np.real(np.conj(along) * (rest + slopes @ step)) / np.maximum(np.abs(along) ** 2, 1e-9 * size**2)
+        slide = -(np.real(sides[:, 1] * rest) + slopes[:, 1] @ step) / np.maximum(np.abs(along), 1e-9 * size)
         trial = _State(
             state.p + step[:-2],
-            state.q + np.einsum("nkm,m->nk", by_sizes, step[:-2]) + np.clip(slide, -0.2, 0.2)[:, None] * motion,
+            state.q + np.clip(slide, -0.2, 0.2)[:, None] * derivatives.motion,
             state.link,
             state.u + float(step[-2]),
             state.v + float(step[-1]),
