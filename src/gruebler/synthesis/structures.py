@@ -20,6 +20,7 @@ from gruebler.kinematics import circuit
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 from gruebler.synthesis.closure import DesignClosure
+from gruebler.synthesis.curve_matching import resampled
 from gruebler.synthesis.judging import Demands, judge_design, point_targets
 from gruebler.synthesis.positions import ranked
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
@@ -177,8 +178,6 @@ def _start(
     closure: DesignClosure, q: Reals, z: Complexes, closed: bool, rng: np.random.Generator, links: Sequence[str]
 ) -> _State | None:
     """The point whose path is most like the target, everything turned, scaled and shifted onto it."""
-    from gruebler.synthesis.curves import _resampled
-
     count = len(q)
     lengths = [count] if closed else [count // 6, count // 4, count // 3, count // 2]
     best: tuple[float, str, complex, int, int, bool, complex, complex] | None = None
@@ -189,7 +188,7 @@ def _start(
         for w in reach * rng.uniform(0, 1.2, _POINTS) ** 0.7 * np.exp(2j * pi * rng.uniform(0, 1, _POINTS)):
             curve = origin + turn * w
             for length in lengths:
-                target, _ = _resampled(z, closed, length)
+                target, _ = resampled(z, length, closed=closed)
                 for back in (False, True):
                     wanted = target[::-1] if back else target
                     for begin in range(0, count, 4):
@@ -205,7 +204,7 @@ def _start(
     if best is None:
         return None
     _, link, w, begin, length, back, turned, shift = best
-    _, parts = _resampled(z, closed, length)
+    _, parts = resampled(z, length, closed=closed)
     along = (1 - parts) if back else parts
     rows = (begin + np.round(along * (length if closed else length - 1)).astype(int)) % count
     p, chosen = closure.sizes.copy(), q[rows].copy()
