@@ -11,19 +11,22 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import partial
 from math import isnan, pi
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.kinematics import circuit
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 from gruebler.synthesis.closure import DesignClosure
-from gruebler.synthesis.curve_matching import resampled
+from gruebler.synthesis.curve_matching import best_matches, drive_angles, resampled
 from gruebler.synthesis.judging import Demands, judge_design, point_targets
 from gruebler.synthesis.positions import ranked
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
@@ -81,14 +84,15 @@ def synthesise_structures(
     Cost: 0.3 to 2 s a start of a six-bar.
     """
     wanted = demands or Demands()
-    jobs = [(mechanism, seed) for mechanism in structures for seed in range(starts)]
-    if not jobs:
-        raise SynthesisError("structures: expected at least one mechanism")
-    for mechanism, _ in jobs:
+    mechanisms = tuple(structures)
+    if not mechanisms or starts < 1:
+        raise SynthesisError("structures: expected at least one mechanism and one start")
+    for mechanism in mechanisms:
         if len(mechanism.drives) > 1:
             raise SynthesisError(
                 f"a path is fitted with one drive, but {mechanism.text()!r} has {len(mechanism.drives)}"
             )
+    jobs = [job for mechanism in mechanisms for job in _jobs(task, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
     found = list(map(work, jobs) if executor is None else executor.map(work, jobs))
     made = [design for designs in found for design in designs]
@@ -115,10 +119,97 @@ def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
     return tuple(sorted(best, key=lambda row: row.error))
 
 
-def _fitted(task: PathTask, demands: Demands, link: str, job: tuple[Mechanism, int]) -> list[Design]:
-    mechanism, seed = job
-    design = fit_structure(task, mechanism, demands, seed=seed, link=link)
+class _AtlasStart(NamedTuple):
+    """A linkage of the atlas of a structure, placed on the target."""
+
+    drawn: Complexes
+    """(joints,) where the joints lie in the drawing."""
+    turned: Reals
+    """(points,) how far the crank has turned from the drawing at each point."""
+    link: str
+    point: complex
+
+
+class _Job(NamedTuple):
+    mechanism: Mechanism
+    seed: int
+    start: _AtlasStart | None
+    """From the atlas; without one the mechanism is realised."""
+
+
+def _jobs(task: PathTask, mechanism: Mechanism, starts: int, link: str) -> list[_Job]:
+    """The starts of one mechanism: from the atlas of its structure if it has one, else so many realisations."""
+    near = _atlas_starts(task, mechanism, starts, link)
+    if near:
+        return [_Job(mechanism, seed, start) for seed, start in enumerate(near)]
+    return [_Job(mechanism, seed, None) for seed in range(starts)]
+
+
+def _atlas_starts(task: PathTask, mechanism: Mechanism, number: int, link: str) -> list[_AtlasStart]:
+    """The linkages of the atlas whose curves are most like the target, no drawing twice."""
+    structure = dyad_structure(mechanism)
+    if structure is None or not structure.coupler_links or (link and link not in structure.coupler_links):
+        return []
+    book = structure_atlas(structure)
+    own = np.arange(len(book.z)) if not link else np.flatnonzero(book.link == structure.coupler_links.index(link))
+    out: list[_AtlasStart] = []
+    seen: set[bytes] = set()
+    for match in best_matches(book.z[own], task.z, 4 * number, closed=task.closed):
+        n = int(own[match.number])
+        places = match.turn * np.append(book.drawn[n], book.point[n]) + match.shift
+        turned = drive_angles(book.turned[n], match.at)
+        if match.mirrored:
+            places, turned = np.conj(places), -turned
+        if (name := book.drawn[n].tobytes()) not in seen and len(out) < number:
+            seen.add(name)
+            out.append(_AtlasStart(places[:-1], turned, structure.coupler_links[book.link[n]], complex(places[-1])))
+    return out
+
+
+def _fitted(task: PathTask, demands: Demands, link: str, job: _Job) -> list[Design]:
+    if job.start is None:
+        design = fit_structure(task, job.mechanism, demands, seed=job.seed, link=link)
+    else:
+        design = _fitted_drawing(task, job.mechanism, demands, job.start)
     return [] if design is None else [design]
+
+
+def _fitted_drawing(task: PathTask, mechanism: Mechanism, demands: Demands, start: _AtlasStart) -> Design | None:
+    """A linkage of the atlas improved."""
+    structure = dyad_structure(mechanism)
+    assert structure is not None
+    names = mechanism.chain.joint_names()
+    places: dict[str | int, object] = {name: (z.real, z.imag) for name, z in zip(names, start.drawn, strict=True)}
+    drawing = Linkage.from_drawing(mechanism, places, {"P": (start.link, start.point.real, start.point.imag)})
+    closure = DesignClosure(drawing)
+    motions = link_motions(structure, start.drawn, start.turned)
+    q = np.empty((len(task), closure.unknowns))
+    assert drawing.reference_pose is not None
+    for link, c in closure.column.items():
+        pose = drawing.reference_pose[link]
+        rotation, shift = motions[link]
+        z = rotation * complex(pose.x, pose.y) + shift
+        q[:, c], q[:, c + 1], q[:, c + 2] = z.real, z.imag, pose.angle + np.unwrap(np.angle(rotation))
+    point = drawing.points["P"]
+    state = _State(closure.sizes, q, start.link, point.x, point.y)
+    return _judged(task, demands, closure, _improved(closure, state, task.z, _reach(task)), drawing.outputs)
+
+
+def _reach(task: PathTask) -> float:
+    return float(np.abs(task.z - task.z.mean()).max())
+
+
+def _judged(
+    task: PathTask, demands: Demands, closure: DesignClosure, state: _State, outputs: tuple[str, ...]
+) -> Design | None:
+    """The design of an improved state; None if its dimensions are none."""
+    try:
+        linkage = closure.with_sizes(state.p, {"P": (state.link, state.u, state.v)}, state.q[0]).with_outputs(outputs)
+    except LinkageError:
+        return None
+    limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
+    targets = point_targets("P", task.z, float(max(np.ptp(task.z.real), np.ptp(task.z.imag))))
+    return judge_design(linkage, targets, replace(demands, tolerance=limit), f"{len(closure.links) + 1} links")
 
 
 def fit_structure(
@@ -133,8 +224,6 @@ def fit_structure(
         seed: of the realisation and the points that are tried.
         link: that carries the point; the one with the most similar path without it.
     """
-    wanted = demands or Demands()
-    limit = wanted.tolerance if wanted.tolerance > 1e-6 else ACCEPTED
     first = realise(mechanism, seed=seed, budget=300)
     if first.linkage is None:
         return None
@@ -145,22 +234,13 @@ def fit_structure(
     closure = DesignClosure(first.linkage)
     if link and link not in closure.column:
         raise SynthesisError(f"the link that carries the point is one of {', '.join(closure.links)}, not {link!r}")
-    z = task.z
-    size = float(np.abs(z - z.mean()).max())
     arcs = np.linspace(0, course.length, 2 * _SAMPLES + 1)[:-1]
     q = closure.poses(course.at(arcs))
-    start = _start(closure, q, z, task.closed, np.random.default_rng(seed), (link,) if link else closure.links)
+    start = _start(closure, q, task.z, task.closed, np.random.default_rng(seed), (link,) if link else closure.links)
     if start is None:
         return None
-    state = _improved(closure, start, z, size)
-    try:
-        linkage = closure.with_sizes(state.p, {"P": (state.link, state.u, state.v)}, state.q[0])
-    except LinkageError:
-        return None
-    linkage = linkage.with_outputs(first.linkage.outputs)
-    extent = float(max(np.ptp(z.real), np.ptp(z.imag)))
-    targets = point_targets("P", z, extent)
-    return judge_design(linkage, targets, replace(wanted, tolerance=limit), f"{len(closure.links) + 1} links")
+    state = _improved(closure, start, task.z, _reach(task))
+    return _judged(task, demands or Demands(), closure, state, first.linkage.outputs)
 
 
 @dataclass
