@@ -192,7 +192,7 @@ def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> 
 
     mechanism = mechanism_of(arguments.structure, None, [])
     driven = mechanism if mechanism.drives else with_drives(mechanism)
-    return synthesise_structures(task, [driven], demands, starts=arguments.number or 4, link=arguments.link)
+    return synthesise_structures(task, [driven], demands, starts=arguments.number, link=arguments.link)
 
 
 def _progress(word: str) -> Callable[[int, int], None] | None:
