@@ -273,6 +273,24 @@ def test_moved_points_have_moved_designs(angle, scale, mirror):
     assert moved[1] == plain[1]
 
 
+@pytest.mark.parametrize(
+    ("points", "sentence"),
+    [
+        ([(k, 2 * k + 1) for k in range(9)], "9 of the points lie on one line"),
+        ([(k, 0) for k in range(7)] + [(3, 1), (4, 2)], "7 of the points lie on one line"),
+        ([(5 + np.cos(k), np.sin(k)) for k in range(9)], "9 of the points lie on one circle"),
+    ],
+)
+def test_more_points_on_a_line_or_circle_than_a_coupler_curve_has(points, sentence):
+    with pytest.raises(SynthesisError, match=sentence):
+        synthesise_path(PathTask(points))
+
+
+def test_five_points_on_a_line_are_no_special_task():
+    found = synthesise_path(PathTask([(k + 0.1 * k * k, 0) for k in range(5)], fixed_pivots=[(0, -3), (4, -2)]))
+    assert found.count.found > 0
+
+
 def test_what_does_not_go_together_is_refused():
     with pytest.raises(SynthesisError, match="crank angles go with points alone"):
         synthesise_path(PathTask([(0, 0), (1, 1), (2, 1)], crank_angles=(0, 1, 2), fixed_pivots=[(0, 1), (2, 2)]))

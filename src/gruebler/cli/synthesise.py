@@ -39,12 +39,13 @@ _WORDS: dict[str, dict[str, Any]] = {
         "count": "Solutions: {theorem} by theorem ({what}), {found} found, {real} real.",
         "infinite": "infinitely many",
         "designs": "Designs: {accepted} accepted, {rejected} rejected.",
-        "columns": ("design", "drive", "full turn", "transmission", "lengths", "error"),
+        "columns": ("design", "drive", "full turn", "transmission", "pin distances, link by link", "error"),
         "rejected": ("rejected", "reason"),
         "none": "None of the designs examined meets the task.",
         "yes": "yes",
         "no": "no",
         "written": "Written: {path}",
+        "unwritten": "{path} is not written: no design was accepted.",
         "paths": "paths",
         "minimax": "Minimax optimum: largest error {error} (from {start}); lengths {lengths}; input from {phi}, "
         "output from {psi}.",
@@ -53,12 +54,13 @@ _WORDS: dict[str, dict[str, Any]] = {
         "count": "Lösungen: {theorem} nach dem Satz ({what}), {found} gefunden, {real} reell.",
         "infinite": "unendlich viele",
         "designs": "Entwürfe: {accepted} angenommen, {rejected} verworfen.",
-        "columns": ("Entwurf", "Antrieb", "umlaufend", "Übertragungswinkel", "Längen", "Fehler"),
+        "columns": ("Entwurf", "Antrieb", "umlaufend", "Übertragungswinkel", "Gelenkabstände je Glied", "Fehler"),
         "rejected": ("verworfen", "Grund"),
         "none": "Keiner der untersuchten Entwürfe erfüllt die Aufgabe.",
         "yes": "ja",
         "no": "nein",
         "written": "Geschrieben: {path}",
+        "unwritten": "{path} wird nicht geschrieben: Kein Entwurf wurde angenommen.",
         "paths": "Pfade",
         "minimax": "Minimax-Optimum: größter Fehler {error} (vorher {start}); Längen {lengths}; Antrieb ab {phi}, "
         "Abtrieb ab {psi}.",
@@ -100,6 +102,9 @@ def run(arguments: argparse.Namespace) -> int:
     if result.designs and arguments.draw is not None:
         _draw(arguments.draw, result, arguments.lang)
         _say(arguments, words["written"].format(path=arguments.draw))
+    for path in (arguments.output, arguments.draw):
+        if path is not None and not result.designs:
+            _say(arguments, words["unwritten"].format(path=path))
     return 0 if result.designs else 1
 
 

@@ -32,6 +32,7 @@ QUICK, CAREFUL = 1e-3, 1e-6
 """How far the corrector may change a prediction: at first, and when paths are followed again."""
 _BENDS = (0.02, 0.1, 0.4)
 """How far bent ways lead aside, relative to the task; the last is for all solutions, not only those that were lost."""
+_FEW = 0.05  # where more than this part of the paths is lost, the task itself is special, not the way to it
 _SAME = 1e-7  # relative: solutions nearer to each other are one
 
 
@@ -195,7 +196,7 @@ def solutions(
     lost = base.z[(status != ARRIVED) | _repeated(problem, ends, arrived)]
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
-        if len(finite) + infinite >= problem.classes:
+        if len(finite) + infinite >= problem.classes or len(lost) > _FEW * problem.classes:
             break
         # A way that is bent a little meets no singular task that the straight one passes too closely.
         middle = (base.parameters + p) / 2 + bend * _random_task(base.parameters, p, rng)

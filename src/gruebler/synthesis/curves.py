@@ -31,7 +31,7 @@ Complexes = NDArray[np.complex128]
 Ints = NDArray[np.int64]
 Progress = Callable[[int, int], None]
 
-_STEPS = 80
+_STEPS = 300
 ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
