@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler import notebook
+from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 
 __all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
-
-FloatArray = NDArray[np.float64]
 
 
 _MOST = 2_000
@@ -32,10 +31,10 @@ class GenevaError(GrueblerError):
 class GenevaMotion(NamedTuple):
     """The wheel's angle and its first three derivatives by the driver's angle, and whether the wheel rests."""
 
-    angle: FloatArray
-    ratio: FloatArray
-    acceleration: FloatArray
-    jerk: FloatArray
+    angle: Reals
+    ratio: Reals
+    acceleration: Reals
+    jerk: Reals
     dwell: NDArray[np.bool_]
 
 
@@ -50,6 +49,11 @@ class GenevaSizes(NamedTuple):
     """From the wheel's axis to the pin where it is deepest (external), or farthest out (internal)."""
     locking_arc: float
     """The angle of the locking disc between two pins, in radians."""
+
+
+def _whole(number: object, least: int) -> bool:
+    """Whether a number is whole and in its range."""
+    return isinstance(number, int) and not isinstance(number, bool) and least <= number <= _MOST
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,16 +72,26 @@ class Geneva:
     pins: int = 1
 
     def __post_init__(self) -> None:
-        for name, number, least in (("slots", self.slots, 3), ("pins", self.pins, 1)):
-            if not isinstance(number, int) or isinstance(number, bool) or number < least:
-                raise GenevaError(f"a Geneva drive has a whole number of {name}, at least {least}, not {number!r}")
-            if number > _MOST:
-                raise GenevaError(f"a Geneva drive has {_MOST:,} {name} at most, not {number:,}")
-        if self.pins > self.most_pins:
-            kind = "internal" if self.internal else "external"
+        if not _whole(self.slots, 3):
             raise GenevaError(
-                f"an {kind} Geneva drive with {self.slots} slots takes at most {self.most_pins} pins, not {self.pins}: "
-                "the next pin would enter before the last has left"
+                "a Geneva drive has a whole number of slots from 3 to {most:,}, not {slots!r}",
+                most=_MOST,
+                slots=self.slots,
+            )
+        if not _whole(self.pins, 1):
+            raise GenevaError(
+                "a Geneva drive has a whole number of pins from 1 to {most:,}, not {pins!r}", most=_MOST, pins=self.pins
+            )
+        if self.pins > self.most_pins:
+            raise GenevaError(
+                "an internal Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
+                "pin would enter before the last has left"
+                if self.internal
+                else "an external Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
+                "pin would enter before the last has left",
+                slots=self.slots,
+                most_pins=self.most_pins,
+                pins=self.pins,
             )
 
     @property
@@ -143,7 +157,7 @@ class Geneva:
         [70.711, 70.711, 29.289, 4.712]
         """
         if not isinstance(distance, int | float) or not 0 < distance < math.inf:
-            raise GenevaError(f"the distance of the centres is a positive length, not {distance!r}")
+            raise GenevaError("the distance of the centres is a positive length, not {distance!r}", distance=distance)
         lam = self.crank_ratio
         return GenevaSizes(
             crank=distance * lam,

@@ -18,12 +18,12 @@ from gruebler.formats.catalog_records import Entry
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.mobility import counted
+from gruebler.text import Text, arity, in_every_language
 from gruebler.type_synthesis import Requirements, expected_seconds_of_variants, typed_chains
 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 
 _SAME = ("links", "drive_joints", "drive_joints_at_frame", "output_links", "output_links_at_frame")
-_PLAIN = {"drive_joints": "drive joints", "output_links": "output links", "links": "links"}
 _EXCHANGED = ("prismatic", "rolling", "roll_slide")  # what the enumeration puts in the place of revolutes
 
 
@@ -50,17 +50,32 @@ class FeatureQuery:
     def __post_init__(self) -> None:
         for name in (*_SAME, "multiple_joints"):
             if (value := getattr(self, name)) is not None and value < 0:
-                raise GrueblerError(f"the number of {name.replace('_', ' ')} is 0 or more, not {value}")
+                raise GrueblerError(
+                    "{feature}: expected 0 or more, but found {number}", feature=name.replace("_", " "), number=value
+                )
         for name in ("drive_joints", "output_links"):
             total, part = getattr(self, name), getattr(self, f"{name}_at_frame")
             if total is not None and part is not None and part > total:
-                raise GrueblerError(f"{total} {_PLAIN[name]} cannot be {part} at the frame")
+                raise GrueblerError(
+                    "{total} drive joints cannot be {part} at the frame"
+                    if name == "drive_joints"
+                    else "{total} output links cannot be {part} at the frame",
+                    total=total,
+                    part=part,
+                )
         for k, number in self.kinds:
             if number < 0:
-                raise GrueblerError(f"the number of links with {k} joints is 0 or more, not {number}")
-        told = sum(number for _, number in self.kinds)
-        if self.links is not None and told > self.links:
-            raise GrueblerError(f"{self.links} links cannot be {_kinds_said(self.kinds)}: those are {told}")
+                raise GrueblerError(
+                    "the number of links with {joints} joints is 0 or more, not {number}", joints=k, number=number
+                )
+        total = sum(number for _, number in self.kinds)
+        if self.links is not None and total > self.links:
+            raise GrueblerError(
+                "{links} links cannot be {kinds} links: those are {total}",
+                links=self.links,
+                kinds=_in_words(self.kinds),
+                total=total,
+            )
 
     def fits(self, mechanism: Mechanism, features: AccessFeatures) -> bool:
         """Whether the mechanism with these features is wanted."""
@@ -93,9 +108,13 @@ def read_pairs(text: str) -> tuple[tuple[Pair, int], ...]:
     for part in text.split(","):
         symbol, colon, number = (piece.strip() for piece in part.partition(":"))
         if not symbol or not colon or not number.isdecimal():
-            raise GrueblerError(f"{text!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}")
+            raise GrueblerError(
+                "{query!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}",
+                query=text,
+                part=part,
+            )
         if symbol in numbers:
-            raise GrueblerError(f"{text!r}: {symbol} stands there twice")
+            raise GrueblerError("{query!r}: {symbol} stands there twice", query=text, symbol=symbol)
         numbers[symbol] = int(number)
     try:
         read = read_symbols(numbers, Space.PLANAR)
@@ -189,10 +208,16 @@ def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Dr
 def _check_roles(query: FeatureQuery, mobility: int) -> None:
     if query.drive_joints not in (None, 0, mobility):
         raise GrueblerError(
-            f"mobility {mobility} takes as many drives, which {query.drive_joints} drive joints are not"
+            "mobility {mobility} takes as many drives, which {drive_joints} drive joints are not",
+            mobility=mobility,
+            drive_joints=query.drive_joints,
         )
     if (query.drive_joints_at_frame or 0) > mobility:
-        raise GrueblerError(f"mobility {mobility} takes as many drives; {query.drive_joints_at_frame} are too many")
+        raise GrueblerError(
+            "mobility {mobility} takes as many drives; {drive_joints} are too many",
+            mobility=mobility,
+            drive_joints=query.drive_joints_at_frame,
+        )
     if max(query.output_links or 0, query.output_links_at_frame or 0) > 1:
         raise GrueblerError("mechanisms are enumerated with one output link at most")
     if query.drive_joints == 0 and (query.output_links or query.output_links_at_frame is not None):
@@ -206,26 +231,40 @@ def _requirements(query: FeatureQuery) -> Requirements:
     links, mobility = query.links, 1 if query.mobility is None else query.mobility
     if links < 3 or mobility < 0:
         raise GrueblerError(
-            f"mechanisms are enumerated from 3 links and F = 0, not with {links} links and F = {mobility}"
+            "mechanisms are enumerated from 3 links and F = 0, not with {links} links and F = {mobility}",
+            links=links,
+            mobility=mobility,
         )
     numbers = {kind.name: number for kind, number in query.pairs}
     for name, number in numbers.items():
         if number and name not in ("revolute", *_EXCHANGED):
-            raise GrueblerError(f"planar mechanisms are enumerated with R, P, W and G joints, not with {name}")
+            raise GrueblerError(
+                "planar mechanisms are enumerated with R, P, W and G joints, not with {name}", name=name
+            )
     contacts = numbers.get("roll_slide", 0)
     taken = 3 * (links - 1) - mobility  # 2 g1 + g2
-    where = f"{links} links with F = {mobility}"
+    asked = {"links": links, "mobility": mobility, "contacts": contacts}
     if (taken - contacts) % 2:
         raise GrueblerError(
-            f"{where}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 = {contacts} roll-slide joints"
+            "{links} links with F = {mobility}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 "
+            "= {contacts} roll-slide joints",
+            taken=taken,
+            **asked,
         )
     g1 = (taken - contacts) // 2
     others = sum(numbers.get(name, 0) for name in ("prismatic", "rolling"))
     if g1 < others or numbers.get("revolute", g1 - others) != g1 - others:
-        told = others + numbers.get("revolute", 0)
-        more = f": name the kinds of the other {g1 - told}" if told < g1 else ""
+        given = others + numbers.get("revolute", 0)
         raise GrueblerError(
-            f"{where} and {contacts} roll-slide joints have g1 = {g1}, but {told} such joints are asked for{more}"
+            "{links} links with F = {mobility} and {contacts} roll-slide joints have g1 = {g1}, but {given} "
+            "such joints are asked for: name the kinds of the other {missing}"
+            if given < g1
+            else "{links} links with F = {mobility} and {contacts} roll-slide joints have g1 = {g1}, but {given} such "
+            "joints are asked for",
+            g1=g1,
+            given=given,
+            missing=g1 - given,
+            **asked,
         )
     _check_kinds(query, g1 + contacts)
     complete = sum(number for _, number in query.kinds) == links
@@ -248,18 +287,27 @@ def _check_kinds(query: FeatureQuery, joints: int) -> None:
     fewest = next(k for k in count(2) if k not in dict(query.kinds))
     elements = fewest * others + sum(k * number for k, number in query.kinds)
     if elements > 2 * joints or (not others and elements != 2 * joints):
-        left = f" and {others} more with at least {fewest} joints" if others else ""
         raise GrueblerError(
-            f"{_kinds_said(query.kinds)}{left} have {elements} joint elements, but {query.links} links take {joints} "
-            f"joints, so 2 g = {2 * joints}"
+            "{kinds} links and {others} more with at least {fewest} joints have {elements} joint elements, but {links} "
+            "links take {joints} joints, so 2 g = {twice}"
+            if others
+            else "{kinds} links have {elements} joint elements, but {links} links take {joints} joints, so 2 g = "
+            "{twice}",
+            kinds=_in_words(query.kinds),
+            others=others,
+            fewest=fewest,
+            elements=elements,
+            links=query.links,
+            joints=joints,
+            twice=2 * joints,
         )
+
+
+def _in_words(kinds: tuple[tuple[int, int], ...]) -> Text:
+    """The numbers of links of each kind: 4 binary, 2 ternary."""
+    return in_every_language(lambda lang: ", ".join(f"{count} {arity(k, lang)}" for k, count in kinds))
 
 
 def _assortment(kinds: tuple[tuple[int, int], ...]) -> tuple[int, ...]:
     numbers = dict(kinds)
     return tuple(numbers.get(k, 0) for k in range(2, max(k for k, n in kinds if n) + 1))
-
-
-def _kinds_said(kinds: tuple[tuple[int, int], ...]) -> str:
-    names = {1: "singular", 2: "binary", 3: "ternary", 4: "quaternary"}
-    return ", ".join(f"{number} {names.get(k, f'{k}-joint')}" for k, number in kinds) + " links"

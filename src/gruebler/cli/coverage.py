@@ -18,11 +18,13 @@ import msgspec
 
 from gruebler.catalog import catalog_folder, entries
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError
+from gruebler.text import Message, message
 
-__all__ = ["Outcome", "Row", "coverage_rows", "execute", "find_function", "run"]
+__all__ = ["Outcome", "Row", "add", "coverage_rows", "execute", "find_function", "run"]
 
 
 class Concept(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -83,13 +85,13 @@ def coverage_rows() -> tuple[Row, ...]:
     """The concepts, then the machines; every machine of the catalog is there, at least with nothing."""
     path: Path = catalog_folder() / "coverage.toml"
 
-    def fail(text: str) -> CatalogError:
-        return CatalogError(f"{path}: {text}")
+    def fail(text: Message) -> CatalogError:
+        return CatalogError("{path}: {problem}", path=path, problem=text)
 
     table = convert_document(load_document(path, fail), Coverage, fail)
     told = {machine.id: machine.commands for machine in table.machines}
     if strange := sorted(set(told) - set(entries())):
-        raise fail(f"machines: the catalog has no entry {strange[0]!r}")
+        raise fail(message("machines: the catalog has no entry {machine!r}", machine=strange[0]))
     concepts = [
         Row(
             concept.where,
@@ -159,6 +161,19 @@ _WORDS = {
         "ran": "{good} von {commands} Befehlen endeten wie gewollt, {there} von {functions} Funktionen sind da.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="A table of all concepts and machines of the seeds with the commands and functions that do them. "
+        "With --run every command is executed, every function looked up.",
+        epilog="Exit status: 0 nothing is missing, 1 a row has nothing that does it, a command fails or a function is "
+        "not there.",
+    )
+    parser.add_argument("words", nargs="*", metavar="WORD", help="only rows with these words or ids")
+    parser.add_argument("--run", dest="execute", action="store_true", help="execute every command, say how it ended")
+    parser.add_argument("--json", action="store_true", help="a list of objects")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -13,7 +13,7 @@ from gruebler.errors import CatalogError, nearest
 from gruebler.exercises.solution import Result, Solution, Value
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
-from gruebler.text import Text
+from gruebler.text import LANGUAGES, Readable
 
 __all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve"]
 
@@ -57,14 +57,16 @@ def solve(exercise: Exercise) -> Solution:
 @lru_cache(maxsize=256)
 def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], cases: tuple[object, ...]) -> Solution:
     if name not in methods():
-        raise CatalogError(f"{id}: unknown method {name!r}{nearest(name, methods())}")
+        raise CatalogError(
+            "{id}: unknown method {method!r}{suggestion}", id=id, method=name, suggestion=nearest(name, methods())
+        )
     method, given = methods()[name], dict(quantities)
     if name == "mobility.machines" and not given:
         given = {"machines": " ".join(case.machine for case in cases)}  # type: ignore[attr-defined]
     try:
         inspect.signature(method).bind(**given)
     except TypeError as error:
-        raise CatalogError(f"{id}: given: {error} of {name}") from None
+        raise CatalogError("{id}: given: {error} of {method}", id=id, error=error, method=name) from None
     return method(**given)
 
 
@@ -92,7 +94,12 @@ def compare(exercise: Exercise, solution: Solution) -> list[Comparison]:
     for asked in exercise.asked:
         if asked.key not in solution.results:
             keys = ", ".join(solution.results)
-            raise CatalogError(f"{exercise.id}: asked: the solution has no result {asked.key!r}; it has {keys}")
+            raise CatalogError(
+                "{id}: asked: the solution has no result {key!r}; it has {keys}",
+                id=exercise.id,
+                key=asked.key,
+                keys=keys,
+            )
         result = solution.results[asked.key]
         found.append(Comparison(asked, result, None if asked.printed is None else _agrees(asked, result)))
     return found
@@ -103,8 +110,10 @@ def _agrees(asked: Question, result: Result) -> bool:
     value: Value = result.value
     if isinstance(value, bool):
         return asked.printed == ("yes" if value else "no")
-    if isinstance(value, str | Text):
-        return asked.printed in ((value.en, value.de) if isinstance(value, Text) else (value,))
+    if isinstance(value, Readable):
+        return asked.printed in [value.in_language(lang) for lang in LANGUAGES]
+    if isinstance(value, str):
+        return asked.printed == value
     scale = scale_of(asked, result)
     return abs(float(asked.printed) * scale - value) <= last_place(asked.printed) * scale * (0.5 + 1e-9)
 

@@ -25,17 +25,17 @@ from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
 from gruebler.sheets.expressions import Expression
 from gruebler.sheets.records import CognateLength, Quantity, RockerValue, SheetRecord
-from gruebler.text import Text
+from gruebler.text import Readable, Text, message
 
 __all__ = ["Sheet", "SizedMechanism", "StatedValue"]
 
 _CLOSE = 1e-9  # relative: derived and exact value
 
 _EXAMPLE = {
-    "phi_G": Text("example: crank angle over the straight line", "Beispiel: Kurbelwinkel über der Geradführung"),
-    "phi_A": Text("example: where it begins", "Beispiel: deren Anfang"),
-    "ratio": Text("example: length by the unit of the sheet", "Beispiel: bezogene Länge"),
-    "scale": Text("example: unit of the sheet", "Beispiel: Längeneinheit"),
+    "phi_G": message("example: crank angle over the straight line"),
+    "phi_A": message("example: where it begins"),
+    "ratio": message("example: length by the unit of the sheet"),
+    "scale": message("example: unit of the sheet"),
 }
 
 
@@ -52,7 +52,7 @@ class StatedValue:
     derived: float
     exact: Expression | None
     printed: Expression | None
-    name: Text | None = None
+    name: Readable | None = None
     reason: Text | None = None
     """Why what is printed is not so."""
     remark: Text | None = None
@@ -143,7 +143,7 @@ class Sheet(Brief):
         """Where one of the sheet's points is."""
         if name not in self.record.names:
             known = ", ".join(self.record.names)
-            raise CatalogError(f"sheet {self.id}: {name!r} is none of the names {known}")
+            raise CatalogError("sheet {id}: {name!r} is none of the names {known}", id=self.id, name=name, known=known)
         return complex(motion.complex_point(self.record.names[name])[row])
 
     @cached_property
@@ -270,7 +270,7 @@ def _contact(sheet: Sheet, at: float, _: float) -> float:
 def _cognate(sheet: Sheet, wanted: CognateLength, at: float) -> float:
     size, u, v, phi, branch = lever_pose(sheet.linkage, sheet.record.names[sheet.record.point], math.radians(at))
     if not isinstance(size, FourBar):
-        raise CatalogError(f"sheet {sheet.id}: cognates are those of four-bars")
+        raise CatalogError("sheet {id}: cognates are those of four-bars", id=sheet.id)
     length = getattr(cognates(size, u, v, branch=branch, phi=phi)[wanted.number - 1].size, wanted.length)
     return float(length) / sheet.unit_length
 

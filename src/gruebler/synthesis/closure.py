@@ -11,15 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 from gruebler.kinematics import Poses
 from gruebler.linkages import Line, Linkage, with_lower_pairs
 from gruebler.linkages.elements import Element, Pin, Pose2D
 
 __all__ = ["DesignClosure", "PoseDerivatives"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 class _Joined(NamedTuple):
@@ -67,7 +65,7 @@ class PoseDerivatives(NamedTuple):
         quantities and hardly with the number of dimensions.
         """
         right = self.across.transpose(0, 2, 1) @ (by_pose * self.weights).transpose(0, 2, 1)
-        multipliers = np.linalg.solve(self.triangle, right).transpose(0, 2, 1)
+        multipliers = np.asarray(np.linalg.solve(self.triangle, right), np.float64).transpose(0, 2, 1)
         return -self.closure.weighted_by_sizes(self.joined, multipliers)
 
 
@@ -85,7 +83,9 @@ class DesignClosure:
         chain, frame = lower.mechanism.chain, lower.mechanism.frame
         wrong = [joint.pair.name for joint in chain.joints if joint.pair.name not in ("revolute", "prismatic")]
         if wrong:
-            raise SynthesisError(f"linkages of turning and sliding joints are fitted, not those with {wrong[0]} joints")
+            raise SynthesisError(
+                "linkages of turning and sliding joints are fitted, not those with {wrong} joints", wrong=wrong[0]
+            )
         self.linkage = lower
         self.links = tuple(link for link in chain.links if link != frame)
         self.column = {link: 3 * k for k, link in enumerate(self.links)}
@@ -99,13 +99,13 @@ class DesignClosure:
             sizes += [element.x, element.y, *([element.angle] if isinstance(element, Line) else [])]
         self.sizes = np.array(sizes)
         joints = [
-            (joint.pair.name == "prismatic", (number, joint.links[0]), (number, other))
+            ((number, joint.links[0]), (number, other))
             for number, joint in enumerate(chain.joints)
             for other in joint.links[1:]
         ]
-        sides = [[joint[side] for joint in joints] for side in (1, 2)]
+        sides = [[joint[side] for joint in joints] for side in (0, 1)]
         self._bodies = [np.array([self.column.get(key[1], self.frame_column) // 3 for key in keys]) for keys in sides]
-        self._slides = np.flatnonzero([joint[0] for joint in joints])
+        self._slides = np.flatnonzero([chain.joints[number].pair.name == "prismatic" for (number, _), _ in joints])
         starts = [np.array([self.start[key] for key in keys], np.int64) for keys in sides]
         self._starts = starts
         self._lines = [start[self._slides] + 2 for start in starts]

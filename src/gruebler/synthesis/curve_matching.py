@@ -8,12 +8,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gruebler.arrays import Complexes, Reals
 
 __all__ = ["PLACES", "CurveMatch", "best_matches", "drive_angles", "evenly_along", "resampled"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 PLACES = 64
 """Places on each curve of a book."""

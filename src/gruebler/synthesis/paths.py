@@ -11,8 +11,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
@@ -24,7 +24,6 @@ from gruebler.synthesis.tasks import SAME, PathTask, PositionTask
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
-Complexes = NDArray[np.complex128]
 MOST_ON_CIRCLE = 6
 Progress = Callable[[int, int], None]
 
@@ -134,10 +133,18 @@ def _check_general(task: PathTask) -> None:
         slope = np.abs(2 * circle[0] * z + circle[1] + 1j * circle[2])
         count = int(np.count_nonzero(np.abs(rows @ circle) <= SAME * np.maximum(slope, 1e-3)))
         if count > MOST_ON_CIRCLE:
-            where = "line" if abs(circle[0]) < SAME else "circle"
+            if abs(circle[0]) < SAME:
+                raise SynthesisError(
+                    "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
+                    "unless it contains it: give closed = true for the curves that come nearest",
+                    count=count,
+                    most=MOST_ON_CIRCLE,
+                )
             raise SynthesisError(
-                f"{count} of the points lie on one {where}, which a coupler curve meets in at most {MOST_ON_CIRCLE} "
-                "points unless it contains it: give closed = true for the curves that come nearest"
+                "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points unless "
+                "it contains it: give closed = true for the curves that come nearest",
+                count=count,
+                most=MOST_ON_CIRCLE,
             )
 
 

@@ -12,14 +12,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.assur import AssurError, decompose
 from gruebler.mechanism import Mechanism
 from gruebler.synthesis.curve_matching import PLACES, evenly_along
 
 __all__ = ["DyadStructure", "StructureAtlas", "dyad_structure", "link_motions", "structure_atlas"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _TRIALS = 60_000
 _LARGEST = 6.0  # places of joints, in crank lengths

@@ -14,8 +14,8 @@ from math import isnan, pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.kinematics import circuit
 from gruebler.linkages import Linkage
@@ -31,8 +31,6 @@ from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _SAMPLES = 48  # places along a target and along a circuit
 _POINTS = 60  # points of a link that are tried for the first likeness
@@ -90,11 +88,13 @@ def synthesise_structures(
     if not mechanisms:
         raise SynthesisError("structures: expected at least one mechanism")
     if starts is not None and starts < 1:
-        raise SynthesisError(f"starts: expected at least 1, but found {starts}")
+        raise SynthesisError("starts: expected at least 1, but found {count}", count=starts)
     for mechanism in mechanisms:
         if len(mechanism.drives) > 1:
             raise SynthesisError(
-                f"a path is fitted with one drive, but {mechanism.text()!r} has {len(mechanism.drives)}"
+                "a path is fitted with one drive, but {text_!r} has {count}",
+                text_=mechanism.text(),
+                count=len(mechanism.drives),
             )
     jobs = [job for mechanism in mechanisms for job in _jobs(task, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
@@ -237,7 +237,9 @@ def fit_structure(
         return None
     closure = DesignClosure(first.linkage)
     if link and link not in closure.column:
-        raise SynthesisError(f"the link that carries the point is one of {', '.join(closure.links)}, not {link!r}")
+        raise SynthesisError(
+            "the link that carries the point is one of {links}, not {link!r}", links=", ".join(closure.links), link=link
+        )
     arcs = np.linspace(0, course.length, 2 * _SAMPLES + 1)[:-1]
     q = closure.poses(course.at(arcs))
     start = _start(closure, q, task.z, task.closed, np.random.default_rng(seed), (link,) if link else closure.links)

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.axes import Axis, Scale, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.panels import Curve, Panel, PointMarker, draw_panels
@@ -19,32 +19,15 @@ from gruebler.drawing.linkage.posed_linkage import floating_link, link_nodes
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
-from gruebler.text import decimal_sign_in
+from gruebler.text import decimal_sign_in, message, translate
 
 __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 
-Complexes = NDArray[np.complex128]
 
 _SQUARE = 460.0  # pixels of the longer side
 _NEAR = 0.03  # of the field: drive values nearer to each other are left out
 _AROUND = 0.04  # of the field
 _MOST = len(LINES)
-_WORDS = {
-    "en": {
-        "hodograph": "{name}: hodograph of {output}",
-        "hodograph_about": "Tips of the velocity vectors of {output} put at one origin, {range}, with a speed of "
-        "{speed}.",
-        "curves": "{name}: coupler curves",
-        "curves_about": "Paths of {output}, {range}; dots and thin lines show the pose at {at}.",
-    },
-    "de": {
-        "hodograph": "{name}: Hodograph von {output}",
-        "hodograph_about": "Spitzen der Geschwindigkeitsvektoren von {output}, an einem Punkt angetragen, {range}, mit "
-        "einer Geschwindigkeit von {speed}.",
-        "curves": "{name}: Koppelkurven",
-        "curves_about": "Bahnen von {output}, {range}; Punkte und dünne Linien zeigen die Stellung bei {at}.",
-    },
-}
 
 
 def hodograph(
@@ -74,20 +57,19 @@ def hodograph(
     >>> hodograph(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), ["K"]).title
     'four-bar linkage: hodograph of K'
     """
-    chosen, words = _few(points), _WORDS[lang]
+    chosen = _few(points)
     if speed is not None and not (math.isfinite(speed) and speed):
         raise LinkageError(
-            f"a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}",
-            f"ein Hodograph braucht einen Antrieb, der sich bewegt: erwartet wird ein Wert ungleich 0, nicht {speed}",
+            "a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}", speed=speed
         )
     run = plot_run(linkage, 1, branch, between, lang, name)
     places = [linkage.points_named(point)[-1] for point in chosen]
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, 1) for place in places]
     per = run.drive_unit if speed is None else "s"
-    rate = "1" if speed is None else decimal_sign_in(f"{speed:.6g} {run.drive_unit}/s", lang)
+    rate = message("1") if speed is None else message("{speed:.6g} {unit}/s", speed=speed, unit=run.drive_unit)
     names = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
-    axes = [f"{one} in {run.unit}/{per}" for one in names]
+    axes = [f"{symbol} in {run.unit}/{per}" for symbol in names]
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
     ]
@@ -96,8 +78,15 @@ def hodograph(
     panel = _square(
         paths, chosen if len(chosen) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges
     )
-    about = words["hodograph_about"].format(range=run.range, output=", ".join(chosen), speed=rate)
-    return draw_panels([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about, lang)
+    title = translate("{name}: hodograph of {points}", lang, name=run.name, points=", ".join(chosen))
+    about = translate(
+        "Tips of the velocity vectors of {points} put at one origin, {range}, with a speed of {speed}.",
+        lang,
+        points=", ".join(chosen),
+        range=run.range,
+        speed=rate,
+    )
+    return draw_panels([panel], title, about, lang)
 
 
 def _tips(run: PlotRun, path: Complexes, near: float) -> list[PointMarker]:
@@ -173,24 +162,26 @@ def family_of(
 ) -> dict[str, LinkPoint]:
     """The points of a family, named by their coordinates in the link."""
     if not 2 <= count <= _MOST:
-        raise LinkageError(
-            f"a family has 2 to {_MOST} points, not {count!r}", f"eine Schar hat 2 bis {_MOST} Punkte, nicht {count!r}"
-        )
+        raise LinkageError("a family has 2 to {most} points, not {count!r}", most=_MOST, count=count)
     chosen = floating_link(linkage) if link is None else link
     if chosen not in linkage.mechanism.chain.links:
-        raise LinkageError(f"there is no link {chosen!r}; the links are {', '.join(linkage.mechanism.chain.links)}")
-    if chosen == linkage.mechanism.frame:
         raise LinkageError(
-            f"{chosen!r} is the frame: its points do not move", f"{chosen!r} ist das Gestell: seine Punkte ruhen"
+            "there is no link {link!r}; the links are {links}",
+            link=chosen,
+            links=", ".join(linkage.mechanism.chain.links),
         )
+    if chosen == linkage.mechanism.frame:
+        raise LinkageError("{link!r} is the frame: its points do not move", link=chosen)
     places = link_nodes(linkage, chosen)
     if start is None or end is None:
         if len(places) < 2:
-            raise LinkageError(f"{chosen!r} has one joint and no point: say between which points the family lies")
+            raise LinkageError(
+                "{link!r} has one joint and no point: say between which points the family lies", link=chosen
+            )
         first, second = places[:2]
         start, end = (first - (second - first) / 2, second + (second - first) / 2)
     if not np.isfinite([start, end]).all() or start == end:
-        raise LinkageError(f"expected two different finite points, but found {start} and {end}")
+        raise LinkageError("expected two different finite points, but found {start} and {end}", start=start, end=end)
     points = [start + k / (count - 1) * (end - start) for k in range(count)]
     return {f"{p.real:.4g}, {p.imag + 0.0:.4g}".replace("-", "−"): LinkPoint(chosen, p.real, p.imag) for p in points}
 
@@ -204,14 +195,19 @@ def _paths(
     name: str,
 ) -> Figure:
     run = plot_run(linkage, 0, branch, between, lang, name)
-    words = _WORDS[lang]
     paths = [run.motion.complex_point(place) for place in places.values()]
     row = len(run.drives) // 6
     skeleton = _skeleton(run.motion, row, places.values())
     spots = [PointMarker(path[row].real, path[row].imag, "") for path in paths]
     panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
-    about = words["curves_about"].format(range=run.range, output="; ".join(places), at=run.value(run.drives[row]))
-    return draw_panels([panel], words["curves"].format(name=run.name), about, lang)
+    about = translate(
+        "Paths of {points}, {range}; dots and thin lines show the pose at {at}.",
+        lang,
+        points="; ".join(decimal_sign_in(point, lang) for point in places),
+        range=run.range,
+        at=run.value(run.drives[row]),
+    )
+    return draw_panels([panel], translate("{name}: coupler curves", lang, name=run.name), about, lang)
 
 
 def _skeleton(motion: Motion, row: int, places: Iterable[LinkPoint]) -> list[Complexes]:
@@ -260,5 +256,5 @@ def _even(low: float, high: float, longest: float) -> Scale:
 def _few(points: Sequence[str]) -> list[str]:
     chosen = list(dict.fromkeys(points))
     if not 1 <= len(chosen) <= _MOST:
-        raise LinkageError(f"expected 1 to {_MOST} points or joints, but found {len(chosen)}")
+        raise LinkageError("expected 1 to {most} points or joints, but found {count}", most=_MOST, count=len(chosen))
     return chosen
