@@ -248,6 +248,13 @@ def test_random_linkages(seed: int, scale: float, angle: float, shift: complex) 
     check(linkage, scale, angle, shift)
 
 
+def test_offset_coordinates_do_not_move_the_ends_of_a_larger_group() -> None:
+    """In them its limit is known to 2e-10; without a correction the output's angle there is 3e-6 off."""
+    linkage = random_linkage(86)
+    result, other = measures(linkage), measures(in_other_coordinates(linkage, 2.2, 1.4 * linkage.size))
+    assert other.travel == pytest.approx(result.travel, rel=0, abs=1e-8)
+
+
 @pytest.mark.slow
 def test_many_random_linkages() -> None:
     wanted, tried, refused, failed = int(os.environ.get("GRUEBLER_LINKAGES", "40")), 0, 0, []
