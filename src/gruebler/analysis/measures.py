@@ -7,6 +7,7 @@
 - ``ends``: the output at both ends of a range that is no full turn, else None;
 - ``dead_centres`` (tuple of `OutputDeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
 - ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
+  ``moving_span``, ``motion_ratio``: how far the drive moves while the output does, and that by the dwells;
 - ``inner, outer`` (`OutputDeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
   ``output_turns`` (turns of the output per period);
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
@@ -161,10 +162,23 @@ class Measures(Brief):
         return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < way)
 
     @property
+    def _whole(self) -> float:
+        return self.span.period if self.span.full else self.span.width
+
+    @property
     def dwell_share(self) -> float:
         """The part of the period, or of the drive's range, in which the output rests; 0 without a dwell."""
-        whole = self.span.period if self.span.full else self.span.width
-        return sum(dwell.duration for dwell in self.dwells) / whole
+        return sum(dwell.duration for dwell in self.dwells) / self._whole
+
+    @property
+    def moving_span(self) -> float:
+        """How far the drive moves, in the period or in its range, while the output does: without the dwells."""
+        return self._whole - sum(dwell.duration for dwell in self.dwells)
+
+    @property
+    def motion_ratio(self) -> float | None:
+        """The span in which the output moves by that in which it rests; None without a dwell."""
+        return (1 - self.dwell_share) / self.dwell_share if self.dwells else None
 
     @property
     def dwell_time(self) -> float | None:

@@ -67,6 +67,10 @@ _TEXTS = {
         "The output rests for {share:.9g} % of the drive's motion.",
         "Der Abtrieb rastet während {share:.9g} % der Antriebsbewegung.",
     ),
+    "moving": (
+        "It moves during {moving} of {whole} of the drive; motion by dwell {ratio:.9g}.",
+        "Er bewegt sich während {moving} von {whole} des Antriebs; Bewegung durch Rast {ratio:.9g}.",
+    ),
     "strokes": (
         "Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
         "Antriebswinkel: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
@@ -161,6 +165,9 @@ def _stop_lines(measures: Measures, say: Any) -> Iterator[str]:
         yield say(key, begin=begin, end=end, duration=duration, output=_output(measures, dwell.output))
     if measures.dwells:
         yield say("dwells", share=100 * measures.dwell_share)
+        if measures.output_turns:
+            moving, whole = _drive(measures, measures.moving_span), _drive(measures, measures.span.period)
+            yield say("moving", moving=moving, whole=whole, ratio=measures.motion_ratio)
     if measures.phi_forward is not None and measures.phi_back is not None:
         forward, back = (_drive(measures, x) for x in (measures.phi_forward, measures.phi_back))
         yield say(
@@ -254,6 +261,8 @@ def measures_as_dict(measures: Measures) -> dict[str, Any]:
             for d in measures.dwells
         ],
         "dwell_share": measures.dwell_share,
+        "moving_span": turn(measures.moving_span),
+        "motion_ratio": measures.motion_ratio,
         "dwell_time": measures.dwell_time,
         "output_turns": measures.output_turns,
         "travel": None if measures.travel is None else out(measures.travel),
