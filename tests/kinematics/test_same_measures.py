@@ -255,6 +255,19 @@ def test_offset_coordinates_do_not_move_the_ends_of_a_larger_group() -> None:
     assert other.travel == pytest.approx(result.travel, rel=0, abs=1e-8)
 
 
+@pytest.mark.parametrize("seed", [1523, 1566])
+def test_extremes_of_the_acceleration_between_limits(seed: int) -> None:
+    """The output of a cylinder that passes its middle is even there: one extremum of psi'' there, and two about it.
+
+    Towards both limits its derivative grows like the power -5/2 of the distance, and the samples become dense.
+    """
+    found = measures(random_linkage(seed)).transfer.acceleration
+    assert len(found) == 3
+    assert [c.drive for c in found] == pytest.approx([-found[2].drive, 0.0, found[2].drive], rel=1e-9, abs=1e-9)
+    assert [c.value for c in found] == pytest.approx([c.value for c in reversed(found)])
+    assert found[0].kind == found[2].kind != found[1].kind
+
+
 @pytest.mark.slow
 def test_many_random_linkages() -> None:
     wanted, tried, refused, failed = int(os.environ.get("GRUEBLER_LINKAGES", "40")), 0, 0, []

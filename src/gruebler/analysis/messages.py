@@ -131,9 +131,14 @@ def explain_measures(measures: Measures, lang: str) -> Iterator[str]:
         key = "swing" if measures.output.turning else "stroke"
         yield say(key, name=name, travel=_output(measures, measures.travel))
     yield from _stop_lines(measures, say)
-    for point in measures.change_points:
+    points = measures.change_points
+    for k, point in enumerate(points):
         line = say("change", form=point.form, links=", ".join(point.links), at=_drive(measures, point.drive))
-        yield f"{line} {say('several')}" if point.several else line
+        following = (
+            points[k + 1] if k + 1 < len(points) else None
+        )  # of several groups at one place the last one says it
+        again = following is not None and following.several and abs(following.drive - point.drive) <= _CONSTANT
+        yield f"{line} {say('several')}" if point.several and not again else line
     if measures.change_points_notes[lang]:
         yield say("unknown changes", why=measures.change_points_notes[lang])
     if measures.transmission is None:
