@@ -48,13 +48,13 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
         RunError: it cannot be written, with the reason.
     """
     if not path.name:
-        raise RunError(f"{str(path)!r} names no file to write")
+        raise RunError("{path!r} names no file to write", path=str(path))
     try:
         path = path.resolve()
     except (OSError, RuntimeError):  # Python below 3.13 raises RuntimeError for a loop of links
-        raise RunError(f"{path} cannot be written: its links lead nowhere") from None
+        raise RunError("{path} cannot be written: its links lead nowhere", path=path) from None
     if path.exists() and not path.is_file():
-        raise RunError(f"{path} cannot be written: it is not an ordinary file")
+        raise RunError("{path} cannot be written: it is not an ordinary file", path=path)
     if tidy:
         remove_abandoned_files(path.parent, path.name)
     temporary = path
@@ -74,8 +74,8 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
     except OSError as error:
         about = str(path) if error.filename is None else str(error.filename)
         if about != str(path) and not about.endswith(PARTIAL):  # not the file written here
-            raise RunError(f"{about} cannot be used: {error.strerror or error}") from None
-        raise RunError(f"{path} cannot be written: {error.strerror or error}") from None
+            raise RunError("{about} cannot be used: {value}", about=about, value=error.strerror or error) from None
+        raise RunError("{path} cannot be written: {value}", path=path, value=error.strerror or error) from None
     finally:
         if temporary != path:
             temporary.unlink(missing_ok=True)
@@ -136,7 +136,11 @@ def temporary_directory() -> Iterator[Path]:
     try:
         directory, handle = _created_directory(beginning)
     except OSError as error:
-        raise RunError(f"{gettempdir()} cannot be used for temporary files: {error.strerror or error}") from None
+        raise RunError(
+            "{gettempdir} cannot be used for temporary files: {value}",
+            gettempdir=gettempdir(),
+            value=error.strerror or error,
+        ) from None
     try:
         yield directory
     finally:

@@ -7,6 +7,7 @@ raises; an honest failure (a budget spent, a proof not found) is a result and ne
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import Any
 
 LONGEST = 1000
 """Characters of a message; 300 of them at most without a space."""
@@ -16,25 +17,28 @@ _WORD = 300
 class GrueblerError(ValueError):
     """The common parent: catching it catches every refusal of this library, and nothing else.
 
-    Messages are one line of bounded length, however long the input is that they quote. Sentences that users of the
-    command line meet often are there in German too.
+    It carries an English text with gaps and the values that fill them, so that `text.error_in_language` can say it in
+    another language. What it says is one line of bounded length, however long the input is that it quotes.
 
-    >>> text = str(NotationError(f"{'x' * 9000!r} is not a chain"))
+    >>> str(LinkageError("joint {joint!r} has no radius", joint="R(0-1)"))
+    "joint 'R(0-1)' has no radius"
+    >>> text = str(NotationError("{text!r} is not a chain", text="x" * 9000))
     >>> len(text), "… (9,002 characters) …" in text, text[-20:]
     (315, True, "xxxx' is not a chain")
     """
 
-    def __init__(self, text: str = "", de: str | None = None) -> None:
-        super().__init__(shortened(text))
-        self.de = None if de is None else shortened(de)
+    def __init__(self, text: str = "", /, **values: Any) -> None:
+        super().__init__(shortened(text.format(**values) if values else text))
+        self.text = text
+        self.values = values
 
-    def in_language(self, lang: str) -> str:
-        """The sentence in a language, in English where there is no other.
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (type(self), self.text, self.values)
 
-        >>> LinkageError("it cannot move", "es lässt sich nicht bewegen").in_language("de")
-        'es lässt sich nicht bewegen'
-        """
-        return self.de if lang == "de" and self.de is not None else str(self)
+
+def _again(kind: type[GrueblerError], text: str, values: dict[str, Any]) -> GrueblerError:
+    """The error as it was, on the other side of a process boundary."""
+    return kind(text, **values)
 
 
 class PairError(GrueblerError):

@@ -15,11 +15,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gruebler import notebook
+from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 
 __all__ = ["Geneva", "GenevaError", "GenevaMotion", "GenevaSizes"]
-
-FloatArray = NDArray[np.float64]
 
 
 _MOST = 2_000
@@ -32,10 +31,10 @@ class GenevaError(GrueblerError):
 class GenevaMotion(NamedTuple):
     """The wheel's angle and its first three derivatives by the driver's angle, and whether the wheel rests."""
 
-    angle: FloatArray
-    ratio: FloatArray
-    acceleration: FloatArray
-    jerk: FloatArray
+    angle: Reals
+    ratio: Reals
+    acceleration: Reals
+    jerk: Reals
     dwell: NDArray[np.bool_]
 
 
@@ -70,14 +69,25 @@ class Geneva:
     def __post_init__(self) -> None:
         for name, number, least in (("slots", self.slots, 3), ("pins", self.pins, 1)):
             if not isinstance(number, int) or isinstance(number, bool) or number < least:
-                raise GenevaError(f"a Geneva drive has a whole number of {name}, at least {least}, not {number!r}")
+                raise GenevaError(
+                    "a Geneva drive has a whole number of {name}, at least {least}, not {number!r}",
+                    name=name,
+                    least=least,
+                    number=number,
+                )
             if number > _MOST:
-                raise GenevaError(f"a Geneva drive has {_MOST:,} {name} at most, not {number:,}")
+                raise GenevaError(
+                    "a Geneva drive has {most:,} {name} at most, not {number:,}", most=_MOST, name=name, number=number
+                )
         if self.pins > self.most_pins:
             kind = "internal" if self.internal else "external"
             raise GenevaError(
-                f"an {kind} Geneva drive with {self.slots} slots takes at most {self.most_pins} pins, not {self.pins}: "
-                "the next pin would enter before the last has left"
+                "an {kind} Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
+                "pin would enter before the last has left",
+                kind=kind,
+                slots=self.slots,
+                most_pins=self.most_pins,
+                pins=self.pins,
             )
 
     @property
@@ -152,7 +162,7 @@ class Geneva:
         [70.711, 70.711, 29.289, 4.712]
         """
         if not isinstance(distance, int | float) or not 0 < distance < math.inf:
-            raise GenevaError(f"the distance of the centres is a positive length, not {distance!r}")
+            raise GenevaError("the distance of the centres is a positive length, not {distance!r}", distance=distance)
         lam = self.crank_ratio
         return GenevaSizes(
             crank=distance * lam,

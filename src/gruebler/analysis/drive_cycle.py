@@ -14,12 +14,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler._numeric.motion.closure import MESH, POLAR
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.change_point_rates import set_change_point_rates
-from gruebler.kinematics.contacts import MESH, POLAR, Condition
+from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
-from gruebler.kinematics.motion import Complexes, Motion, Reals, Stop
+from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.root_finding import FunctionSamples, bracketed_root
@@ -124,10 +126,7 @@ class DriveCycle(Brief):
         path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
         motion, rows = _run(self.plan, path, order, self.start)
         if not motion.complete:
-            raise LinkageError(
-                f"the branch is lost within its range. {motion.message()}",
-                f"die Einbaulage geht innerhalb des Bereichs verloren. {motion.message('de')}",
-            )
+            raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
         return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
     def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
@@ -191,24 +190,18 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
     plan = cached_plan(linkage)
     count = len(plan.linkage.mechanism.drives)
     if count != 1:
-        raise LinkageError(
-            f"measures are those of linkages with one drive; this one has {count}",
-            f"Kenngrößen gehören zu Getrieben mit einem Antrieb; dieses hat {count}",
-        )
+        raise LinkageError("measures are those of linkages with one drive; this one has {count}", count=count)
     start = _begun(plan, branch)
     span = _span(plan, start)
     for stop in span.stops:
         if stop is not None and stop.reason == "open":
             motion = replace(start, stop=stop)
-            raise LinkageError(motion.message(), motion.message("de"))
+            raise LinkageError("{reason}", reason=motion.reason)
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
         at = f"{round(degrees(middle), 4) + 0:g}°" if _turns(plan) else f"{middle:.9g} {linkage.unit}"
-        raise LinkageError(
-            f"the drive cannot move: all that can be assembled is one position, drive = {at}",
-            f"der Antrieb ist unbeweglich: zusammenbauen lässt sich nur eine Lage, Antrieb = {at}",
-        )
+        raise LinkageError("the drive cannot move: all that can be assembled is one position, drive = {at}", at=at)
     cycle = DriveCycle(plan, start, span, np.array([span.low, span.high]))
     return replace(cycle, grid=_grid(cycle))
 
@@ -242,7 +235,7 @@ class PathCycle(DriveCycle):
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
         if not motion.complete:
-            raise LinkageError(motion.message(), motion.message("de"))
+            raise LinkageError("{reason}", reason=motion.reason)
         return _rows(motion, 1 + np.argsort(order_of, kind="stable"))
 
 
@@ -255,19 +248,16 @@ def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | 
     rows = drive_path(plan, path)
     ends = np.array([rows[0], rows[-1]])
     if (ends[0] == ends[1]).all():
-        raise LinkageError(
-            "the path of the drives has no length: its first row is its last",
-            "der Weg der Antriebe hat keine Länge: seine erste Zeile ist seine letzte",
-        )
+        raise LinkageError("the path of the drives has no length: its first row is its last")
     start = move(plan, ends[:1], branch=branch)
     if not start.complete:
-        raise LinkageError(start.message(), start.message("de"))
+        raise LinkageError("{reason}", reason=start.reason)
     cycle = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
     return replace(cycle, grid=_grid(cycle))
 
 
 def _turns(plan: Plan) -> bool:
-    return plan.lower.mechanism.drives[0].direction.startswith("R")
+    return plan.lower.mechanism.drives[0].turning
 
 
 def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, np.ndarray]:
@@ -312,8 +302,7 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
     assert best is not None
     if not len(best):
         raise LinkageError(
-            f"there is no position of the drive in which it can be assembled so. {best.message()}",
-            f"es gibt keine Antriebslage, in der es sich so zusammenbauen lässt. {best.message('de')}",
+            "there is no position of the drive in which it can be assembled so. {reason}", reason=best.reason
         )
     return best
 

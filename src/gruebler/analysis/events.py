@@ -14,9 +14,10 @@ import numpy as np
 
 from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output
+from gruebler.arrays import Reals
 from gruebler.assur import SolvedGroup
 from gruebler.kinematics.circuits import Circuit, circuit
-from gruebler.kinematics.motion import Motion, Reals
+from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Dyad
 from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.redundancy import ReferenceConditions

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, nearest
-from gruebler.kinematics.motion import Motion, Reals
+from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage
 from gruebler.linkages.wheels import sliding_joint
 from gruebler.mechanism import Mechanism
@@ -53,7 +54,10 @@ def find_output(linkage: Linkage, output: str | None = None) -> Output:
     sliding = [text for k, text in enumerate(mechanism.chain.joint_names()) if sliding_joint(linkage, k)]
     known = [*mechanism.chain.links, *sliding]
     raise LinkageError(
-        f"an output is a link or a sliding joint{nearest(str(name), known)}; {name!r} is none of {', '.join(known)}"
+        "an output is a link or a sliding joint{suggestion}; {name!r} is none of {known}",
+        suggestion=nearest(str(name), known),
+        name=name,
+        known=", ".join(known),
     )
 
 

@@ -13,9 +13,11 @@ import numpy as np
 
 from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output, find_output
+from gruebler.arrays import Complexes, Reals
 from gruebler.assur import SolvedGroup
+from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
-from gruebler.kinematics.motion import Complexes, Motion, Reals
+from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.root_finding import find_zeros
 
@@ -40,10 +42,7 @@ _CONSTANT = 1e-8  # radians: an angle that varies by less is constant; next to c
 
 
 class NoTransmissionAngleError(LinkageError):
-    """The output has no transmission angle; why, in English and German."""
-
-    def __init__(self, en: str, de: str) -> None:
-        super().__init__(f"there is no transmission angle: {en}", f"es gibt keinen Übertragungswinkel: {de}")
+    """The output has no transmission angle; the message says why."""
 
 
 Element = tuple[str, complex, complex]
@@ -106,14 +105,13 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     """
     if plan.released:
         raise NoTransmissionAngleError(
-            "the linkage is overconstrained, and how its joints share the force depends on how they yield",
-            "das Getriebe ist übergeschlossen, und wie sich die Kraft auf die Gelenke verteilt, hängt von ihrer "
-            "Nachgiebigkeit ab",
+            "there is no transmission angle: the linkage is overconstrained, and how its joints share the force "
+            "depends on how they yield"
         )
     group = next((g for g in plan.decomposition.groups if any(output.link in b for b in _bodies(g))), None)
     if group is None:
         raise NoTransmissionAngleError(
-            f"{output.link!r} is moved by the drive itself", f"{output.link!r} wird vom Antrieb selbst bewegt"
+            "there is no transmission angle: {link!r} is moved by the drive itself", link=output.link
         )
     driven = [k for k in range(len(group.bodies)) if _is_driven(plan, group, k)]
     legs = {k: leg for k in driven if (leg := _leg(plan, group, k)) is not None}
@@ -122,14 +120,14 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     if not chosen:
         names = ", ".join(group.links)
         raise NoTransmissionAngleError(
-            f"no link with two joints drives the group {group.form()} {{{names}}}",
-            f"kein Glied mit zwei Gelenken treibt die Gruppe {group.form()} {{{names}}}",
+            "there is no transmission angle: no link with two joints drives the group {form} {{{links}}}",
+            form=in_alphabets(group.form),
+            links=names,
         )
     if any(leg.form == "PP" for leg in chosen.values()):
         links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")
         raise NoTransmissionAngleError(
-            f"{links} slides at both ends and transmits a couple only",
-            f"{links} gleitet an beiden Enden und überträgt nur ein Moment",
+            "there is no transmission angle: {links} slides at both ends and transmits a couple only", links=links
         )
     return tuple(chosen.values())
 

@@ -146,27 +146,35 @@ def _name_key(name: str) -> tuple[bool, int, str]:
 def _check(group: AssurGroup) -> None:
     chain = group.chain
     if chain.space is not Space.PLANAR:
-        raise AssurError(f"Assur groups are planar; this chain is {chain.space}")
+        raise AssurError("Assur groups are planar; this chain is {space}", space=chain.space)
     if not group.links or not group.places:
         raise AssurError(
-            f"{chain} shows no places outside: a group is written with one link of a single joint for each, as in "
-            "R(a-1) R(1-2) R(2-b)"
+            "{chain} shows no places outside: a group is written with one link of a single joint for each, "
+            "as in R(a-1) R(1-2) R(2-b)",
+            chain=chain,
         )
     shared = next((j for j in chain.joints if sum(link in group.places for link in j.links) > 1), None)
     if shared is not None:
-        raise AssurError(f"the joint {shared} of the group has more than one place outside")
+        raise AssurError("the joint {shared} of the group has more than one place outside", shared=shared)
     freedoms = 3 * len(group.links)
     constraints = sum(j.pair.u(Space.PLANAR) * (len(j.links) - 1 + j.outer) for j in group.joints)
     if freedoms != constraints:
         raise AssurError(
-            f"{chain} is no Assur group: {len(group.links)} links have {freedoms} freedoms, but the joints take "
-            f"{constraints}"
+            "{chain} is no Assur group: {count} links have {freedoms} freedoms, but the joints take {constraints}",
+            chain=chain,
+            count=len(group.links),
+            freedoms=freedoms,
+            constraints=constraints,
         )
     if not _rigid(group):
-        raise AssurError(f"{chain} is no Assur group: with its places held it stays loose")
+        raise AssurError("{chain} is no Assur group: with its places held it stays loose", chain=chain)
     part = _first_part(group)
     if len(part) < len(group.links):
-        raise AssurError(f"{chain} is no Assur group: the links {', '.join(part)} can be found without the others")
+        raise AssurError(
+            "{chain} is no Assur group: the links {part} can be found without the others",
+            chain=chain,
+            part=", ".join(part),
+        )
 
 
 def _first_part(group: AssurGroup) -> list[str]:

@@ -28,7 +28,7 @@ def assur_groups(links: int) -> Iterator[AssurGroup]:
     ['RRR']
     """
     if links < 2 or links % 2:
-        raise AssurError(f"an Assur group of turning joints has 2, 4, 6, ... links, not {links}")
+        raise AssurError("an Assur group of turning joints has 2, 4, 6, ... links, not {links}", links=links)
     from gruebler.enumeration import chains  # it compiles kernels, which other questions of this room do not need
 
     for truss in chains(links + 1, 0):

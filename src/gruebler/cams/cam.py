@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gruebler import notebook
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
@@ -19,21 +20,18 @@ from gruebler.notebook import Brief
 
 __all__ = ["Cam", "CamExtremum", "CamReport"]
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-
 
 class _Contact(NamedTuple):
     """What touches, in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""
 
-    point: ComplexArray
-    shape: FloatArray
+    point: Complexes
+    shape: Reals
     """For a roller the curvature of the pitch curve, for a face the radius of the profile: both without poles."""
-    curvature: FloatArray
-    pressure: FloatArray
-    face: FloatArray
+    curvature: Reals
+    pressure: Reals
+    face: Reals
     """Where along a flat face the cam touches, from the foot of the normal through the axis, or from the pivot."""
-    centre: ComplexArray
+    centre: Complexes
     """The pitch curve: the roller's centre; for a face the contact itself."""
 
 
@@ -82,19 +80,26 @@ class Cam(Brief):
 
     def __post_init__(self) -> None:
         if isinstance(self.base, bool) or not isinstance(self.base, int | float) or not 1e70 > self.base > 0:
-            raise CamError(f"the base circle has a positive radius below 1e70, not {self.base!r}")
+            raise CamError("the base circle has a positive radius below 1e70, not {base!r}", base=self.base)
         lowest = min(value for _, value in self.lift.extremes(0))
         highest = max(value for _, value in self.lift.extremes(0))
         if not self.follower.swings and highest - lowest > 1e9 * self.base:
-            raise CamError(f"a lift of {highest - lowest:g} is more than 1e9 times the base circle's {self.base:g}")
+            raise CamError(
+                "a lift of {highest:g} is more than 1e9 times the base circle's {base:g}",
+                highest=highest - lowest,
+                base=self.base,
+            )
         low, high = self.start + lowest, self.start + highest
         if not self.follower.swings and low <= 0:
-            raise CamError(f"the lift goes down to {lowest:g}, beyond the cam's axis")
+            raise CamError("the lift goes down to {lowest:g}, beyond the cam's axis", lowest=lowest)
         limit = math.pi if isinstance(self.follower, Roller) else math.pi / 2
         if self.follower.swings and not (low > 0 and high < limit):
             raise CamError(
-                f"the follower swings from {math.degrees(low):.6g} to {math.degrees(high):.6g} degrees against the "
-                f"line of centres; between 0 and {math.degrees(limit):g} is possible"
+                "the follower swings from {low:.6g} to {high:.6g} degrees against the line of centres; between 0 "
+                "and {limit:g} is possible",
+                low=math.degrees(low),
+                high=math.degrees(high),
+                limit=math.degrees(limit),
             )
 
     @property
@@ -103,34 +108,34 @@ class Cam(Brief):
         extra = self.follower.radius if isinstance(self.follower, Roller) else 0.0
         return self.follower.coordinate(self.base + extra)
 
-    def profile(self, angle: ArrayLike) -> FloatArray:
+    def profile(self, angle: ArrayLike) -> Reals:
         """The contact points in the cam's frame for cam's angles of shape (...): shape (..., 2)."""
         return _pairs(self._at(angle).point)
 
-    def pitch(self, angle: ArrayLike) -> FloatArray:
+    def pitch(self, angle: ArrayLike) -> Reals:
         """The path of the roller's centre in the cam's frame, shape (..., 2); for a flat face the profile."""
         return _pairs(self._at(angle).centre)
 
-    def pressure_angle(self, angle: ArrayLike) -> FloatArray:
+    def pressure_angle(self, angle: ArrayLike) -> Reals:
         """Signed angle from the motion of the follower's point to the common normal, radians."""
         return self._at(angle).pressure
 
-    def curvature(self, angle: ArrayLike) -> FloatArray:
+    def curvature(self, angle: ArrayLike) -> Reals:
         """Curvature of the profile at the contact, positive where convex; infinite at a cusp."""
         return self._at(angle).curvature
 
-    def contact_on_face(self, angle: ArrayLike) -> FloatArray:
+    def contact_on_face(self, angle: ArrayLike) -> Reals:
         """Where along a flat face the cam touches (length)."""
         return self._at(angle).face
 
     def findings(self) -> CamReport:
         """All extremes over a turn."""
 
-        def both(pick: Callable[[_Contact], FloatArray], scale: float = 0.0) -> tuple[CamExtremum, CamExtremum]:
+        def both(pick: Callable[[_Contact], Reals], scale: float = 0.0) -> tuple[CamExtremum, CamExtremum]:
             places: list[CamExtremum] = []
             for span in self.lift.spans():
 
-                def value(phi: FloatArray, span: object = span) -> FloatArray:
+                def value(phi: Reals, span: object = span) -> Reals:
                     return pick(self._contact(phi, *(order(phi) for order in span.orders[:3])))  # type: ignore[attr-defined]
 
                 places += [CamExtremum(y, x) for x, y in extremes(value, span.start, span.end, scale)]
@@ -154,7 +159,7 @@ class Cam(Brief):
         phi = finite_array(angle, "the cam's angles")
         return self._contact(phi, *(self.lift.at(phi, order) for order in range(3)))
 
-    def _contact(self, phi: FloatArray, s: FloatArray, s1: FloatArray, s2: FloatArray) -> _Contact:
+    def _contact(self, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Contact:
         with np.errstate(divide="ignore", invalid="ignore"):
             if isinstance(self.follower, Roller):
                 return _roller_contact(self.follower, phi, self.start + s, s1, s2)
@@ -174,7 +179,7 @@ def _radii(
     return convex, hollow, room
 
 
-def _roller_contact(roller: Roller, phi: FloatArray, s: FloatArray, s1: FloatArray, s2: FloatArray) -> _Contact:
+def _roller_contact(roller: Roller, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Contact:
     path = roller.path(s)
     back = np.exp(-1j * phi)
     c, c1, c2 = path.at, path.first * s1, path.first * s2 + path.second * s1**2
@@ -193,7 +198,7 @@ def _roller_contact(roller: Roller, phi: FloatArray, s: FloatArray, s1: FloatArr
     )
 
 
-def _flat_contact(flat: Flat, phi: FloatArray, s: FloatArray, s1: FloatArray, s2: FloatArray) -> _Contact:
+def _flat_contact(flat: Flat, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Contact:
     line = flat.line(s)
     h, h1, h2 = line.distance, line.first * s1, line.first * s2 + line.second * s1**2
     turn, bend = line.turn * s1 - 1, line.turn * s2
@@ -211,5 +216,5 @@ def _flat_contact(flat: Flat, phi: FloatArray, s: FloatArray, s1: FloatArray, s2
     return _Contact(point, shape, 1 / radius, np.angle(normal / motion), along, point)
 
 
-def _pairs(points: ComplexArray) -> FloatArray:
+def _pairs(points: Complexes) -> Reals:
     return np.stack([points.real, points.imag], axis=-1)

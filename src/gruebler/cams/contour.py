@@ -15,6 +15,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
 
@@ -30,9 +31,6 @@ __all__ = [
     "tangent_cam",
 ]
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
-
 
 class ContactSamples(NamedTuple):
     """Contacts at cam's angles: the follower's coordinate, and the contour's outward normal in the fixed frame.
@@ -41,24 +39,24 @@ class ContactSamples(NamedTuple):
     ``along`` is where on a flat face it lies, from the foot of the normal through the axis.
     """
 
-    coordinate: FloatArray
-    normal: ComplexArray
-    radius: FloatArray
-    along: FloatArray
+    coordinate: Reals
+    normal: Complexes
+    radius: Reals
+    along: Reals
 
 
 class FollowerMotion(NamedTuple):
     """The follower's coordinate (height of roller or face above the axis, or angle) with two derivatives per radian."""
 
-    coordinate: FloatArray
-    velocity: FloatArray
-    acceleration: FloatArray
+    coordinate: Reals
+    velocity: Reals
+    acceleration: Reals
 
 
 class Contour(Protocol):
     """A closed contour around the cam's axis."""
 
-    def touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
+    def touch(self, follower: Follower, angle: Reals) -> ContactSamples:
         """The outermost contact at each angle."""
         ...
 
@@ -77,16 +75,18 @@ def follower_motion(contour: Contour, follower: Follower, angle: ArrayLike) -> F
     touch = contour.touch(follower, phi.ravel())
     if not np.isfinite(touch.coordinate).all():
         lost = math.degrees(phi.ravel()[~np.isfinite(touch.coordinate)][0])
-        raise CamError(f"the follower does not meet the contour at {lost:.6g} degrees")
+        raise CamError("the follower does not meet the contour at {lost:.6g} degrees", lost=lost)
     with np.errstate(divide="ignore", invalid="ignore"):
         rates = _roller_rates(follower, touch) if isinstance(follower, Roller) else _flat_rates(follower, touch)
     if not np.isfinite(rates).all():
         stuck = math.degrees(phi.ravel()[~np.isfinite(rates).all(axis=0)][0])
-        raise CamError(f"the follower jams at {stuck:.6g} degrees: the normal lies across its motion, or a corner")
+        raise CamError(
+            "the follower jams at {stuck:.6g} degrees: the normal lies across its motion, or a corner", stuck=stuck
+        )
     return FollowerMotion(*(one.reshape(phi.shape) for one in (touch.coordinate, *rates)))
 
 
-def _roller_rates(roller: Roller, touch: ContactSamples) -> tuple[FloatArray, FloatArray]:
+def _roller_rates(roller: Roller, touch: ContactSamples) -> tuple[Reals, Reals]:
     """From c = e^(i phi) z(sigma), z the offset curve by arc length: c' = w s', c'' = w s'' + w2 s'^2."""
     path, n = roller.path(touch.coordinate), touch.normal
     bend = 1 / (touch.radius + roller.radius)
@@ -97,7 +97,7 @@ def _roller_rates(roller: Roller, touch: ContactSamples) -> tuple[FloatArray, Fl
     return first, -(held + 2 * sigma + bend * sigma**2) / along
 
 
-def _flat_rates(flat: Flat, touch: ContactSamples) -> tuple[FloatArray, FloatArray]:
+def _flat_rates(flat: Flat, touch: ContactSamples) -> tuple[Reals, Reals]:
     """From the support function of the contour: p = dh/dtheta and radius = h + dp/dtheta."""
     line, p = flat.line(touch.coordinate), touch.along
     first = -p / (line.first - p * line.turn)
@@ -133,7 +133,7 @@ class ArcContour:
             raise CamError("a contour has at least one arc")
         for arc in self.arcs:
             if not all(map(math.isfinite, (arc.start, arc.centre.real, arc.centre.imag, arc.radius))) or arc.radius < 0:
-                raise CamError(f"an arc has finite numbers and no negative radius, not {tuple(arc)}")
+                raise CamError("an arc has finite numbers and no negative radius, not {arc}", arc=tuple(arc))
         starts = [arc.start for arc in self.arcs]
         if any(b <= a for a, b in pairwise(starts)) or starts[-1] - starts[0] >= math.tau:
             raise CamError("the arcs of a contour follow one another counter-clockwise within one turn")
@@ -143,7 +143,8 @@ class ArcContour:
             if abs(gap.real + after.radius - before.radius) > 1e-9 * scale or gap.imag < -1e-9 * scale:
                 degrees = math.degrees(after.start)
                 raise CamError(
-                    f"the arcs that meet at the normal of {degrees:.6g} degrees have no common tangent there"
+                    "the arcs that meet at the normal of {degrees:.6g} degrees have no common tangent there",
+                    degrees=degrees,
                 )
 
     def _neighbours(self) -> Iterator[tuple[ContourArc, ContourArc]]:
@@ -172,7 +173,7 @@ class ArcContour:
             arcs = arcs[1:]
         return cls(arcs)
 
-    def touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
+    def touch(self, follower: Follower, angle: Reals) -> ContactSamples:
         """The outermost contact at each angle; -inf where there is none."""
         turn = np.exp(1j * angle)
         best = ContactSamples(*(np.full(angle.shape, -np.inf, dtype=kind) for kind in (float, complex, float, float)))
@@ -200,7 +201,7 @@ def _higher(best: ContactSamples, samples: ContactSamples, valid: NDArray[np.boo
     return ContactSamples(*(np.where(better, new, old) for new, old in zip(samples, best, strict=True)))
 
 
-def _arc_contacts(follower: Follower, turn: ComplexArray, arc: ContourArc) -> Iterator[ContactSamples]:
+def _arc_contacts(follower: Follower, turn: Complexes, arc: ContourArc) -> Iterator[ContactSamples]:
     """Contacts with the whole circle."""
     middle = arc.centre * turn
     radius = np.full(turn.shape, arc.radius)
@@ -215,7 +216,7 @@ def _arc_contacts(follower: Follower, turn: ComplexArray, arc: ContourArc) -> It
             yield ContactSamples(s, (follower.path(s).at - middle) / reach, radius, np.zeros(turn.shape))
 
 
-def face_coordinate(flat: Flat, point: ComplexArray, radius: float) -> FloatArray:
+def face_coordinate(flat: Flat, point: Complexes, radius: float) -> Reals:
     """The coordinate at which the face touches a circle about a point."""
     if not flat.swings:
         return np.asarray(point.imag + radius)
@@ -225,7 +226,7 @@ def face_coordinate(flat: Flat, point: ComplexArray, radius: float) -> FloatArra
         return np.asarray(np.angle(lever) + np.arcsin((flat.face + radius) / np.abs(lever)))
 
 
-def _guide_circle(roller: Roller, middle: ComplexArray, reach: float) -> Iterator[FloatArray]:
+def _guide_circle(roller: Roller, middle: Complexes, reach: float) -> Iterator[Reals]:
     """The coordinates at which the roller's centre lies on a circle."""
     with np.errstate(invalid="ignore"):
         if not roller.swings:
@@ -239,7 +240,7 @@ def _guide_circle(roller: Roller, middle: ComplexArray, reach: float) -> Iterato
             yield arm_coordinate(roller, (along + sign * across) * lever / length)
 
 
-def arm_coordinate(roller: Roller, arm: ComplexArray) -> FloatArray:
+def arm_coordinate(roller: Roller, arm: Complexes) -> Reals:
     """The coordinate of a swinging follower whose arm lies so; NaN below the line of centres."""
     side = math.copysign(1.0, roller.distance)
     found = -side * np.angle(-side * arm)
@@ -247,8 +248,8 @@ def arm_coordinate(roller: Roller, arm: ComplexArray) -> FloatArray:
 
 
 def _line_contacts(
-    roller: Roller, turn: ComplexArray, ends: tuple[complex, complex], normal: complex
-) -> Iterator[tuple[ContactSamples, FloatArray]]:
+    roller: Roller, turn: Complexes, ends: tuple[complex, complex], normal: complex
+) -> Iterator[tuple[ContactSamples, Reals]]:
     """Contacts with a straight line and where on it they are, 0 to 1."""
     start, way = (ends[0] + roller.radius * normal) * turn, (ends[1] - ends[0]) * turn
     flat, zero = np.full(turn.shape, np.inf), np.zeros(turn.shape)

@@ -12,40 +12,39 @@ from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams.laws import CamError
 
 __all__ = ["FaceLine", "Flat", "Follower", "Path", "Roller"]
-
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 
 class Path(NamedTuple):
     """A point of the follower as a function of its coordinate, with two derivatives."""
 
-    at: ComplexArray
-    first: ComplexArray
-    second: ComplexArray
+    at: Complexes
+    first: Complexes
+    second: Complexes
 
 
 class FaceLine(NamedTuple):
     """The face: its normal's angle away from the cam, its distance from the axis, and their derivatives."""
 
-    angle: FloatArray
+    angle: Reals
     turn: float
     """Derivative of the angle by the coordinate: 0 for a translating face, -1 or 1 for a swinging one."""
-    distance: FloatArray
-    first: FloatArray
-    second: FloatArray
+    distance: Reals
+    first: Reals
+    second: Reals
 
 
 def _check(follower: Roller | Flat) -> None:
     for field in fields(follower):
         value = getattr(follower, field.name)
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < 1e70:
-            raise CamError(f"{field.name} of a follower: expected a number below 1e70, not {value!r}")
+            raise CamError(
+                "{name} of a follower: expected a number below 1e70, not {value!r}", name=field.name, value=value
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,7 @@ class Roller:
     def __post_init__(self) -> None:
         _check(self)
         if self.radius < 0 or self.arm < 0:
-            raise CamError(f"radius and arm of a follower are not negative: {self}")
+            raise CamError("radius and arm of a follower are not negative: {self_}", self_=self)
         if (self.arm == 0) != (self.distance == 0) or (self.arm and self.offset):
             raise CamError("a swinging follower has an arm and a distance of its pivot, and no offset")
 
@@ -78,25 +77,32 @@ class Roller:
         if not self.swings:
             if abs(self.offset) >= radius:
                 raise CamError(
-                    f"the offset {self.offset:g} must be smaller than base radius and roller together, {radius:g}"
+                    "the offset {offset:g} must be smaller than base radius and roller together, {radius:g}",
+                    offset=self.offset,
+                    radius=radius,
                 )
             return math.sqrt(radius**2 - self.offset**2)
         d = abs(self.distance)
         cosine = (self.arm**2 + d**2 - radius**2) / (2 * self.arm * d)
         if not -1 < cosine < 1:
-            raise CamError(f"arm {self.arm:g}, pivot distance {d:g} and base circle {radius:g} form no triangle")
+            raise CamError(
+                "arm {arm:g}, pivot distance {d:g} and base circle {radius:g} form no triangle",
+                arm=self.arm,
+                d=d,
+                radius=radius,
+            )
         return math.acos(cosine)
 
-    def gain(self, start: float, lift: FloatArray) -> FloatArray:
+    def gain(self, start: float, lift: Reals) -> Reals:
         """By how much a lift makes the square of the centre's distance from the axis larger; without cancellation."""
         if not self.swings:
             return np.asarray(lift * (2 * start + lift))
         return np.asarray(4 * self.arm * abs(self.distance) * np.sin(start + lift / 2) * np.sin(lift / 2))
 
-    def path(self, s: FloatArray) -> Path:
+    def path(self, s: Reals) -> Path:
         """The centre."""
         if not self.swings:
-            zero: ComplexArray = np.zeros(np.shape(s), dtype=np.complex128)
+            zero: Complexes = np.zeros(np.shape(s), dtype=np.complex128)
             return Path(zero + self.offset + 1j * s, zero + 1j, zero)
         side = math.copysign(1.0, self.distance)
         arm = np.asarray(-side * self.arm * np.exp(-1j * side * s), dtype=np.complex128)
@@ -128,16 +134,21 @@ class Flat:
         if not self.swings:
             return radius
         if not abs(radius + self.face) < abs(self.distance):
-            raise CamError(f"a face {self.face:g} from its pivot at {self.distance:g} reaches no circle of {radius:g}")
+            raise CamError(
+                "a face {face:g} from its pivot at {distance:g} reaches no circle of {radius:g}",
+                face=self.face,
+                distance=self.distance,
+                radius=radius,
+            )
         return math.asin((radius + self.face) / abs(self.distance))
 
-    def gain(self, start: float, lift: FloatArray) -> FloatArray:
+    def gain(self, start: float, lift: Reals) -> Reals:
         """By how much a lift makes the face's distance from the axis larger; without cancellation."""
         if not self.swings:
             return np.asarray(lift)
         return np.asarray(2 * abs(self.distance) * np.cos(start + lift / 2) * np.sin(lift / 2))
 
-    def line(self, s: FloatArray) -> FaceLine:
+    def line(self, s: Reals) -> FaceLine:
         """The face."""
         if not self.swings:
             one = np.ones_like(s)

@@ -15,8 +15,9 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.cams.extremes import extremes
 from gruebler.errors import GrueblerError, nearest
 
@@ -32,21 +33,19 @@ __all__ = [
     "polynomial_law",
 ]
 
-FloatArray = NDArray[np.float64]
-
 
 class CamError(GrueblerError):
     """A cam, a law or a contour that cannot be."""
 
 
-def finite_array(values: ArrayLike, what: str) -> FloatArray:
+def finite_array(values: ArrayLike, what: str) -> Reals:
     """Numbers of any shape as an array; CamError if one is not finite, or none at all."""
     try:
         found = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         found = np.array(np.nan)
     if not np.isfinite(found).all():
-        raise CamError(f"{what}: expected finite numbers, not {values!r}"[:200])
+        raise CamError("{what}: expected finite numbers, not {values!r}", what=what, values=values)
     return found
 
 
@@ -59,14 +58,14 @@ class LawPiece(NamedTuple):
     frequency: float = 0.0
     phase: float = 0.0
 
-    def at(self, x: FloatArray, order: int) -> FloatArray:
+    def at(self, x: Reals, order: int) -> Reals:
         """The derivative of an order at places of any shape."""
         t = x - self.start
         wave = self.amplitude * self.frequency**order * np.sin(self.frequency * t + self.phase + order * math.pi / 2)
         return np.asarray(np.polynomial.polynomial.polyval(t, _derived(self.polynomial, order)) + wave)
 
 
-def _derived(polynomial: Sequence[float], order: int) -> FloatArray:
+def _derived(polynomial: Sequence[float], order: int) -> Reals:
     return np.asarray(np.polynomial.polynomial.polyder(polynomial, order), dtype=np.float64)
 
 
@@ -93,7 +92,7 @@ class MotionLaw:
     name: str
     pieces: tuple[LawPiece, ...]
 
-    def at(self, x: ArrayLike, order: int = 0) -> FloatArray:
+    def at(self, x: ArrayLike, order: int = 0) -> Reals:
         """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
         places = finite_array(x, "places on a law")
         found = np.zeros(places.shape)
@@ -114,7 +113,7 @@ class MotionLaw:
     def peaks(self) -> LawPeaks:
         """C_v, C_a, C_j and the peak of C_a C_v (the torque of a mass); jumps of acceleration are no jerk here."""
 
-        def greatest(function: Callable[[LawPiece, FloatArray], FloatArray]) -> float:
+        def greatest(function: Callable[[LawPiece, Reals], Reals]) -> float:
             spans = zip(self.pieces, self.joints, self.joints[1:], strict=False)
             found = (extremes(partial(function, piece), a, b) for piece, a, b in spans)
             return max(abs(value) for places in found for _, value in places)
@@ -137,9 +136,9 @@ def polynomial_law(*powers: int) -> MotionLaw:
     [0.0, 0.0, 0.0, 10.0, -15.0, 6.0]
     """
     if not powers or any(not isinstance(p, int) or isinstance(p, bool) or not 1 <= p <= 15 for p in powers):
-        raise CamError(f"a polynomial law has whole powers from 1 to 15, such as 3-4-5, not {powers!r}")
+        raise CamError("a polynomial law has whole powers from 1 to 15, such as 3-4-5, not {powers!r}", powers=powers)
     if len(set(powers)) < len(powers):
-        raise CamError(f"the powers of a polynomial law are different, not {powers!r}")
+        raise CamError("the powers of a polynomial law are different, not {powers!r}", powers=powers)
     polynomial = [0.0] * (max(powers) + 1)
     for p in powers:
         polynomial[p] = math.prod(q / (q - p) for q in powers if q != p)
@@ -156,7 +155,7 @@ def boundary_law(start: Sequence[float], end: Sequence[float]) -> MotionLaw:
     if not start or not end or not all(isinstance(v, int | float) and math.isfinite(v) for v in values):
         raise CamError("boundary values are finite numbers: lift, then velocity, acceleration, ... at each end")
     if len(values) > 16:
-        raise CamError(f"at most 16 boundary values are taken, not {len(values)}")
+        raise CamError("at most 16 boundary values are taken, not {count}", count=len(values))
     coefficients = _hermite([Fraction(v) for v in start], [Fraction(v) for v in end])
     return MotionLaw("polynomial", (LawPiece(0.0, tuple(map(float, coefficients))),))
 
@@ -243,7 +242,7 @@ def motion_law(name: str) -> MotionLaw:
     True
     """
     if not isinstance(name, str):
-        raise CamError(f"a law has a name such as 3-4-5 or cycloidal, not {name!r}")
+        raise CamError("a law has a name such as 3-4-5 or cycloidal, not {name!r}", name=name)
     known = LAWS.get(name.lower(), name.lower())
     if known in _ACCELERATIONS:
         return _from_acceleration(known, _ACCELERATIONS[known])
@@ -252,4 +251,6 @@ def motion_law(name: str) -> MotionLaw:
     parts = known.split("-")
     if all(part.isascii() and part.isdigit() and len(part) < 3 for part in parts):
         return polynomial_law(*map(int, parts))
-    raise CamError(f"no law is called {name!r}: {', '.join(LAWS)}{nearest(name, LAWS)}")
+    raise CamError(
+        "no law is called {name!r}: {laws}{suggestion}", name=name, laws=", ".join(LAWS), suggestion=nearest(name, LAWS)
+    )

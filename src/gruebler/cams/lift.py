@@ -9,15 +9,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.cams.extremes import Function, extremes
 from gruebler.cams.laws import CamError, MotionLaw, boundary_law, finite_array, motion_law
 from gruebler.errors import nearest
 
 __all__ = ["DerivativeJump", "Lift", "LiftSegment", "SmoothSpan", "dwell", "motion", "read_lift"]
 
-FloatArray = NDArray[np.float64]
 
 _LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
 
@@ -63,15 +63,22 @@ _LARGEST = 1e70  # of lengths, as everywhere: their squares and quotients by the
 def motion(change: float, angle: float, name: str | MotionLaw = "3-4-5") -> LiftSegment:
     """A rise (or fall, if negative) by a law."""
     if not isinstance(change, int | float) or not math.isfinite(change) or change == 0:
-        raise CamError(f"a rise or fall has a finite lift that is not zero, not {change!r}")
+        raise CamError("a rise or fall has a finite lift that is not zero, not {change!r}", change=change)
     if not 1 / _LARGEST < abs(change) < _LARGEST:
-        raise CamError(f"a lift lies between {1 / _LARGEST:g} and {_LARGEST:g}, not {change!r}: choose another unit")
+        raise CamError(
+            "a lift lies between {largest:g} and {largest_2:g}, not {change!r}: choose another unit",
+            largest=1 / _LARGEST,
+            largest_2=_LARGEST,
+            change=change,
+        )
     return LiftSegment(_angle(angle), float(change), name if isinstance(name, MotionLaw) else motion_law(name))
 
 
 def _angle(angle: float) -> float:
     if not isinstance(angle, int | float) or not _LEAST <= angle <= math.tau * (1 + 1e-12):
-        raise CamError(f"a part of the turn has an angle from {_LEAST:g} to 2 pi, not {angle!r} rad")
+        raise CamError(
+            "a part of the turn has an angle from {least:g} to 2 pi, not {angle!r} rad", least=_LEAST, angle=angle
+        )
     return float(angle)
 
 
@@ -95,10 +102,10 @@ class Lift:
             raise CamError("a lift has at least one part")
         turn = sum(segment.angle for segment in self.segments)
         if abs(turn - math.tau) > _LEAST:
-            raise CamError(f"the parts of a lift fill 360 degrees, not {math.degrees(turn):.6g}")
+            raise CamError("the parts of a lift fill 360 degrees, not {turn:.6g}", turn=math.degrees(turn))
         left = sum(segment.change for segment in self.segments)
         if abs(left) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
-            raise CamError(f"the lift ends where it began; {left:+.6g} is left over")
+            raise CamError("the lift ends where it began; {left:+.6g} is left over", left=left)
 
     def scaled(self, factor: float) -> Lift:
         """Every lift times a factor, as from degrees to radians."""
@@ -125,10 +132,10 @@ class Lift:
                 yield SmoothSpan(start + a * segment.angle, start + b * segment.angle, k, orders)
             lift += segment.change
 
-    def at(self, angle: ArrayLike, order: int = 0) -> FloatArray:
+    def at(self, angle: ArrayLike, order: int = 0) -> Reals:
         """The lift, or its derivative (1 to 3) by the cam's angle, at any angles; at a jump the value after it."""
         if order not in range(4):
-            raise CamError(f"a lift has derivatives 0 to 3 here, not {order!r}")
+            raise CamError("a lift has derivatives 0 to 3 here, not {order!r}", order=order)
         phi = np.mod(finite_array(angle, "the cam's angles"), math.tau)
         spans = list(self.spans())
         index = np.searchsorted([span.start for span in spans[1:]], phi, side="right")
@@ -193,19 +200,27 @@ def read_lift(text: str) -> Lift:
 def _read_part(statement: str) -> LiftSegment | None:
     word, *rest = statement.split()
     if word not in ("rise", "fall", "dwell"):
-        raise CamError(f"'{statement}': expected rise, fall or dwell{nearest(word, ('rise', 'fall', 'dwell'))}")
+        raise CamError(
+            "'{statement}': expected rise, fall or dwell{suggestion}",
+            statement=statement,
+            suggestion=nearest(word, ("rise", "fall", "dwell")),
+        )
     if word == "dwell":
         if len(rest) > 1:
-            raise CamError(f"'{statement}': a dwell has an angle and nothing else")
+            raise CamError("'{statement}': a dwell has an angle and nothing else", statement=statement)
         return dwell(math.radians(_number(rest[0], statement))) if rest else None
     if len(rest) < 2:
-        raise CamError(f"'{statement}': expected a lift and an angle in degrees, such as '{word} 20 60 3-4-5'")
+        raise CamError(
+            "'{statement}': expected a lift and an angle in degrees, such as '{word} 20 60 3-4-5'",
+            statement=statement,
+            word=word,
+        )
     sign = 1 if word == "rise" else -1
     change, angle = sign * _number(rest[0], statement), math.radians(_number(rest[1], statement))
     if len(rest) > 2 and "=" in rest[2]:
         return LiftSegment(_angle(angle), 1.0, _bounded(change, angle, rest[2:], statement))
     if len(rest) > 3:
-        raise CamError(f"'{statement}': one law is enough, not {' '.join(rest[2:])!r}")
+        raise CamError("'{statement}': one law is enough, not {rest!r}", statement=statement, rest=" ".join(rest[2:]))
     return motion(change, angle, rest[2] if len(rest) > 2 else "3-4-5")
 
 
@@ -215,12 +230,20 @@ def _bounded(change: float, angle: float, words: list[str], statement: str) -> M
     for word in words:
         found = re.fullmatch(r"([vaj])([01])=(\S+)", word)
         if not found:
-            raise CamError(f"'{statement}': expected boundary values such as v0=0 a1=2, not {word!r}")
+            raise CamError(
+                "'{statement}': expected boundary values such as v0=0 a1=2, not {word!r}",
+                statement=statement,
+                word=word,
+            )
         order = "vaj".index(found[1]) + 1
         ends[int(found[2])][order] = _number(found[3], statement) * angle**order
     for values, end in zip(ends, "01", strict=True):
         if sorted(values) != list(range(len(values))):
-            raise CamError(f"'{statement}': at end {end} lower derivatives are missing; give v before a before j")
+            raise CamError(
+                "'{statement}': at end {end} lower derivatives are missing; give v before a before j",
+                statement=statement,
+                end=end,
+            )
     start, final = ([values[k] for k in range(len(values))] for values in ends)
     return boundary_law(start, final)
 
@@ -231,7 +254,12 @@ def _number(text: str, statement: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CamError(f"'{statement}': expected a finite number, not {text!r}")
+        raise CamError("'{statement}': expected a finite number, not {text_!r}", statement=statement, text_=text)
     if abs(value) >= _LARGEST:
-        raise CamError(f"'{statement}': expected a number below {_LARGEST:g}, not {text!r}")
+        raise CamError(
+            "'{statement}': expected a number below {largest:g}, not {text_!r}",
+            statement=statement,
+            largest=_LARGEST,
+            text_=text,
+        )
     return value

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams.contour import ContactSamples, arm_coordinate, face_coordinate
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
@@ -17,8 +18,6 @@ from gruebler.notebook import Brief
 
 __all__ = ["SmoothContour"]
 
-FloatArray = NDArray[np.float64]
-ComplexArray = NDArray[np.complex128]
 
 _BISECTIONS = 52
 _CHUNK = 1 << 20
@@ -51,7 +50,7 @@ class SmoothContour(Brief):
         if table.ndim != 2 or table.shape[1] != 2:
             raise CamError("a contour is given by rows of two finite numbers, x and y")
         if (np.abs(table) >= _MOST).any():
-            raise CamError(f"a contour has coordinates below {_MOST:g}")
+            raise CamError("a contour has coordinates below {most:g}", most=_MOST)
         if len(table) > 1 and (table[0] == table[-1]).all():
             table = table[:-1]
         closed = np.vstack([table, table[:1]])
@@ -61,18 +60,20 @@ class SmoothContour(Brief):
         return cls._closed(np.concatenate([[0.0], np.cumsum(steps)]), closed, degree, resolution)
 
     @classmethod
-    def of(cls, curve: Callable[[FloatArray], ArrayLike], samples: int = 1440, resolution: int = 2048) -> SmoothContour:
+    def of(cls, curve: Callable[[Reals], ArrayLike], samples: int = 1440, resolution: int = 2048) -> SmoothContour:
         """The contour of a function from angles in [0, 2 pi) to points of shape (n, 2); a quintic spline."""
         u = np.linspace(0, math.tau, samples + 1)
         table = finite_array(curve(u[:-1]), "points of a contour")
         if table.shape != (samples, 2):
             raise CamError(
-                f"the function gives {samples} points x, y for {samples} angles, not the shape {table.shape}"
+                "the function gives {samples} points x, y for {samples} angles, not the shape {shape}",
+                samples=samples,
+                shape=table.shape,
             )
         return cls._closed(u, np.vstack([table, table[:1]]), 5, resolution)
 
     @classmethod
-    def _closed(cls, u: FloatArray, points: FloatArray, degree: int, resolution: int) -> SmoothContour:
+    def _closed(cls, u: Reals, points: Reals, degree: int, resolution: int) -> SmoothContour:
         from scipy.interpolate import make_interp_spline
 
         x, y = points.T
@@ -83,18 +84,18 @@ class SmoothContour(Brief):
             raise CamError("the contour goes once around the cam's axis, the point (0, 0)")
         return cls(make_interp_spline(u, points, k=degree, bc_type="periodic"), float(u[-1]), resolution)
 
-    def at(self, u: FloatArray, order: int = 0) -> ComplexArray:
+    def at(self, u: Reals, order: int = 0) -> Complexes:
         """Points of the curve, or derivatives by its parameter."""
         pair = self.spline(np.mod(u, self.period), order)
         return np.asarray(pair[..., 0] + 1j * pair[..., 1])
 
-    def touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
+    def touch(self, follower: Follower, angle: Reals) -> ContactSamples:
         """The outermost contact at each angle; NaN where there is none."""
         rows = max(1, _CHUNK // self.resolution)
         parts = [self._touch(follower, angle[k : k + rows]) for k in range(0, len(angle), rows)]
         return ContactSamples(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
 
-    def _touch(self, follower: Follower, angle: FloatArray) -> ContactSamples:
+    def _touch(self, follower: Follower, angle: Reals) -> ContactSamples:
         turn = np.exp(1j * angle)
         table = np.linspace(0, self.period, self.resolution + 1)
         find = self._roller_place if isinstance(follower, Roller) else self._flat_place
@@ -112,14 +113,14 @@ class SmoothContour(Brief):
             along = np.zeros(len(angle))
         return ContactSamples(np.where(np.isnan(u), np.nan, s), normal, radius, along)
 
-    def _roller_place(self, roller: Roller, turn: ComplexArray, table: FloatArray) -> FloatArray:
+    def _roller_place(self, roller: Roller, turn: Complexes, table: Reals) -> Reals:
         """Where the offset curve meets the guide of the roller's centre, farthest out."""
 
-        def offset(u: FloatArray) -> ComplexArray:
+        def offset(u: Reals) -> Complexes:
             tangent = self.at(u, 1)
             return np.asarray(self.at(u) - 1j * roller.radius * tangent / np.abs(tangent))
 
-        def beside(centre: ComplexArray) -> FloatArray:
+        def beside(centre: Complexes) -> Reals:
             if not roller.swings:
                 return np.asarray(centre.real - roller.offset)
             return np.abs(centre - roller.distance) - roller.arm
@@ -133,10 +134,10 @@ class SmoothContour(Brief):
         found = _bisected(lambda u: beside(offset(u) * turn), table[k], table[k + 1])
         return np.where(np.isfinite(height[np.arange(len(turn)), k]), found, np.nan)
 
-    def _flat_place(self, flat: Flat, turn: ComplexArray, table: FloatArray) -> FloatArray:
+    def _flat_place(self, flat: Flat, turn: Complexes, table: Reals) -> Reals:
         """Where the contour stands out farthest against the face."""
 
-        def climb(u: FloatArray) -> FloatArray:
+        def climb(u: Reals) -> Reals:
             normal = np.exp(1j * flat.line(face_coordinate(flat, self.at(u) * turn, 0.0)).angle)
             return np.asarray(np.real(np.conj(normal) * self.at(u, 1) * turn))
 
@@ -147,7 +148,7 @@ class SmoothContour(Brief):
         return np.where(lost, np.nan, _bisected(climb, table[k] - step, table[k] + step))
 
 
-def _bisected(function: Callable[[FloatArray], FloatArray], a: FloatArray, b: FloatArray) -> FloatArray:
+def _bisected(function: Callable[[Reals], Reals], a: Reals, b: Reals) -> Reals:
     """A place in each [a, b] where the sign changes."""
     below = function(a) <= 0
     for _ in range(_BISECTIONS):

@@ -50,17 +50,28 @@ class FeatureQuery:
     def __post_init__(self) -> None:
         for name in (*_SAME, "multiple_joints"):
             if (value := getattr(self, name)) is not None and value < 0:
-                raise GrueblerError(f"the number of {name.replace('_', ' ')} is 0 or more, not {value}")
+                raise GrueblerError(
+                    "the number of {replace} is 0 or more, not {value}", replace=name.replace("_", " "), value=value
+                )
         for name in ("drive_joints", "output_links"):
             total, part = getattr(self, name), getattr(self, f"{name}_at_frame")
             if total is not None and part is not None and part > total:
-                raise GrueblerError(f"{total} {_PLAIN[name]} cannot be {part} at the frame")
+                raise GrueblerError(
+                    "{total} {plain} cannot be {part} at the frame", total=total, plain=_PLAIN[name], part=part
+                )
         for k, number in self.kinds:
             if number < 0:
-                raise GrueblerError(f"the number of links with {k} joints is 0 or more, not {number}")
+                raise GrueblerError(
+                    "the number of links with {k} joints is 0 or more, not {number}", k=k, number=number
+                )
         told = sum(number for _, number in self.kinds)
         if self.links is not None and told > self.links:
-            raise GrueblerError(f"{self.links} links cannot be {_kinds_said(self.kinds)}: those are {told}")
+            raise GrueblerError(
+                "{links} links cannot be {kinds_said}: those are {told}",
+                links=self.links,
+                kinds_said=_kinds_said(self.kinds),
+                told=told,
+            )
 
     def fits(self, mechanism: Mechanism, features: AccessFeatures) -> bool:
         """Whether the mechanism with these features is wanted."""
@@ -93,9 +104,13 @@ def read_pairs(text: str) -> tuple[tuple[Pair, int], ...]:
     for part in text.split(","):
         symbol, colon, number = (piece.strip() for piece in part.partition(":"))
         if not symbol or not colon or not number.isdecimal():
-            raise GrueblerError(f"{text!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}")
+            raise GrueblerError(
+                "{text_!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}",
+                text_=text,
+                part=part,
+            )
         if symbol in numbers:
-            raise GrueblerError(f"{text!r}: {symbol} stands there twice")
+            raise GrueblerError("{text_!r}: {symbol} stands there twice", text_=text, symbol=symbol)
         numbers[symbol] = int(number)
     try:
         read = read_symbols(numbers, Space.PLANAR)
@@ -189,10 +204,16 @@ def _mechanisms(chain: Chain, query: FeatureQuery, mobility: int) -> Iterator[Dr
 def _check_roles(query: FeatureQuery, mobility: int) -> None:
     if query.drive_joints not in (None, 0, mobility):
         raise GrueblerError(
-            f"mobility {mobility} takes as many drives, which {query.drive_joints} drive joints are not"
+            "mobility {mobility} takes as many drives, which {drive_joints} drive joints are not",
+            mobility=mobility,
+            drive_joints=query.drive_joints,
         )
     if (query.drive_joints_at_frame or 0) > mobility:
-        raise GrueblerError(f"mobility {mobility} takes as many drives; {query.drive_joints_at_frame} are too many")
+        raise GrueblerError(
+            "mobility {mobility} takes as many drives; {drive_joints_at_frame} are too many",
+            mobility=mobility,
+            drive_joints_at_frame=query.drive_joints_at_frame,
+        )
     if max(query.output_links or 0, query.output_links_at_frame or 0) > 1:
         raise GrueblerError("mechanisms are enumerated with one output link at most")
     if query.drive_joints == 0 and (query.output_links or query.output_links_at_frame is not None):
@@ -206,18 +227,25 @@ def _requirements(query: FeatureQuery) -> Requirements:
     links, mobility = query.links, 1 if query.mobility is None else query.mobility
     if links < 3 or mobility < 0:
         raise GrueblerError(
-            f"mechanisms are enumerated from 3 links and F = 0, not with {links} links and F = {mobility}"
+            "mechanisms are enumerated from 3 links and F = 0, not with {links} links and F = {mobility}",
+            links=links,
+            mobility=mobility,
         )
     numbers = {kind.name: number for kind, number in query.pairs}
     for name, number in numbers.items():
         if number and name not in ("revolute", *_EXCHANGED):
-            raise GrueblerError(f"planar mechanisms are enumerated with R, P, W and G joints, not with {name}")
+            raise GrueblerError(
+                "planar mechanisms are enumerated with R, P, W and G joints, not with {name}", name=name
+            )
     contacts = numbers.get("roll_slide", 0)
     taken = 3 * (links - 1) - mobility  # 2 g1 + g2
     where = f"{links} links with F = {mobility}"
     if (taken - contacts) % 2:
         raise GrueblerError(
-            f"{where}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 = {contacts} roll-slide joints"
+            "{where}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 = {contacts} roll-slide joints",
+            where=where,
+            taken=taken,
+            contacts=contacts,
         )
     g1 = (taken - contacts) // 2
     others = sum(numbers.get(name, 0) for name in ("prismatic", "rolling"))
@@ -225,7 +253,12 @@ def _requirements(query: FeatureQuery) -> Requirements:
         told = others + numbers.get("revolute", 0)
         more = f": name the kinds of the other {g1 - told}" if told < g1 else ""
         raise GrueblerError(
-            f"{where} and {contacts} roll-slide joints have g1 = {g1}, but {told} such joints are asked for{more}"
+            "{where} and {contacts} roll-slide joints have g1 = {g1}, but {told} such joints are asked for{more}",
+            where=where,
+            contacts=contacts,
+            g1=g1,
+            told=told,
+            more=more,
         )
     _check_kinds(query, g1 + contacts)
     complete = sum(number for _, number in query.kinds) == links
@@ -250,8 +283,14 @@ def _check_kinds(query: FeatureQuery, joints: int) -> None:
     if elements > 2 * joints or (not others and elements != 2 * joints):
         left = f" and {others} more with at least {fewest} joints" if others else ""
         raise GrueblerError(
-            f"{_kinds_said(query.kinds)}{left} have {elements} joint elements, but {query.links} links take {joints} "
-            f"joints, so 2 g = {2 * joints}"
+            "{kinds_said}{left} have {elements} joint elements, but {links} links take {joints} joints, so 2 "
+            "g = {joints_2}",
+            kinds_said=_kinds_said(query.kinds),
+            left=left,
+            elements=elements,
+            links=query.links,
+            joints=joints,
+            joints_2=2 * joints,
         )
 
 

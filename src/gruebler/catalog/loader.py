@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -31,7 +32,9 @@ def catalog_folder() -> Path:
     for folder in (package / "catalogs", package.parents[1] / "catalogs"):
         if folder.is_dir():
             return folder
-    raise CatalogError(f"the catalog is missing: neither {package / 'catalogs'} nor a source checkout has it")
+    raise CatalogError(
+        "the catalog is missing: neither {package} nor a source checkout has it", package=package / "catalogs"
+    )
 
 
 @cache
@@ -54,13 +57,20 @@ def exercises() -> dict[str, Exercise]:
     for exercise in found.values():
         for case in exercise.cases:
             if case.machine not in entries():
-                raise CatalogError(f"{exercise.id}: {case.id}: there is no machine {case.machine!r} in the catalog")
+                raise CatalogError(
+                    "{id}: {id_2}: there is no machine {machine!r} in the catalog",
+                    id=exercise.id,
+                    id_2=case.id,
+                    machine=case.machine,
+                )
     return found
 
 
 def _named(record: Record, path: Path) -> Record:
     if record.id != path.stem:
-        raise CatalogError(f"{path}: id: {record.id!r} should be the name of the file, {path.stem!r}")
+        raise CatalogError(
+            "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
+        )
     return record
 
 
@@ -71,12 +81,18 @@ def entry(id: str) -> Entry:
     except KeyError:
         if id in exercises():
             machines = dict.fromkeys(case.machine for case in exercises()[id].cases)
-            raise CatalogError(f"{id!r} is an exercise; the machines in it are {', '.join(machines)}") from None
+            raise CatalogError(
+                "{id!r} is an exercise; the machines in it are {machines}", id=id, machines=", ".join(machines)
+            ) from None
+        if os.path.isdir(id):  # noqa: PTH112  Path.is_dir refuses long names
+            raise CatalogError(
+                "{id!r} is a folder; expected a file, a chain or the id of a catalog entry", id=id
+            ) from None
         from difflib import get_close_matches
 
         close = get_close_matches(id, entries(), n=3, cutoff=0.5)
         hint = f"; did you mean {', '.join(close)}?" if close else "; `gruebler catalog list` shows them all"
-        raise CatalogError(f"the catalog has no entry {id!r}{hint}") from None
+        raise CatalogError("the catalog has no entry {id!r}{hint}", id=id, hint=hint) from None
 
 
 def check_all() -> list[CheckedEntry]:

@@ -292,6 +292,6 @@ def _dimension_lines(entry: Entry, say: Any) -> list[str]:
         return [*lines, say("screws")]
     if entry.dimensions.range is not None:
         low, high = entry.dimensions.range
-        turning = entry_mechanism(entry).drives[0].direction.startswith("R")
+        turning = entry_mechanism(entry).drives[0].turning
         lines.append(say("range", low=low, high=high, unit="°" if turning else f" {sizes.unit}"))
     return lines

@@ -23,11 +23,11 @@ def read_graph6(code: str) -> tuple[Joints, list[str]]:
     try:
         graph = nx.from_graph6_bytes(code.encode("ascii"))
     except UnicodeEncodeError:
-        raise NotationError(f"{code!r} is not a graph6 code: it has letters beyond ASCII") from None
+        raise NotationError("{code!r} is not a graph6 code: it has letters beyond ASCII", code=code) from None
     except IndexError:
-        raise NotationError(f"{code!r} is not a graph6 code: it ends too early") from None
+        raise NotationError("{code!r} is not a graph6 code: it ends too early", code=code) from None
     except (nx.NetworkXError, ValueError) as error:
-        raise NotationError(f"{code!r} is not a graph6 code: {error}") from None
+        raise NotationError("{code!r} is not a graph6 code: {error}", code=code, error=error) from None
     order = [str(v) for v in range(graph.number_of_nodes())]
     return [("revolute", (str(a), str(b))) for a, b in sorted(graph.edges)], order
 
@@ -42,14 +42,14 @@ def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[s
         try:
             document = json.loads(document)
         except json.JSONDecodeError as error:
-            raise NotationError(f"not a JSON document: {error}") from None
+            raise NotationError("not a JSON document: {error}", error=error) from None
     if not isinstance(document, Mapping):
-        raise NotationError(f"a chain is a JSON object, not {type(document).__name__}")
+        raise NotationError("a chain is a JSON object, not {name}", name=type(document).__name__)
     if "verdict" in document:
         document = {key: document[key] for key in ("space", "links", "joints") if key in document}
     unknown = sorted(set(document) - {"space", "links", "joints"})
     if unknown:
-        raise NotationError(f"unknown key {unknown[0]!r} in a chain: expected space, links, joints")
+        raise NotationError("unknown key {unknown!r} in a chain: expected space, links, joints", unknown=unknown[0])
     joints = document.get("joints")
     if not isinstance(joints, Sequence) or isinstance(joints, str):
         raise NotationError('a chain needs a list under "joints"')
@@ -75,4 +75,6 @@ def _joint_of_json(number: int, document: object) -> tuple[str, Sequence[str]]:
             isinstance(link, str) for link in links
         ):
             return kind, [str(link) for link in links]
-    raise NotationError(f'joint {number} must be an object with a text "pair" and a list of names "links"')
+    raise NotationError(
+        'joint {number} must be an object with a text "pair" and a list of names "links"', number=number
+    )

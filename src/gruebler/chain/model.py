@@ -244,7 +244,9 @@ class Chain:
         try:
             return self._places[link]
         except KeyError:
-            raise ChainError(f"the chain has no link {link!r}{nearest(link, self.links)}") from None
+            raise ChainError(
+                "the chain has no link {link!r}{suggestion}", link=link, suggestion=nearest(link, self.links)
+            ) from None
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -307,7 +309,9 @@ class Chain:
     def without_joint(self, number: int) -> Chain:
         """The chain without its joint of this number; `ChainError` if what is left is not a chain."""
         if not 0 <= number < len(self.joints):
-            raise ChainError(f"the chain has joints 0 to {len(self.joints) - 1}, not {number}")
+            raise ChainError(
+                "the chain has joints 0 to {count}, not {number}", count=len(self.joints) - 1, number=number
+            )
         rest = self.joints[:number] + self.joints[number + 1 :]
         return Chain(rest, links=self.links, space=self.space)
 

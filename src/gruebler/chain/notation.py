@@ -17,6 +17,7 @@ from collections.abc import Iterable, Sequence
 
 from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space, read_symbols
 from gruebler.errors import NotationError, PairError
+from gruebler.text import Message, message
 
 __all__ = ["joint_text", "link_name", "link_text", "read", "space_of", "split_links", "symbols_for", "write"]
 
@@ -37,7 +38,7 @@ def space_of(word: str | Space) -> Space:
     try:
         return Space(word)
     except ValueError:
-        raise NotationError(f"unknown space {word!r}: expected planar, spherical or spatial") from None
+        raise NotationError("unknown space {word!r}: expected planar, spherical or spatial", word=word) from None
 
 
 def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple[Pair, tuple[str, ...]]]]:
@@ -69,27 +70,29 @@ def _read_space(text: str, space: str | Space | None) -> tuple[Space, int]:
         return wanted or Space.PLANAR, 0
     written = space_of(prefix[1].lower())
     if wanted is not None and wanted is not written:
-        raise NotationError(f"the text says {written}, but {wanted} was asked for")
+        raise NotationError(
+            "the text says {written}, but {wanted} was asked for", written=written.adjective, wanted=wanted.adjective
+        )
     return written, prefix.end()
 
 
 def _read_joint(text: str, position: int) -> tuple[str, tuple[str, ...], int]:
     head = _SYMBOL.match(text, position)
     if head is None:
-        raise _unreadable(text, position, "a joint such as R(frame-crank)")
+        raise _unreadable(text, position, message("a joint such as R(frame-crank)"))
     position = head.end()
     links = []
     while True:
         name = _LINK.match(text, position)
         if name is None:
-            raise _unreadable(text, position, "the name of a link")
+            raise _unreadable(text, position, message("the name of a link"))
         links.append(_unquoted(name[1]))
         position = name.end()
         separator = text[position : position + 1]
         if separator == ")":
             return head[1], tuple(links), position + 1
         if separator != "-":
-            raise _unreadable(text, position, "'-' and another link, or ')'")
+            raise _unreadable(text, position, message("'-' and another link, or ')'"))
         position = _BLANKS.match(text, position + 1).end()  # type: ignore[union-attr]  # it matches anywhere
 
 
@@ -100,7 +103,9 @@ def link_name(text: str) -> str:
     'lower wishbone'
     """
     if not re.fullmatch(_NAME, text):
-        raise NotationError(f"expected the name of a link, bare or in double quotes, but found {_shortened(text)!r}")
+        raise NotationError(
+            "expected the name of a link, bare or in double quotes, but found {name!r}", name=_shortened(text)
+        )
     return _unquoted(text)
 
 
@@ -121,14 +126,20 @@ def _unquoted(name: str) -> str:
     try:
         return str(json.loads(name))
     except json.JSONDecodeError as error:
-        raise NotationError(f"the quoted name {name} is not valid: {error.msg}") from None
+        raise NotationError("the quoted name {name} is not valid: {reason}", name=name, reason=error.msg) from None
 
 
-def _unreadable(text: str, position: int, expected: str) -> NotationError:
+def _unreadable(text: str, position: int, expected: Message) -> NotationError:
     rest = text[position:].strip()
     position = len(text) - len(text[position:].lstrip())
-    found = f"found {_shortened(rest)!r}" if rest else "the text ends"
-    return NotationError(f"expected {expected} at character {position + 1}, but {found}")
+    return NotationError(
+        "expected {expected} at character {position}, but found {found!r}"
+        if rest
+        else "expected {expected} at character {position}, but the text ends",
+        expected=expected,
+        position=position + 1,
+        found=_shortened(rest),
+    )
 
 
 def _shortened(text: str) -> str:

@@ -7,45 +7,63 @@ from collections.abc import Iterable, Sequence
 
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Pair, Space, pair
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import ChainError, PairError, nearest
+from gruebler.text import Message, joined, message
 
 __all__ = ["check_connected", "checked_joint", "checked_links"]
 
 _LONGEST_NAME = 200
+_MOST_NAMES = 5
 
 
 def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
     """A joint as it is given, checked."""
     kind, links = (raw.pair, raw.links) if isinstance(raw, Joint) else raw
     if isinstance(links, str):
-        raise ChainError(f"the links of a joint are a list of names, not the text {links!r}")
+        raise ChainError("the links of a joint are a list of names, not the text {links!r}", links=links)
     made = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
     if len(made.links) < 2:
-        raise ChainError(f"the joint {made} has {_links(len(made.links))}; a joint joins at least two")
+        raise ChainError(
+            "the joint {joint} has {links}; a joint joins at least two", joint=made, links=_links(len(made.links))
+        )
     if len(set(made.links)) < len(made.links):
         twice = next(link for link, k in Counter(made.links).items() if k > 1)
-        raise ChainError(f"the joint {made} names the link {twice!r} twice; a joint joins different links")
+        raise ChainError(
+            "the joint {joint} names the link {twice!r} twice; a joint joins different links", joint=made, twice=twice
+        )
     if space not in made.pair.freedoms:
         try:
             made.pair.f(space)
         except PairError as error:
-            raise PairError(f"the joint {made} is not possible: {error}") from None
+            raise PairError("the joint {joint} is not possible: {error}", joint=made, error=error) from None
     if len(made.links) > 2 and not made.pair.is_group:
         raise ChainError(
-            f"the joint {made} has {len(made.links)} links, but a {made.pair.name} joint ({made.pair.german}) joins "
-            "exactly two: such relative motions do not compose; write one joint for each contact"
+            "the joint {joint} has {count} links, but a {name} joint ({german}) joins exactly two: such "
+            "relative motions do not compose; write one joint for each contact",
+            joint=made,
+            count=len(made.links),
+            name=made.pair.name,
+            german=made.pair.german,
         )
     return made
 
 
 def _name(raw: str | int) -> str:
     if not isinstance(raw, str | int) or isinstance(raw, bool):
-        raise ChainError(f"a link is named by a text or a whole number, not by {raw!r}")
+        raise ChainError("a link is named by a text or a whole number, not by {name!r}", name=raw)
     name = str(raw)
     if not name.strip() or name != name.strip() or not name.isprintable():
-        raise ChainError(f"{name!r} cannot name a link: a name has visible characters and no blank at its ends")
+        raise ChainError(
+            "{name!r} cannot name a link: a name has visible characters and no blank at its ends", name=name
+        )
     if len(name) > _LONGEST_NAME:
-        raise ChainError(f"the link name {name[:20]!r}... has {len(name)} characters; at most {_LONGEST_NAME}")
+        raise ChainError(
+            "the link name {name!r}... has {count} characters; at most {most}",
+            name=name[:20],
+            count=len(name),
+            most=_LONGEST_NAME,
+        )
     return name
 
 
@@ -55,44 +73,48 @@ def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tu
     known, joined = set(declared), set(named)
     if len(known) < len(declared):
         twice = next(link for link, k in Counter(declared).items() if k > 1)
-        raise ChainError(f"two links are called {twice!r}; every link needs a name of its own")
+        raise ChainError("two links are called {twice!r}; every link needs a name of its own", twice=twice)
     stranger = next((link for link in named if link not in known), None)
     if stranger is not None:
         where = next(j for j in joints if stranger in j.links)
         raise ChainError(
-            f"the joint {where} names the link {stranger!r}, which is not among the links" + nearest(stranger, declared)
+            "the joint {joint} names the link {stranger!r}, which is not among the links{suggestion}",
+            joint=where,
+            stranger=stranger,
+            suggestion=nearest(stranger, declared),
         )
     lonely = next((link for link in declared if link not in joined), None)
     if lonely is not None:
-        raise ChainError(f"the link {lonely!r} has no joint; every link of a chain carries at least one")
+        raise ChainError("the link {lonely!r} has no joint; every link of a chain carries at least one", lonely=lonely)
     return declared
 
 
 def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
     """Refuse what is too small or in several parts."""
     if len(links) < 3:
-        raise ChainError(f"a kinematic chain has at least three links, this one has {_links(len(links))}")
-    root = {link: link for link in links}
-
-    def find(link: str) -> str:
-        while root[link] != link:
-            root[link] = link = root[root[link]]
-        return link
-
+        raise ChainError("a kinematic chain has at least three links, this one has {links}", links=_links(len(links)))
+    sets = DisjointSets(links)
     for j in joints:
         for other in j.links[1:]:
-            root[find(other)] = find(j.links[0])
-    parts: dict[str, list[str]] = {}
-    for link in links:
-        parts.setdefault(find(link), []).append(link)
+            sets.unite(j.links[0], other)
+    parts = sets.classes()
     if len(parts) > 1:
-        sizes = sorted(parts.values(), key=len)
-        raise ChainError(f"the chain falls into {len(parts)} parts: no joint connects {_some(sizes[0])} with the rest")
+        sizes = sorted(parts, key=len)
+        raise ChainError(
+            "the chain falls into {count} parts: no joint connects {links} with the rest",
+            count=len(parts),
+            links=_some(sizes[0]),
+        )
 
 
-def _links(number: int) -> str:
-    return "one link" if number == 1 else f"{number or 'no'} links"
+def _links(count: int) -> Message:
+    if count == 1:
+        return message("one link")
+    return message("{count} links", count=count) if count else message("no links")
 
 
-def _some(names: Sequence[str]) -> str:
-    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+def _some(names: Sequence[str]) -> Message:
+    shown = ", ".join(names[:_MOST_NAMES])
+    if len(names) <= _MOST_NAMES:
+        return joined([shown])
+    return message("{names} and {count} more", names=shown, count=len(names) - _MOST_NAMES)

@@ -6,18 +6,20 @@ import argparse
 import math
 from collections.abc import Sequence
 from itertools import islice
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import transmission_angle
+from gruebler.arrays import Reals
 from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
@@ -26,15 +28,15 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import read_branch
 from gruebler.kinematics.solve import all_branches, cached_plan
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.text import error_in_language
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
     from gruebler.analysis.rotatability import Rotatability
     from gruebler.kinematics.circuits import Circuit
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
-Reals = NDArray[np.float64]
 
 _MOST_BRANCHES = 16
 _WORDS = {
@@ -57,6 +59,63 @@ _WORDS = {
         "mu": "Übertragungswinkel",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Measures of a linkage with one drive, then a table of poses, rates and transmission angles; of "
+        "several drives the table.",
+        epilog="Examples: gruebler analyse four-bar:25,70,40,70 --speed 60; gruebler analyse lambda --point C "
+        "--drive 90:270:10. Exit status: 0 all well, 1 it cannot be assembled or not be moved all the way, 2 wrong "
+        "usage or unreadable input.",
+    )
+    parser.add_argument(
+        "linkage",
+        metavar="FILE|ID|LENGTHS",
+        help="a .toml or .json file, the id of a catalog entry with dimensions, or four-bar:A,B,C,D, "
+        "slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
+    )
+    parser.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="rows of the table, in degrees or the unit; for several drives once each, one number holds a drive still "
+        "(default: a full turn by 15 degrees, or the whole range)",
+    )
+    parser.add_argument("--at", action="append", type=float, default=[], metavar="VALUE", help="one row only")
+    parser.add_argument(
+        "--speed",
+        action="append",
+        type=float,
+        default=[],
+        metavar="N",
+        help="turns a minute; of a slide, lengths a second; of several drives once each",
+    )
+    for option, unit, order in (("--acceleration", "s²", "second"), ("--jerk", "s³", "third")):
+        parser.add_argument(
+            option,
+            action="append",
+            type=float,
+            default=[],
+            metavar="A" if order == "second" else "J",
+            help=f"with --speed: radians per {unit}; of a slide, lengths per {unit}; of several drives once each"
+            + ("; rates of the third order are told too" if order == "third" else ""),
+        )
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    parser.add_argument(
+        "--point", action="append", default=[], metavar="K", help="a named point, a joint, or LINK:X,Y; repeatable"
+    )
+    parser.add_argument("--output", action="append", default=[], metavar="LINK", help="the link looked at; repeatable")
+    parser.add_argument(
+        "--poles", action="store_true", help="the instant centres of all pairs of links; with --at a list"
+    )
+    parser.add_argument(
+        "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
+    )
+    parser.add_argument("--json", action="store_true", help="an object with linkage, measures, columns and rows")
+    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the table as CSV, units in its header")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -85,7 +144,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.poles or arguments.curvature:
             raise GrueblerError("--poles and --curvature are those of linkages with one drive")
         if given is None:
-            raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
+            raise GrueblerError("{count} drives: give --drive FROM:TO:STEP or --at once for each", count=len(turning))
         if speeds:
             motion = move(
                 linkage,
@@ -103,7 +162,7 @@ def run(arguments: argparse.Namespace) -> int:
     try:
         measures = _measured(linkage, outputs[0], turning[0], arguments)
     except LinkageError as error:
-        text = error.in_language(arguments.lang)
+        text = error_in_language(error, arguments.lang)
         message = text[:1].upper() + text[1:] + "." * (not text.endswith("."))
         if arguments.json:
             none = {"columns": [], "rows": [], "complete": False, "message": message}
@@ -129,10 +188,12 @@ def _speeds(arguments: argparse.Namespace, turning: Sequence[bool]) -> list[floa
     """Of the drives, in radians a second, or lengths a second; given in revolutions a minute, or lengths a second."""
     given, from_rest = arguments.speed, bool(arguments.acceleration or arguments.jerk)
     if given and len(given) != len(turning):
-        raise GrueblerError(f"--speed is given once for each drive: {len(turning)} times, not {len(given)}")
+        raise GrueblerError(
+            "--speed is given once for each drive: {count} times, not {count_2}", count=len(turning), count_2=len(given)
+        )
     for speed in given:
         if not math.isfinite(speed) or not abs(speed) < 1e12 or (speed == 0 and len(given) == 1 and not from_rest):
-            raise GrueblerError(f"--speed: expected a number that is not 0, but found {speed:g}")
+            raise GrueblerError("--speed: expected a number that is not 0, but found {speed:g}", speed=speed)
     return [speed * math.pi / 30 if turns else speed for speed, turns in zip(given, turning, strict=bool(given))]
 
 
@@ -142,10 +203,12 @@ def _higher(option: str, given: Sequence[float], speeds: Sequence[float]) -> lis
         return [0.0] * len(speeds)
     if len(given) != len(speeds):
         wanted = f"once for each --speed: {len(speeds)} times, not {len(given)}" if speeds else "together with --speed"
-        raise GrueblerError(f"{option} is given {wanted}")
+        raise GrueblerError("{option} is given {wanted}", option=option, wanted=wanted)
     for value in given:
         if not math.isfinite(value) or not abs(value) < 1e12:
-            raise GrueblerError(f"{option}: expected a finite number below 1e12, but found {value:g}")
+            raise GrueblerError(
+                "{option}: expected a finite number below 1e12, but found {value:g}", option=option, value=value
+            )
     return list(given)
 
 
@@ -223,7 +286,7 @@ def _say(linkage: Linkage, measures: Measures, words: dict[str, str], lang: str)
     print_text(measures.explain(lang))
     made = _circuit(linkage, measures)
     if isinstance(made, LinkageError):
-        print(words["unknown"].format(why=made.in_language(lang)))
+        print(words["unknown"].format(why=error_in_language(made, lang)))
     else:
         roles = motion_roles(made).items()
         moving = (f"{link} = {role.in_language(lang)}" for link, role in roles if link != linkage.mechanism.frame)

@@ -13,6 +13,7 @@ from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercis
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_from_word, is_text
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.documents import load_document
 from gruebler.errors import CatalogError, GrueblerError, NotationError
@@ -21,9 +22,9 @@ from gruebler.formats.catalog_records import entry_of_data
 from gruebler.formats.linkages import linkage_from_json
 from gruebler.formats.screws import read_any_linkage, spatial_from_json
 from gruebler.mobility import mobility_report
-from gruebler.mobility.messages import verdict_word
+from gruebler.mobility.report import verdict_word
 
-__all__ = ["explanation", "print_checked", "run"]
+__all__ = ["add", "explanation", "print_checked", "run"]
 
 _HEADERS = {
     "en": ("chain", "n", "joints", "F counted", "generic", "verdict", "special dimensions", "claims"),
@@ -48,6 +49,30 @@ _GROUP = {
 _WIDEST_NAME = 44
 
 _ENDINGS = (".toml", ".json", ".txt", ".g6")  # of files with chains; without an ending: one chain a line
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Count the freedoms of chains, check the count and name what is wrong. Without an argument: "
+        "every machine and exercise of the catalog.",
+        epilog="Exit status: 0 all good, 1 a claim of an entry fails, 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument(
+        "chains",
+        nargs="*",
+        metavar="CHAIN|ID|FILE",
+        help="a text such as 'R(0-1) R(1-2) R(2-3) R(3-0)', g6:CODE, the id of a catalog entry, a file (.toml entry, "
+        ".json chain or list of chains, .g6 lines, otherwise one chain a line), or - for lines on standard input",
+    )
+    parser.add_argument(
+        "--space", choices=("planar", "spherical", "spatial"), help="where texts live (default: planar)"
+    )
+    parser.add_argument("--b", type=int, metavar="B", help="motions of a free link for the count (2 for a screw group)")
+    parser.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
+    parser.add_argument("--explain", action="store_true", help="say in words, step by step")
+    parser.add_argument("--yes", action="store_true", help="begin even if it will be long or take much memory")
+    parser.add_argument("--json", action="store_true", help="a list of objects, one for each chain")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -170,7 +195,12 @@ def _plain(chain: Chain, name: str, arguments: argparse.Namespace) -> CheckedEnt
 def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     ending = path.suffix.lower()
     if ending not in ("", *_ENDINGS):
-        raise CatalogError(f"{path}: expected a file that ends with {', '.join(_ENDINGS)}, not with {path.suffix}")
+        raise CatalogError(
+            "{path}: expected a file that ends with {endings}, not with {suffix}",
+            path=path,
+            endings=", ".join(_ENDINGS),
+            suffix=path.suffix,
+        )
     if ending == ".toml":
         if _is_linkage(path):
             yield _plain(read_any_linkage(path).mechanism.chain, path.stem, arguments)
@@ -180,9 +210,9 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise CatalogError(f"{path}: cannot be read ({error.strerror or error})") from None
+        raise CatalogError("{path}: cannot be read ({value})", path=path, value=error.strerror or error) from None
     except UnicodeDecodeError:
-        raise CatalogError(f"{path}: is not UTF-8 text") from None
+        raise CatalogError("{path}: is not UTF-8 text", path=path) from None
     if ending == ".json":
         yield from _json(path, text, arguments)
     elif ending == ".g6":
@@ -193,31 +223,36 @@ def _file(path: Path, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
 
 def _is_linkage(path: Path) -> bool:
     """Whether a TOML file holds the dimensions of a linkage rather than an entry: it tells its unit."""
-    document = load_document(path, lambda text: CatalogError(f"{path}: {text}"))
+    document = load_document(path, lambda text: CatalogError("{path}: {text_}", path=path, text_=text))
     return isinstance(document, dict) and "id" not in document and ("unit" in document or "screws" in document)
 
 
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
+    if not text.strip():
+        raise NotationError(f"{path}: is empty")
     try:
         document = json.loads(text)
     except RecursionError:
-        raise NotationError(f"{path}: is nested too deeply") from None
+        raise NotationError("{path}: is nested too deeply", path=path) from None
     except ValueError as error:  # JSONDecodeError, or a number of thousands of digits
-        raise NotationError(f"{path}: is not JSON: {error}") from None
+        raise NotationError("{path}: is not JSON: {error}", path=path, error=error) from None
     if isinstance(document, dict) and "items" in document:
         document = document["items"]
     if document == []:
-        raise NotationError(f"{path}: no chain in it; expected an object or a list of objects")
+        raise NotationError("{path}: no chain in it; expected an object or a list of objects", path=path)
     documents = document if isinstance(document, list) else [document]
     for number, one in enumerate(documents, 1):
-        name = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        name = place = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        if isinstance(one, dict) and isinstance(one.get("name"), str) and one["name"].strip():
+            name = one["name"].strip()
+            place += f" ({name})"
         if isinstance(one, dict) and "id" in one:
-            yield check_entry(entry_of_data(one, name), origin=name)
+            yield check_entry(entry_of_data(one, place), origin=place)
             continue
         try:
             yield _plain(_chain_of_json(one), name, arguments)
         except GrueblerError as error:
-            raise NotationError(f"{name}: {error}") from None
+            raise NotationError("{place}: {error}", place=place, error=error) from None
 
 
 def _chain_of_json(document: Any) -> Chain:
@@ -241,6 +276,6 @@ def _lines(text: str, source: str, arguments: argparse.Namespace) -> Iterator[Ch
             chain = chain_from_word(line, arguments.space) if is_text(line) else Chain.parse(line, arguments.space)
             yield _plain(chain, line.strip(), arguments)
         except GrueblerError as error:
-            raise NotationError(f"{source}, line {number}: {error}") from None
+            raise NotationError("{source}, line {number}: {error}", source=source, number=number, error=error) from None
     if empty:
-        raise NotationError(f"{source}: no chain in it; expected one a line")
+        raise NotationError("{source}: no chain in it; expected one a line", source=source)

@@ -29,7 +29,7 @@ def show_compiling(lang: str = "en") -> None:
     try:
         wanted_tier()
     except ValueError as error:
-        raise GrueblerError(str(error)) from None
+        raise GrueblerError("{reason}", reason=str(error)) from None
     on_compiling(_ProgressBar(_WORDS[lang]).draw if sys.stderr.isatty() else None)
 
 

@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError, nearest
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 
-__all__ = ["coupler_point", "numbers", "sizes"]
+__all__ = ["add_coupler_point", "coupler_point", "numbers", "sizes"]
 
 _KINDS: dict[str, tuple[Callable[..., FourBar | SliderCrank | InvertedSliderCrank], str, tuple[int, ...]]] = {
     "four-bar": (FourBar, "A,B,C,D", (4,)),
     "slider-crank": (SliderCrank, "A,B[,E]", (2, 3)),
     "inverted-slider-crank": (InvertedSliderCrank, "A,D[,E]", (2, 3)),
 }
+
+
+def add_coupler_point(command: Parser) -> None:
+    """Arguments for a coupler point of a linkage given by its lengths."""
+    command.add_argument("lengths", metavar="A,B,C,D", help="a four-bar; or slider-crank:A,B[,E]")
+    command.add_argument("point", metavar="U,V", help="the coupler point: U along the coupler, V to its left")
+    command.add_argument("--branch", type=int, choices=(1, -1), default=1, help="assembly branch (default: 1)")
 
 
 def sizes(word: str) -> FourBar | SliderCrank | InvertedSliderCrank:
@@ -24,11 +32,21 @@ def sizes(word: str) -> FourBar | SliderCrank | InvertedSliderCrank:
     """
     kind, colon, lengths = word.rpartition(":")
     if colon and kind not in _KINDS:
-        raise GrueblerError(f"{word!r}: expected one of {', '.join(_KINDS)} before the colon{nearest(kind, _KINDS)}")
+        raise GrueblerError(
+            "{word!r}: expected one of {kinds} before the colon{suggestion}",
+            word=word,
+            kinds=", ".join(_KINDS),
+            suggestion=nearest(kind, _KINDS),
+        )
     make, names, counts = _KINDS[kind or "four-bar"]
     given = numbers(lengths, names)
     if len(given) not in counts:
-        raise GrueblerError(f"expected the lengths {names}, but found {len(given)} numbers in {lengths!r}")
+        raise GrueblerError(
+            "expected the lengths {names}, but found {count} numbers in {lengths!r}",
+            names=names,
+            count=len(given),
+            lengths=lengths,
+        )
     return make(*given)
 
 
@@ -36,7 +54,9 @@ def coupler_point(text: str) -> tuple[float, float]:
     """The coupler point U,V."""
     given = numbers(text, "U,V")
     if len(given) != 2:
-        raise GrueblerError(f"expected the coupler point U,V, but found {len(given)} numbers in {text!r}")
+        raise GrueblerError(
+            "expected the coupler point U,V, but found {count} numbers in {text_!r}", count=len(given), text_=text
+        )
     return given[0], given[1]
 
 
@@ -45,4 +65,4 @@ def numbers(text: str, names: str) -> list[float]:
     try:
         return [float(part) for part in text.split(",")]
     except ValueError:
-        raise GrueblerError(f"expected numbers {names}, but found {text!r}") from None
+        raise GrueblerError("expected numbers {names}, but found {text_!r}", names=names, text_=text) from None

@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import argparse
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import PathCycle
+from gruebler.arrays import Reals
 from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
-Reals = NDArray[np.float64]
 
 _WORDS = {
     "en": {
@@ -69,6 +70,36 @@ _WORDS = {
 }
 
 
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The path of a point over a whole turn of the drive, or its whole range, with all that is on it; "
+        "drive values, places, radii.",
+        epilog="Example: gruebler curve four-bar:25,70,40,70 coupler:45,40; gruebler curve lambda C --contact 180. "
+        "A point whose link has another name is written LINK:X,Y in the coordinates of its link.",
+    )
+    parser.add_argument(
+        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    parser.add_argument("point", metavar="POINT|LINK:X,Y", help="a named point, a joint, or a point of a link")
+    parser.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="a straight path of the drives, in degrees or the unit, for several drives once each with as many steps; "
+        "one number holds a drive still (default: the whole motion of one drive)",
+    )
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    parser.add_argument("--direction", type=float, metavar="DEG", help="turning points along this, not along x and y")
+    parser.add_argument(
+        "--contact", type=float, action="append", default=[], metavar="VALUE", help="how the tangent touches there"
+    )
+    parser.add_argument("--tolerance", type=float, metavar="LENGTH", help="of the polygon (default: 1e-4 of the reach)")
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the polygon as CSV: drive, x, y, way")
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
     check_csv(arguments.csv)
@@ -95,7 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _polygon(found: CouplerCurve) -> list[Column]:
     linkage, z = found.point_path.cycle.linkage, found.points
     values = _values(found, found.drives)
-    units = ["°" if drive.direction.startswith("R") else linkage.unit for drive in linkage.mechanism.drives]
+    units = ["°" if drive.turning else linkage.unit for drive in linkage.mechanism.drives]
     return [
         *(map(Column, linkage.mechanism.drive_names(), units, values.T)),
         Column("x", linkage.unit, z.real),
@@ -108,7 +139,7 @@ def _values(found: CouplerCurve, at: Reals) -> Reals:
     """The values of all drives, turning ones in degrees; (n, drives)."""
     course = found.point_path.cycle
     values = course.values(at) if isinstance(course, PathCycle) else np.asarray(at)[:, None]
-    turning = [drive.direction.startswith("R") for drive in course.linkage.mechanism.drives]
+    turning = [drive.turning for drive in course.linkage.mechanism.drives]
     return np.where(turning, np.degrees(values), values)
 
 
@@ -173,7 +204,7 @@ def _drive(found: CouplerCurve, value: float) -> str:
     linkage = found.point_path.cycle.linkage
     said = []
     for drive, one in zip(linkage.mechanism.drives, _values(found, np.array([value]))[0], strict=True):
-        turning = drive.direction.startswith("R")
+        turning = drive.turning
         said.append(f"{round(one, 9) + 0.0:.6f}°" if turning else f"{one:.9g} {linkage.unit}")
     return " / ".join(said)
 

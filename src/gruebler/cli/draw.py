@@ -19,6 +19,7 @@ from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_from_word, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_svg, write_file
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops
@@ -26,8 +27,9 @@ from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import message
 
-__all__ = ["entry_of", "german", "linkage_and_range", "picture_suffix", "run", "subject", "told_picture"]
+__all__ = ["add", "entry_of", "german", "linkage_and_range", "picture_suffix", "run", "subject", "told_picture"]
 
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
@@ -40,6 +42,63 @@ _OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "ghosts"
 """Options that only linkages have."""
 _OF_A_LINK = ("dead-centres", "transmission", "centrodes", "inflection")
 """What is shown of the link named by --of."""
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The structure picture of a chain or mechanism: links as bodies, joints by their signs, the frame "
+        "hatched, drives as arrows. With --pose, --curve, --show or --ghosts, or of a linkage: to scale.",
+        epilog="Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument(
+        "chain",
+        metavar="CHAIN|ID|FILE",
+        help="a text, a code, g6:CODE, the id of a catalog entry, the file of a linkage, or lengths such as "
+        "four-bar:25,70,40,70",
+    )
+    parser.add_argument(
+        "--pose",
+        nargs="?",
+        const="",
+        metavar="VALUE[,VALUE]",
+        help="to scale, at this drive value (degrees, or a way; --pose=-30,20 for several drives); alone: a good pose",
+    )
+    parser.add_argument(
+        "--curve", action="append", default=[], metavar="POINT", help="the path of a point or joint; repeatable"
+    )
+    parser.add_argument(
+        "--show",
+        action="append",
+        default=[],
+        choices=(
+            "dead-centres",
+            "transmission",
+            "velocities",
+            "accelerations",
+            "poles",
+            "centrodes",
+            "inflection",
+            "dimensions",
+            "scale",
+        ),
+        help="also show this; repeatable",
+    )
+    parser.add_argument("--ghosts", type=int, metavar="N", help="so many other positions thinly, for print")
+    parser.add_argument(
+        "--of", metavar="LINK", help="the link whose dead centres, transmission angle, centrodes, ... are shown"
+    )
+    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
+    parser.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
+    parser.add_argument("--frame", metavar="LINK", help="the link that stands still")
+    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
+    parser.add_argument("--labels", action="store_true", help="name the links")
+    parser.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; an SVG is on the reader's")
+    view = parser.add_mutually_exclusive_group()
+    view.add_argument("--graph", action="store_true", help="the link graph instead")
+    view.add_argument("--contracted", action="store_true", help="the contracted graph instead")
+    view.add_argument("--loops", action="store_true", help="mark the independent loops")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -55,8 +114,8 @@ def picture_suffix(path: Path | None, dark: bool, known: tuple[str, ...] = SUFFI
     suffix = "svg" if path is None else suffix_of(path, known)
     if dark and suffix in ("svg", "html"):
         raise GrueblerError(
-            f"--dark is for pictures of pixels and PDF: {suffix.upper()} is on the ground of its reader, light or dark",
-            f"--dark gilt für Pixelbilder und PDF: {suffix.upper()} steht auf dem Grund des Lesers, hell oder dunkel",
+            "--dark is for pictures of pixels and PDF: {upper} is on the ground of its reader, light or dark",
+            upper=suffix.upper(),
         )
     return suffix
 
@@ -88,21 +147,12 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     view = next((_VIEWS[key] for key in _VIEWS if getattr(arguments, key)), None)
     asked = [f"--{key}" for key, none in _OF_MOTION.items() if moving[key] != none]
     if view is not None and asked:
-        raise GrueblerError(
-            f"graphs and loops show no sizes: they do not go together with {asked[0]}",
-            f"Graphen und Maschen zeigen keine Maße: sie gehen nicht zusammen mit {asked[0]}",
-        )
+        raise GrueblerError("graphs and loops show no sizes: they do not go together with {asked}", asked=asked[0])
     if view is not None and arguments.labels:
-        raise GrueblerError(
-            "--labels names the links of a picture of bodies; graphs and loops name them by themselves",
-            "--labels benennt die Glieder eines Bildes aus Körpern; Graphen und Maschen benennen sie von selbst",
-        )
+        raise GrueblerError("--labels names the links of a picture of bodies; graphs and loops name them by themselves")
     if moving["of"] is not None and not set(moving["show"]) & set(_OF_A_LINK):
         shown = ", ".join(_OF_A_LINK)
-        raise GrueblerError(
-            f"--of says of which link something is shown: it goes with --show {shown}",
-            f"--of sagt, von welchem Glied etwas gezeigt wird: es gehört zu --show {shown}",
-        )
+        raise GrueblerError("--of says of which link something is shown: it goes with --show {shown}", shown=shown)
     has_sizes = _has_sizes(arguments.chain)
     if view is None and (has_sizes or asked):
         return _to_scale(arguments, moving)
@@ -123,8 +173,7 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
     for option in ("space", "frame", "drive"):
         if getattr(arguments, option):
             raise GrueblerError(
-                f"a linkage with sizes has its own frame and drives: it is drawn without --{option}",
-                f"ein Getriebe mit Maßen hat sein Gestell und seine Antriebe: es wird ohne --{option} gezeichnet",
+                "a linkage with sizes has its own frame and drives: it is drawn without --{option}", option=option
             )
     linkage, between = linkage_and_range(arguments.chain)
     record = entry_of(arguments.chain)
@@ -148,7 +197,7 @@ def linkage_and_range(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
     linkage, shown = linkage_of(word)
     drives = linkage.mechanism.drives
-    if shown is None or not drives or not drives[0].direction.startswith("R"):
+    if shown is None or not drives or not drives[0].turning:
         return linkage, shown
     return linkage, (math.radians(shown[0]), math.radians(shown[1]))
 
@@ -170,13 +219,14 @@ def _pose(linkage: Linkage, text: str | None) -> list[float] | None:
     except ValueError:
         values = []
     if len(values) != len(drives) or not all(math.isfinite(value) and abs(value) < 1e9 for value in values):
-        many = "one number" if len(drives) == 1 else f"{len(drives)} numbers with commas"
-        viele = "eine Zahl" if len(drives) == 1 else f"{len(drives)} Zahlen mit Kommas"
         raise GrueblerError(
-            f"--pose: expected {many}, degrees where a drive turns, but found {text!r}",
-            f"--pose: erwartet wird {viele}, Grad bei einem Drehantrieb, nicht {text!r}",
+            "--pose: expected {numbers}, degrees where a drive turns, but found {found!r}",
+            numbers=message("one number")
+            if len(drives) == 1
+            else message("{count} numbers with commas", count=len(drives)),
+            found=text,
         )
-    turning = [drive.direction.startswith("R") for drive in drives]
+    turning = [drive.turning for drive in drives]
     return [math.radians(value) if turns else value for value, turns in zip(values, turning, strict=True)]
 
 

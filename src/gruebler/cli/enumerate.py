@@ -16,6 +16,7 @@ from gruebler.atomic_files import atomic_file
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.long_work import time_text
 from gruebler.cli.output import print_json, say_written, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
@@ -24,7 +25,7 @@ from gruebler.enumeration.work_units import PieceListing
 from gruebler.enumeration.worker_pool import ProcessPools, Progress
 from gruebler.errors import GrueblerError, RunError
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _LONG = 900.0  # seconds; what takes longer, or fills more than the following, is told and asked for again
 _LARGE = 8 * 10**9
@@ -68,6 +69,35 @@ _WORDS = {
 }
 
 
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Planar chains of revolute joints without any rigid part, each once, listed or counted.",
+        epilog="Example: gruebler enumerate --links 8 --count --orbits. Killed at any moment, a run with --checkpoint "
+        "goes on when the same command is given again.",
+    )
+    parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
+    parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
+    parser.add_argument(
+        "--fractionated",
+        choices=("none", "link", "joint", "all"),
+        default="none",
+        help="chains that do not fall apart (default), that do at a link only, at some joint, or all of them",
+    )
+    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    parser.add_argument(
+        "--multiple-joints", default="0", metavar="K|any", help="exactly K, K to M (K-M), or any number (default: 0)"
+    )
+    parser.add_argument("--count", action="store_true", help="only how many, by assortment")
+    parser.add_argument("--orbits", action="store_true", help="with --count: inversions and driven mechanisms too")
+    parser.add_argument("--format", choices=("text", "graph6", "json"), help="of a list (default: text)")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="it appears whole or not at all")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes (default: 1)")
+    parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="where finished pieces are kept")
+    parser.add_argument("--yes", action="store_true", help="begin even if it will be long or large")
+    parser.add_argument("--json", action="store_true", help="the count, or the list, as JSON")
+
+
 def run(arguments: argparse.Namespace) -> int:
     """List or count what the arguments ask for."""
     request = Request(
@@ -81,15 +111,21 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.orbits and form is not None:
         raise GrueblerError("--orbits goes with --count: it adds the numbers of mechanisms to the number of chains")
     if form is None and arguments.format not in (None, "json"):
-        raise GrueblerError(f"--format {arguments.format} goes with a list: a count is a table, or JSON with --json")
+        raise GrueblerError(
+            "--format {format} goes with a list: a count is a table, or JSON with --json", format=arguments.format
+        )
     if form is None and arguments.format == "json":
         arguments.json = True
     if form is None and _form_of_ending(arguments.output) not in (None, "json"):
-        raise GrueblerError(f"{arguments.output}: a count is written as JSON; end the name with .json")
+        raise GrueblerError("{output}: a count is written as JSON; end the name with .json", output=arguments.output)
     if arguments.output is not None and not arguments.output.name:
-        raise RunError(f"--output {str(arguments.output)!r} names no file")
+        raise RunError("--output {output!r} names no file", output=str(arguments.output))
     if arguments.output is not None and not arguments.output.parent.is_dir():
-        raise RunError(f"{arguments.output} cannot be written: there is no directory {arguments.output.parent}")
+        raise RunError(
+            "{output} cannot be written: there is no directory {parent}",
+            output=arguments.output,
+            parent=arguments.output.parent,
+        )
     executor = None if arguments.jobs == 1 else ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
     size = estimate(request, form)
     _check_size(size, arguments)
@@ -101,12 +137,15 @@ def run(arguments: argparse.Namespace) -> int:
 def _format(arguments: argparse.Namespace, request: Request) -> str:
     form = arguments.format or ("json" if arguments.json else _form_of_ending(arguments.output) or "text")
     if arguments.json and form != "json":
-        raise GrueblerError(f"--json is the same as --format json and does not go with --format {form}")
+        raise GrueblerError("--json is the same as --format json and does not go with --format {form}", form=form)
     if form == "graph6" and not request.only_simple:
         raise GrueblerError("graph6 describes chains with simple joints only: take --format text or json here")
     if _form_of_ending(arguments.output) not in (None, form):
         raise GrueblerError(
-            f"{arguments.output}: --format {form} and the ending {arguments.output.suffix} do not agree"
+            "{output}: --format {form} and the ending {suffix} do not agree",
+            output=arguments.output,
+            form=form,
+            suffix=arguments.output.suffix,
         )
     return str(form)
 
@@ -117,7 +156,9 @@ def _form_of_ending(path: Path | None) -> str | None:
         return None
     form = _ENDINGS.get(path.suffix.lower())
     if form is None:
-        raise GrueblerError(f"{path}: chains are written as .txt, .g6 or .json, not as {path.suffix}")
+        raise GrueblerError(
+            "{path}: chains are written as .txt, .g6 or .json, not as {suffix}", path=path, suffix=path.suffix
+        )
     return form
 
 

@@ -14,6 +14,7 @@ from gruebler.chain import Chain
 from gruebler.cli.draw import german, subject
 from gruebler.cli.inputs import assortment_of, is_text, outputs_of
 from gruebler.cli.output import write_file
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Item, Section, gallery_html
 from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.structure import draw
@@ -24,7 +25,7 @@ from gruebler.errors import GrueblerError
 from gruebler.isomorphism import code
 from gruebler.mechanism.inversion import family, inversions
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _MOST = 3000  # chains on a page; a browser still scrolls through them
 
@@ -56,6 +57,32 @@ _WORDS = {
 }
 
 
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="All chains of a request, or machines of the catalog, on one page.",
+        epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler variants --links 6 --prismatic 1 | "
+        "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument(
+        "ids",
+        nargs="*",
+        metavar="ID|CHAIN|FILE|-",
+        help="instead of a request: entries of the catalog, texts of chains and mechanisms, files with one a line, or "
+        "- for lines on standard input",
+    )
+    parser.add_argument("--links", type=int, metavar="N", help="number of links")
+    parser.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
+    parser.add_argument(
+        "--fractionated", choices=("none", "link", "joint", "all"), help="as for enumerate (default: none)"
+    )
+    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    parser.add_argument("--multiple-joints", metavar="K|any", help="as for enumerate (default: 0)")
+    parser.add_argument("--inversions", action="store_true", help="each chain with every frame that matters")
+    parser.add_argument("--labels", action="store_true", help="name the links")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="a file .html or .pdf")
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
     suffix = suffix_of(arguments.output, ("html", "pdf"))
@@ -70,10 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif arguments.links is not None:
         title, note, sections = _request(arguments)
     else:
-        raise GrueblerError(
-            "say what to show: --links N, or ids of the catalog",
-            "sage, was zu zeigen ist: --links N oder Namen des Katalogs",
-        )
+        raise GrueblerError("say what to show: --links N, or ids of the catalog")
     if suffix == "html":
         content = gallery_html(title, sections, lang=arguments.lang, note=note).encode("utf-8")
     else:
@@ -94,9 +118,8 @@ def _check(arguments: argparse.Namespace) -> None:
         if getattr(arguments, key) not in (None, False):
             option = f"--{key.replace('_', '-')}"
             raise GrueblerError(
-                f"a gallery shows machines of the catalog or the chains of --links, not both: {option} is for chains",
-                f"eine Galerie zeigt Maschinen des Katalogs oder die Ketten von --links, nicht beides: {option} gilt "
-                "für Ketten",
+                "a gallery shows machines of the catalog or the chains of --links, not both: {option} is for chains",
+                option=option,
             )
 
 
@@ -110,14 +133,14 @@ def _lines(word: str) -> list[str]:
     try:
         text = sys.stdin.read() if word == "-" else path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise GrueblerError(f"{word}: cannot be read ({error.strerror or error})") from None
+        raise GrueblerError("{word}: cannot be read ({value})", word=word, value=error.strerror or error) from None
     except UnicodeDecodeError:
-        raise GrueblerError(f"{word}: is not UTF-8 text") from None
+        raise GrueblerError("{word}: is not UTF-8 text", word=word) from None
     found = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if path.suffix == ".g6":
         found = [f"g6:{line}" for line in found]
     if not found:
-        raise GrueblerError(f"{word}: no chain in it; expected one a line")
+        raise GrueblerError("{word}: no chain in it; expected one a line", word=word)
     return found
 
 
@@ -131,7 +154,7 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
         shown = subject(word, None, None, [])
         outputs = outputs_of(word)
     except GrueblerError as error:
-        raise GrueblerError(f"number {number}, {word[:40]!r}: {error}") from None
+        raise GrueblerError("number {number}, {word!r}: {error}", number=number, word=word[:40], error=error) from None
     name = chain_name(shown, arguments.lang) if isinstance(shown, Chain) else family(shown, arguments.lang)
     words = [str(number), name or "", *(_WORDS[arguments.lang]["output"].format(link=link) for link in outputs)]
     figure = draw(shown, labels=arguments.labels, lang=arguments.lang, name=name or "")
@@ -140,10 +163,7 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
 
 def _fits(number: int) -> None:
     if number > _MOST:
-        raise GrueblerError(
-            f"{number:,} chains do not fit on a page of {_MOST:,}",
-            f"{number:,} Ketten passen nicht auf eine Seite für {_MOST:,}",
-        )
+        raise GrueblerError("{number:,} chains do not fit on a page of {most:,}", number=number, most=_MOST)
 
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
@@ -164,20 +184,20 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         size = estimate(Request(arguments.links, mobility, **options), "text").chains
         if size > _MOST:
             raise GrueblerError(
-                f"{size:,} chains do not fit on a page of {_MOST:,}; choose some with --assortment",
-                f"{size:,} Ketten passen nicht auf eine Seite für {_MOST:,}; wähle mit --assortment aus",
+                "{size:,} chains do not fit on a page of {most:,}; choose some with --assortment", size=size, most=_MOST
             )
     found = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
     if len(found) > _MOST:
         raise GrueblerError(
-            f"more than {_MOST:,} chains have the assortment {arguments.assortment}: they do not fit on a page",
-            f"mehr als {_MOST:,} Ketten haben die Gliederverteilung {arguments.assortment}: Sie passen nicht auf eine "
-            "Seite",
+            "more than {most:,} chains have the assortment {assortment}: they do not fit on a page",
+            most=_MOST,
+            assortment=arguments.assortment,
         )
     if not found:
         raise GrueblerError(
-            f"there are no such chains with {arguments.links} links and F = {mobility}: nothing to be drawn",
-            f"solche Ketten mit {arguments.links} Gliedern und F = {mobility} gibt es nicht: nichts zu zeichnen",
+            "there are no such chains with {links} links and F = {mobility}: nothing to be drawn",
+            links=arguments.links,
+            mobility=mobility,
         )
     sections = []
     pictures = 0

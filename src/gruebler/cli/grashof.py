@@ -7,13 +7,14 @@ import math
 from collections.abc import Sequence
 
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.fourbar.extremes import CrankRange
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS = {
     "en": {
@@ -47,6 +48,25 @@ _WORDS = {
 _HEADERS = {"en": ("from", "to", "type", "below", "above"), "de": ("von", "bis", "Typ", "darunter", "darüber")}
 
 
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Crank A, coupler B, rocker C, frame D: type, links that turn fully, limits, swing, transmission "
+        "angle. With --free: the types (with --turns: only where that link turns fully) along one length, the others "
+        "given in order.",
+        epilog="Exit status: 0 yes, 1 not assemblable, the link does not turn or no value lets it, 2 wrong usage. "
+        "Example: gruebler grashof 25 40 70 --free d --turns a",
+    )
+    parser.add_argument(
+        "lengths", nargs="+", metavar="LENGTH", help="A B C D; with --free the other three, or all four"
+    )
+    parser.add_argument("--free", choices=("a", "b", "c", "d"), help="go through the values of this length")
+    parser.add_argument(
+        "--turns", choices=("a", "b", "c"), metavar="LINK", help="a, b or c: does it turn fully against the frame"
+    )
+    parser.add_argument("--json", action="store_true", help="one object; with --free its items")
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Classify one four-bar, or go through the values of one length.
 
@@ -56,7 +76,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.free:
         return _along(_three(lengths, arguments.free), arguments)
     if len(lengths) != 4:
-        raise GrueblerError(f"four lengths A B C D are needed (three go with --free), not {len(lengths)}")
+        raise GrueblerError("four lengths A B C D are needed (three go with --free), not {count}", count=len(lengths))
     four_bar = FourBar(*lengths)
     if arguments.json:
         print_json(_document(four_bar))
@@ -76,7 +96,7 @@ def _number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise GrueblerError(f"a length must be a number, not {text!r}") from None
+        raise GrueblerError("a length must be a number, not {text_!r}", text_=text) from None
 
 
 def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
@@ -84,7 +104,12 @@ def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
     if len(lengths) == 4:
         lengths = [length for name, length in zip("abcd", lengths, strict=True) if name != free]
     if len(lengths) != 3:
-        raise GrueblerError(f"--free {free} takes the lengths {', '.join(names)} (or all four), not {len(lengths)}")
+        raise GrueblerError(
+            "--free {free} takes the lengths {names} (or all four), not {count}",
+            free=free,
+            names=", ".join(names),
+            count=len(lengths),
+        )
     return dict(zip(names, lengths, strict=True))
 
 
@@ -146,8 +171,8 @@ def _document(four_bar: FourBar) -> dict[str, object]:
     document: dict[str, object] = {
         **grashof.lengths,
         "type": grashof.type.key,
-        "english": grashof.type.english,
-        "german": grashof.type.german,
+        "english": grashof.type.name("en"),
+        "german": grashof.type.name("de"),
         "condition": grashof.condition,
         "excess": grashof.excess,
         "shortest": list(grashof.shortest),

@@ -31,7 +31,9 @@ def _of_file(word: str) -> Mechanism | None:
     if is_text(word) or not path.suffix or not path.is_file():
         return None
     if path.suffix.lower() not in (".toml", ".json"):
-        raise GrueblerError(f"{path}: expected a .toml or .json file of a linkage, not {path.suffix}")
+        raise GrueblerError(
+            "{path}: expected a .toml or .json file of a linkage, not {suffix}", path=path, suffix=path.suffix
+        )
     from gruebler.formats.screws import read_any_linkage
 
     return read_any_linkage(path).mechanism
@@ -91,4 +93,4 @@ def assortment_of(text: str | None) -> tuple[int, ...] | None:
         return tuple(int(part) for part in text.split(","))
     except ValueError:
         expected = "the numbers of binary, ternary, ... links such as 4,4"
-        raise GrueblerError(f"--assortment {text!r}: expected {expected}") from None
+        raise GrueblerError("--assortment {text_!r}: expected {expected}", text_=text, expected=expected) from None

@@ -33,22 +33,28 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
 
         return read_linkage(path), None
     if "(" in word:
-        raise GrueblerError(f"{word[:40]!r} has no dimensions; give a file, a catalog entry or {_forms()}")
+        raise GrueblerError(
+            "{word!r} has no dimensions; give a file, a catalog entry or {forms}", word=word[:40], forms=_forms()
+        )
     from gruebler.catalog import entries, entry
     from gruebler.errors import nearest
 
     if word not in entries() and colon:
-        raise GrueblerError(f"{word!r}: expected {_forms()}{nearest(kind, _DOORS)}")
+        raise GrueblerError(
+            "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _DOORS)
+        )
     record = entry(word)
     if record.dimensions is None:
         sized = ", ".join(one.id for one in entries().values() if one.dimensions is not None)
         if record.screws is None:
-            raise GrueblerError(f"the catalog entry {word!r} has no dimensions; these have: {sized}")
+            raise GrueblerError(
+                "the catalog entry {word!r} has no dimensions; these have: {sized}", word=word, sized=sized
+            )
         raise GrueblerError(
-            f"the catalog entry {word!r} has the places of its joints in one position, not the sizes of its links: "
-            f"`gruebler freedoms {word}` says how it moves; sizes have: {sized}",
-            f"der Katalogeintrag {word!r} hat die Orte seiner Gelenke in einer Lage, nicht die Abmessungen seiner "
-            f"Glieder: `gruebler freedoms {word}` sagt, wie er sich bewegt; Abmessungen haben: {sized}",
+            "the catalog entry {word!r} has the places of its joints in one position, not the sizes of its "
+            "links: `gruebler freedoms {word}` says how it moves; sizes have: {sized}",
+            word=word,
+            sized=sized,
         )
     return record.linkage(), record.dimensions.range
 
@@ -59,9 +65,13 @@ def _door(kind: str, text: str) -> Linkage:
     try:
         lengths = [float(part) for part in text.split(",")]
     except ValueError:
-        raise GrueblerError(f"{kind}: expected numbers {names}, but found {text!r}") from None
+        raise GrueblerError(
+            "{kind}: expected numbers {names}, but found {text_!r}", kind=kind, names=names, text_=text
+        ) from None
     if not least <= len(lengths) <= most:
-        raise GrueblerError(f"{kind}: expected {names}, but found {len(lengths)} numbers")
+        raise GrueblerError(
+            "{kind}: expected {names}, but found {count} numbers", kind=kind, names=names, count=len(lengths)
+        )
     return make(*lengths).linkage()
 
 

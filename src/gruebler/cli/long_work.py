@@ -14,10 +14,6 @@ __all__ = ["ask_before", "progress", "time_text"]
 T = TypeVar("T")
 
 _LONG = 60.0
-_REFUSED = (
-    "this takes about {time} (estimated to a factor of three); say --yes to begin it nevertheless",
-    "das dauert etwa {time} (auf den Faktor drei geschätzt); mit --yes wird trotzdem begonnen",
-)
 
 
 def time_text(seconds: float) -> str:
@@ -35,7 +31,10 @@ def time_text(seconds: float) -> str:
 def ask_before(seconds: float, yes: bool) -> None:
     """Refuse what takes longer than a minute unless the caller said --yes."""
     if seconds > _LONG and not yes:
-        raise GrueblerError(*(text.format(time=time_text(seconds)) for text in _REFUSED))
+        raise GrueblerError(
+            "this takes about {time} (estimated to a factor of three); say --yes to begin it nevertheless",
+            time=time_text(seconds),
+        )
 
 
 def progress(found: Iterable[T], words: str) -> Iterator[T]:

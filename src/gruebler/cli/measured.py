@@ -26,7 +26,10 @@ def length_of(name: str, word: str) -> tuple[float, str]:
         value = math.nan
     if form is None or not 0 < value < 1e70 or form[2] not in ("", *_METRES):
         raise GrueblerError(
-            f"--{name}: expected a positive length such as 15cm (units: {', '.join(_METRES)}), but found {word!r}"
+            "--{name}: expected a positive length such as 15cm (units: {metres}), but found {word!r}",
+            name=name,
+            metres=", ".join(_METRES),
+            word=word,
         )
     return value, form[2]
 
@@ -40,7 +43,7 @@ def same_unit(value: float, unit: str, wanted: str) -> float:
     if unit == wanted or not unit:
         return value
     if not wanted:
-        raise GrueblerError(f"one length is in {unit}, the other has no unit: give both, or none")
+        raise GrueblerError("one length is in {unit}, the other has no unit: give both, or none", unit=unit)
     return float(f"{value * _METRES[unit] / _METRES[wanted]:.15g}")
 
 

@@ -7,23 +7,71 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, told_picture
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.errors import GrueblerError
 from gruebler.linkages import Linkage
+from gruebler.text import joined_by_or
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _LEAST, _MOST = 1e-6, 0.02  # Q_G that are shown
 _STEP, _WINDOWS = math.radians(3.0), 120  # of the windows in which the range is sought; how many are shown then
 _RATIO_TITLES = {"en": "{name}: relative deviation of {point}", "de": "{name}: bezogene Abweichung von {point}"}
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Plots of a linkage with one drive. transfer: the output and its derivatives of order 1 and 2, "
+        "with dead centres. transmission: the transmission angle, with the band below 40 degrees. hodograph: the tips "
+        "of velocity vectors. curves: paths of points. family: paths of points on a line of one link. ratio: Q_G and "
+        "L/l1 of a straight-line guidance over its crank angle.",
+        epilog="Examples: gruebler plot four-bar:25,70,40,70 --kind transmission -o mu.svg; gruebler plot lambda "
+        "--kind family --count 7; gruebler plot mzc --kind ratio --ratio 0.005. Without -o the SVG goes to standard "
+        "output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument(
+        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    parser.add_argument(
+        "--kind",
+        choices=("transfer", "transmission", "hodograph", "curves", "family", "ratio"),
+        default="transfer",
+        help="what is plotted (default: transfer)",
+    )
+    parser.add_argument("--output", metavar="LINK", help="transfer, transmission: the link or sliding joint looked at")
+    parser.add_argument(
+        "--point",
+        action="append",
+        default=[],
+        metavar="K",
+        help="hodograph, curves, ratio: a named point or joint (default: all named points, for ratio the first); "
+        "repeatable",
+    )
+    parser.add_argument("--speed", type=float, metavar="N", help="hodograph: turns a minute; of a slide, lengths by s")
+    parser.add_argument("--link", metavar="LINK", help="family: the link that carries the points (default: a coupler)")
+    parser.add_argument("--from", dest="start", metavar="U,V", help="family: the first point, write --from=-10,5")
+    parser.add_argument(
+        "--to", dest="end", metavar="U,V", help="family: the last point (default: on a line of two pins)"
+    )
+    parser.add_argument("--count", type=int, default=5, metavar="K", help="family: points, 2 to 8 (default: 5)")
+    parser.add_argument(
+        "--centre", type=float, default=180.0, metavar="DEG", help="ratio: the middle of the windows (default: 180)"
+    )
+    parser.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
+    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
+    parser.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; an SVG is on the reader's")
+    parser.add_argument("-o", dest="file", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -59,19 +107,15 @@ def _check(arguments: argparse.Namespace) -> None:
         value, option = getattr(arguments, key), f"--{_WRITTEN.get(key, key)}"
         if value != none and arguments.kind not in kinds:
             raise GrueblerError(
-                f"{option} goes with --kind {' or '.join(kinds)}, not with {arguments.kind}",
-                f"{option} gehört zu --kind {' oder '.join(kinds)}, nicht zu {arguments.kind}",
+                "{option} goes with --kind {kinds}, not with {kind}",
+                option=option,
+                kinds=joined_by_or(kinds),
+                kind=arguments.kind,
             )
         if isinstance(value, float) and not math.isfinite(value):
-            raise GrueblerError(
-                f"{option}: expected a finite number, but found {value}",
-                f"{option}: erwartet wird eine endliche Zahl, nicht {value}",
-            )
+            raise GrueblerError("{option}: expected a finite number, but found {value}", option=option, value=value)
     if arguments.kind == "ratio" and len(arguments.point) > 1:
-        raise GrueblerError(
-            f"--kind ratio is of one point, but found {', '.join(arguments.point)}",
-            f"--kind ratio zeigt einen Punkt, genannt sind {', '.join(arguments.point)}",
-        )
+        raise GrueblerError("--kind ratio is of one point, but found {point}", point=", ".join(arguments.point))
 
 
 @dataclass(frozen=True)
@@ -97,8 +141,7 @@ class _Asked:
         if not found:
             joints = ", ".join(self.linkage.mechanism.chain.joint_names())
             raise GrueblerError(
-                f"this linkage has no named points; name one of its joints with --point: {joints}",
-                f"dieses Getriebe hat keine benannten Punkte; nenne eines seiner Gelenke mit --point: {joints}",
+                "this linkage has no named points; name one of its joints with --point: {joints}", joints=joints
             )
         return found
 
@@ -113,7 +156,7 @@ def _transmission(asked: _Asked) -> Figure:
 
 def _hodograph(asked: _Asked) -> Figure:
     speed, drives = asked.arguments.speed, asked.linkage.mechanism.drives
-    if speed is not None and drives and drives[0].direction.startswith("R"):
+    if speed is not None and drives and drives[0].turning:
         speed *= 2 * math.pi / 60
     return hodograph(asked.linkage, asked.points, speed=speed, **asked.common)
 
@@ -136,7 +179,9 @@ def _place(key: str, text: str | None) -> complex | None:
     try:
         u, v = (float(part) for part in text.split(","))
     except ValueError:
-        raise GrueblerError(f"--{_WRITTEN[key]}: expected two numbers U,V, but found {text!r}") from None
+        raise GrueblerError(
+            "--{written}: expected two numbers U,V, but found {text_!r}", written=_WRITTEN[key], text_=text
+        ) from None
     return complex(u, v)
 
 
@@ -151,7 +196,7 @@ def _ratio(asked: _Asked) -> Figure:
     point, middle = asked.points[0], math.radians(given.centre)
     motion = move(linkage, [middle], speed=1.0, branch=given.branch)
     if not len(motion):
-        raise GrueblerError(motion.message(given.lang))
+        raise GrueblerError("{reason}", reason=motion.reason)
     path = linkage_path(linkage, point, given.branch)
     tangent = cmath.phase(complex(motion.complex_point(point, 1)[0]))
 
@@ -164,13 +209,21 @@ def _ratio(asked: _Asked) -> Figure:
     shown = within(np.linspace(*ends, _WINDOWS)[1:]) if rough else []
     if len(shown) < 2:
         raise GrueblerError(
-            f"the path of {point} about {given.centre:g} degrees has no windows with Q_G from {_LEAST:g} to {_MOST:g}"
+            "the path of {point} about {centre:g} degrees has no windows with Q_G from {least:g} to {most:g}",
+            point=point,
+            centre=given.centre,
+            least=_LEAST,
+            most=_MOST,
         )
     marked = None
     if given.ratio is not None:
         piece = piece_of_ratio(path, middle, given.ratio, tangent)
         if piece is None:
-            raise GrueblerError(f"every window about {given.centre:g} degrees is straighter than Q_G = {given.ratio:g}")
+            raise GrueblerError(
+                "every window about {centre:g} degrees is straighter than Q_G = {ratio:g}",
+                centre=given.centre,
+                ratio=given.ratio,
+            )
         marked = piece.end - piece.start, piece.ratio, piece.length / crank
     name = title(linkage.mechanism, given.lang, asked.name)
     return ratio_diagram(
@@ -186,7 +239,7 @@ def _ratio(asked: _Asked) -> Figure:
 def _crank(linkage: Linkage) -> float:
     """The length of the driven link: from the driven joint to the next turning joint on it."""
     drives = linkage.mechanism.drives
-    if len(drives) == 1 and drives[0].direction.startswith("R"):
+    if len(drives) == 1 and drives[0].turning:
         number, link = drives[0].joint, linkage.reference(0)[1]
         joints = linkage.mechanism.chain.joints
         others = [

@@ -22,9 +22,11 @@ def point_of(text: str) -> str | LinkPoint:
     try:
         x, y = (float(part) for part in place.split(","))
     except ValueError:
-        raise GrueblerError(f"expected a point LINK:X,Y such as coupler:45,40, but found {text!r}") from None
+        raise GrueblerError(
+            "expected a point LINK:X,Y such as coupler:45,40, but found {text_!r}", text_=text
+        ) from None
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise GrueblerError(f"a point has finite coordinates, but found {text!r}")
+        raise GrueblerError("a point has finite coordinates, but found {text_!r}", text_=text)
     return LinkPoint(link, x, y)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,14 +16,15 @@ from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
+from gruebler.forces import Loads, Statics, slide_friction, statics
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
-from gruebler.statics import Loads, Statics, slide_friction, statics
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
 _NOISE = 1e-13  # of the loads: a smaller effort is none
@@ -56,6 +58,47 @@ _WORDS = {
         "agree": "Gleichgewicht und virtuelle Arbeit stimmen auf {part:.1e} der größten Last überein.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="What the drive and the joints carry when forces act at points and moments on links: equilibrium "
+        "of every link, and the drive's torque once more by virtual work. Torques are in force times the unit of the "
+        "linkage. Without inertia; friction of slides as an estimate.",
+        epilog="Example: gruebler statics slider-crank:20,50 --load 'R(coupler-slider)=-100,0' --friction 0.1. "
+        "Exit status: 0 all well, 1 it cannot be moved all the way or is not held in some pose, 2 wrong usage or "
+        "unreadable input.",
+    )
+    parser.add_argument(
+        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    parser.add_argument(
+        "--load",
+        action="append",
+        default=[],
+        metavar="POINT=FX,FY",
+        help="a force at a point, a joint or LINK:X,Y; repeatable",
+    )
+    parser.add_argument(
+        "--moment", action="append", default=[], metavar="LINK=M", help="a moment on a link, left about; repeatable"
+    )
+    parser.add_argument(
+        "--mass", action="append", default=[], metavar="POINT=M", help="a mass that weighs M times 9.80665; repeatable"
+    )
+    parser.add_argument("--gravity", metavar="GX,GY", help="other than 0,-9.80665")
+    parser.add_argument("--friction", type=float, metavar="MU", help="coefficient: friction of slides, an estimate")
+    parser.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="rows, in degrees or the unit; for several drives once each (default: a full turn, or the whole range)",
+    )
+    parser.add_argument("--at", action="append", type=float, default=[], metavar="VALUE", help="one row only")
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    parser.add_argument("--json", action="store_true", help="an object with columns and rows, forces by components")
+    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the columns as CSV, units in its header")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -113,7 +156,9 @@ def _named(option: str, text: str, count: int) -> tuple[str, list[float] | float
     name, equals, values = text.rpartition("=")
     if not equals or not name:
         wanted = "POINT=FX,FY or LINK:X,Y=FX,FY" if count == 2 else "NAME=NUMBER"
-        raise GrueblerError(f"{option}: expected {wanted}, but found {text!r}")
+        raise GrueblerError(
+            "{option}: expected {wanted}, but found {text_!r}", option=option, wanted=wanted, text_=text
+        )
     numbers = _numbers(option, values, count)
     return name.strip(), numbers if count > 1 else numbers[0]
 
@@ -124,7 +169,12 @@ def _numbers(option: str, text: str, count: int) -> list[float]:
     except ValueError:
         numbers = []
     if len(numbers) != count or not all(map(math.isfinite, numbers)):
-        raise GrueblerError(f"{option}: expected {'two numbers X,Y' if count == 2 else 'a number'}, but found {text!r}")
+        raise GrueblerError(
+            "{option}: expected {value}, but found {text_!r}",
+            option=option,
+            value="two numbers X,Y" if count == 2 else "a number",
+            text_=text,
+        )
     return numbers
 
 
@@ -133,7 +183,7 @@ def _motion(
 ) -> Motion:
     rows = given_rows(arguments.drive, arguments.at, turning)
     if rows is None and len(turning) > 1:
-        raise GrueblerError(f"{len(turning)} drives: give --drive FROM:TO:STEP or --at once for each")
+        raise GrueblerError("{count} drives: give --drive FROM:TO:STEP or --at once for each", count=len(turning))
     if rows is not None:
         return move(linkage, rows, branch=arguments.branch, order=1)
     cycle = drive_cycle(linkage, arguments.branch)
@@ -153,7 +203,7 @@ def _columns(statics: Statics, coefficient: float | None, words: dict[str, str])
     mechanism = linkage.mechanism
     out, efforts = [], []
     for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
-        turns = drive.direction.startswith("R")
+        turns = drive.turning
         values = motion.drives[:, k]
         out.append(Column(name, "°", np.degrees(values)) if turns else Column(name, linkage.unit, values))
         effort = words["torque" if turns else "force"].format(name=name)

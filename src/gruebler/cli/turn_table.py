@@ -22,7 +22,7 @@ def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
     ([0.0, 120.0, 240.0], [0.0, 120.0, 240.0, 360.0])
     """
     if not 0.001 <= step <= 360:
-        raise GrueblerError(f"--step: expected degrees from 0.001 to 360, not {step:g}")
+        raise GrueblerError("--step: expected degrees from 0.001 to 360, not {step:g}", step=step)
     return np.arange(0, 360 + (step / 2 if closed else -step / 1e6), step)
 
 

@@ -41,7 +41,9 @@ def loop_count(links: int, mobility: int) -> int | None:
     """
     if links < 1 or mobility < 0:
         raise GrueblerError(
-            f"a chain has at least one link and a mobility of at least 0: got links={links}, mobility={mobility}"
+            "a chain has at least one link and a mobility of at least 0: got links={links}, mobility={mobility}",
+            links=links,
+            mobility=mobility,
         )
     twice = links - 1 - mobility
     return twice // 2 if twice >= 2 and twice % 2 == 0 else None

@@ -53,7 +53,9 @@ class PieceFiles:
         except FileNotFoundError:
             return None
         except OSError as error:
-            raise RunError(f"{self._path(number)} cannot be read: {error.strerror or error}") from None
+            raise RunError(
+                "{path} cannot be read: {value}", path=self._path(number), value=error.strerror or error
+            ) from None
         except (ValueError, RecursionError, LookupError, AttributeError, TypeError):
             return None  # no JSON, a number of thousands of digits, nested without end, no object, no seal
 
@@ -62,7 +64,9 @@ class PieceFiles:
         try:
             return self._path(number).read_bytes().partition(b"\n")[2]
         except OSError as error:
-            raise RunError(f"{self._path(number)} cannot be read: {error.strerror or error}") from None
+            raise RunError(
+                "{path} cannot be read: {value}", path=self._path(number), value=error.strerror or error
+            ) from None
 
     def remove(self, number: int) -> None:
         """Forget a piece."""
@@ -107,16 +111,20 @@ class Checkpoint(PieceFiles):
             if path.exists():
                 _compare(directory, json.loads(path.read_text(encoding="utf-8")), manifest)
             elif any(not entry.name.endswith(PARTIAL) for entry in directory.iterdir()):
-                raise RunError(f"{directory} holds other files: give --checkpoint a directory of its own")
+                raise RunError(
+                    "{directory} holds other files: give --checkpoint a directory of its own", directory=directory
+                )
             else:
                 with atomic_file(path, tidy=False) as file:
                     file.write(json.dumps(manifest, indent=2).encode())
         except OSError as error:
-            raise RunError(f"{directory} cannot keep pieces of work: {error.strerror or error}") from None
+            raise RunError(
+                "{directory} cannot keep pieces of work: {value}", directory=directory, value=error.strerror or error
+            ) from None
         except RunError:
             raise
         except (ValueError, RecursionError):
-            raise RunError(f"{path} cannot be read; remove the directory to begin again") from None
+            raise RunError("{path} cannot be read; remove the directory to begin again", path=path) from None
 
 
 def _compare(directory: Path, found: object, wanted: Mapping[str, Any]) -> None:
@@ -129,4 +137,8 @@ def _compare(directory: Path, found: object, wanted: Mapping[str, Any]) -> None:
         other = f"version {found.get('version')} of gruebler, this is version {wanted['version']}"
     else:
         other = f"another task, {json.dumps(found.get('task'))}"
-    raise RunError(f"{directory} keeps pieces of {other}; give another directory or remove this one")
+    raise RunError(
+        "{directory} keeps pieces of {other}; give another directory or remove this one",
+        directory=directory,
+        other=other,
+    )

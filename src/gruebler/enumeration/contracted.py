@@ -114,8 +114,10 @@ class ContractedGraph:
         """int64[16]; `GrueblerError` if the graph is too large for it."""
         if self.nodes > _NODES or max(k for _, _, k in self.bundles) > 15:
             raise GrueblerError(
-                f"only contracted graphs of at most {_NODES} nodes and 15 parallel strings can be worked on, "
-                f"this one has {self.nodes} nodes"
+                "only contracted graphs of at most {nodes} nodes and 15 parallel strings can be worked on, this "
+                "one has {nodes_2} nodes",
+                nodes=_NODES,
+                nodes_2=self.nodes,
             )
         rows = np.zeros(_NODES, np.uint64)
         for u, v, k in self.bundles:
@@ -128,12 +130,14 @@ def _check(graph: ContractedGraph) -> None:
     pairs = [(u, v) for u, v, _ in graph.bundles]
     wrong = next(((u, v, k) for u, v, k in graph.bundles if u < 0 or u == v or k < 1), None)
     if wrong is not None or not pairs:
-        raise GrueblerError(f"a bundle is (node, other node, number of strings >= 1), not {wrong}")
+        raise GrueblerError("a bundle is (node, other node, number of strings >= 1), not {wrong}", wrong=wrong)
     if len(set(pairs)) < len(pairs):
         raise GrueblerError("two bundles between the same nodes: give the number of all their strings in one")
     poor = next((v for v, degree in enumerate(graph.degrees) if degree < 3), None)
     if poor is not None:
-        raise GrueblerError(f"every node has three strings or more, node {poor} has {graph.degrees[poor]}")
+        raise GrueblerError(
+            "every node has three strings or more, node {poor} has {degrees}", poor=poor, degrees=graph.degrees[poor]
+        )
     near: list[set[int]] = [set() for _ in graph.degrees]
     for u, v in pairs:
         near[u].add(v)
@@ -148,7 +152,7 @@ def _check(graph: ContractedGraph) -> None:
             front.extend(fresh)
         if len(seen - {-1}) < graph.nodes:
             what = "is in pieces" if missing < 0 else f"falls apart at node {missing}"
-            raise GrueblerError(f"a contracted graph is two-connected, this one {what}")
+            raise GrueblerError("a contracted graph is two-connected, this one {what}", what=what)
 
 
 def _unpacked(rows: Packed) -> ContractedGraph:
@@ -173,7 +177,11 @@ def packed_graphs(loops: int) -> Iterator[Packed]:
         GrueblerError: loops < 2 or more than MOST_LOOPS.
     """
     if not 2 <= loops <= MOST_LOOPS:
-        raise GrueblerError(f"contracted graphs are made for 2 to {MOST_LOOPS} loops, not for {loops}")
+        raise GrueblerError(
+            "contracted graphs are made for 2 to {most_loops} loops, not for {loops}",
+            most_loops=MOST_LOOPS,
+            loops=loops,
+        )
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.counting.contracted import add_loop
     from gruebler._numeric.work_estimates import growing

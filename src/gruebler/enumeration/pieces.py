@@ -56,8 +56,13 @@ def refuse_too_large(links: int, mobility: int) -> None:
     loops = loop_count(links, mobility)
     if loops is not None and (loops > MOST_LOOPS or mobility > MOST_FREEDOMS):
         raise GrueblerError(
-            f"{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
-            f"{MOST_LOOPS} loops and mobility {MOST_FREEDOMS}"
+            "{links} links with mobility {mobility} make {loops} loops; chains are enumerated up to "
+            "{most_loops} loops and mobility {most_freedoms}",
+            links=links,
+            mobility=mobility,
+            loops=loops,
+            most_loops=MOST_LOOPS,
+            most_freedoms=MOST_FREEDOMS,
         )
 
 

@@ -45,18 +45,25 @@ class Request:
     def __post_init__(self) -> None:
         for name in ("links", "mobility"):
             if not isinstance(getattr(self, name), int) or isinstance(getattr(self, name), bool):
-                raise RequestError(f"{name} is a whole number, not {getattr(self, name)!r}")
+                raise RequestError("{name} is a whole number, not {getattr!r}", name=name, getattr=getattr(self, name))
         if self.links < 3:
-            raise RequestError(f"a chain has at least three links, not {self.links}")
+            raise RequestError("a chain has at least three links, not {links}", links=self.links)
         if self.mobility < 0:
-            raise RequestError(f"chains without a rigid part have mobility 0 or more, not {self.mobility}")
+            raise RequestError(
+                "chains without a rigid part have mobility 0 or more, not {mobility}", mobility=self.mobility
+            )
         if self.fractionated not in (*CLASSES, "all"):
-            raise RequestError(f"fractionated is none, link, joint or all, not {self.fractionated!r}")
+            raise RequestError(
+                "fractionated is none, link, joint or all, not {fractionated!r}", fractionated=self.fractionated
+            )
         if self.assortment is not None:
             object.__setattr__(self, "assortment", _assortment(self.assortment, self.links))
         fewest, most = self.joints_range
         if most is not None and fewest > most:
-            raise RequestError(f"the range of multiple joints {self.multiple_joints!r} ends before it begins")
+            raise RequestError(
+                "the range of multiple joints {multiple_joints!r} ends before it begins",
+                multiple_joints=self.multiple_joints,
+            )
 
     @property
     def joints_range(self) -> tuple[int, int | None]:
@@ -68,7 +75,7 @@ class Request:
             return 0, None
         if isinstance(wanted, str) and (match := re.fullmatch(r"(\d+)(?:-(\d+))?", wanted)):
             return int(match[1]), int(match[2] or match[1])
-        raise RequestError(f"multiple joints are a number, a range such as 0-2 or 'any', not {wanted!r}")
+        raise RequestError("multiple joints are a number, a range such as 0-2 or 'any', not {wanted!r}", wanted=wanted)
 
     @property
     def only_simple(self) -> bool:
@@ -96,9 +103,16 @@ class Request:
 def _assortment(numbers: Sequence[int], links: int) -> tuple[int, ...]:
     kept = list(numbers)
     if any(not isinstance(k, int) or isinstance(k, bool) or k < 0 for k in kept):
-        raise RequestError(f"an assortment gives the numbers of binary, ternary, ... links, not {tuple(numbers)}")
+        raise RequestError(
+            "an assortment gives the numbers of binary, ternary, ... links, not {numbers}", numbers=tuple(numbers)
+        )
     if sum(kept) != links:
-        raise RequestError(f"the assortment {','.join(map(str, kept))} has {sum(kept)} links in all, not {links}")
+        raise RequestError(
+            "the assortment {kept} has {sum} links in all, not {links}",
+            kept=",".join(map(str, kept)),
+            sum=sum(kept),
+            links=links,
+        )
     while kept[-1] == 0:
         kept.pop()
     return tuple(kept)

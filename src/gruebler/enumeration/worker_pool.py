@@ -66,7 +66,7 @@ class ProcessPools:
 
     def __init__(self, jobs: int) -> None:
         if jobs < 1:
-            raise RunError(f"the work is done by at least one process, not by {jobs}")
+            raise RunError("the work is done by at least one process, not by {jobs}", jobs=jobs)
         self.jobs = jobs
         self._line: Connection | None = None
 
@@ -236,8 +236,9 @@ class _Workers(Generic[P, R]):
         self.out.clear()
         if self.losses > self.retries:
             raise RunError(
-                f"workers were lost {self.losses} times in a row without finishing a piece of work; is there enough "
-                "memory for so many of them?"
+                "workers were lost {losses} times in a row without finishing a piece of work; is there enough "
+                "memory for so many of them?",
+                losses=self.losses,
             )
         if self.own:
             self.executor.shutdown(wait=True, cancel_futures=True)
@@ -247,7 +248,9 @@ class _Workers(Generic[P, R]):
             self.given = ProcessPools(getattr(self.given, "_max_workers", None) or os.cpu_count() or 1)
             self.executor, self.own = self.given(), True
         else:
-            raise RunError(f"the {type(self.given).__name__} broke and cannot be made anew; give a function that can")
+            raise RunError(
+                "the {name} broke and cannot be made anew; give a function that can", name=type(self.given).__name__
+            )
         lost, self.again = sorted(self.again, key=lambda item: item[0]), []
         for number, piece in lost:
             self.send(number, piece)

@@ -48,12 +48,12 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
     form = _NUMBER.fullmatch(answer)
     if form is None or (form[1] and not result.either_sign) or not isfinite(float(form[2].replace(",", "."))):
         wanted = f"a number in {result.unit}" if result.unit else "a number"
-        raise GrueblerError(f"expected {wanted}, not {answer!r}")
+        raise GrueblerError("expected {wanted}, not {answer!r}", wanted=wanted, answer=answer)
     text = form[2].replace(",", ".")
     scale = unit_scale(form[3], result.unit) if form[3] else 1.0
     if scale is None:
         wanted = f"in {result.unit}" if result.unit else "without a unit"
-        raise GrueblerError(f"expected a number {wanted}, not {answer!r}")
+        raise GrueblerError("expected a number {wanted}, not {answer!r}", wanted=wanted, answer=answer)
     return GivenAnswer(float(text) * scale, last_place(text) * scale, bool(form[3]))
 
 

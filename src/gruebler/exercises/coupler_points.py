@@ -6,22 +6,20 @@ import cmath
 from math import acos, asin, degrees, isclose, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import measures
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.geometry.sizing import longest_in_band
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.text import Text
 
 __all__ = ["conchoid", "four_bar"]
 
-Reals = NDArray[np.float64]
 
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""
@@ -52,7 +50,7 @@ def _read_points(points: str) -> list[tuple[float, float]]:
     except ValueError:
         pairs = []
     if not pairs or any(len(pair) != 2 for pair in pairs):
-        raise LinkageError(f"coupler points are written u,v; u,v; ... in numbers, not {points!r}")
+        raise LinkageError("coupler points are written u,v; u,v; ... in numbers, not {points!r}", points=points)
     return [(u, v) for u, v in pairs]
 
 
@@ -65,7 +63,14 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     """
     size = FourBar(a, b, c, d)
     if "a" not in size.turning:
-        raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
+        raise LinkageError(
+            "the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {type}",
+            a=a,
+            b=b,
+            c=c,
+            d=d,
+            type=size.type,
+        )
     chosen = _read_points(points)
     as_step(step)
     way = SolutionBuilder(unit)
@@ -81,7 +86,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
         "Der Koppelpunkt liegt um u längs A-B und um v links davon; θ ist die Richtung von A nach B:",
         "K = A + u·(cos θ, sin θ) + v·(-sin θ, cos θ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     motion = size.motion(drives)
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
@@ -104,7 +109,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     """
     size = InvertedSliderCrank(a, d)
     if isclose(a, d):
-        raise LinkageError(f"with a = d = {d:g} the joint A runs through B0, where the coupler has no direction")
+        raise LinkageError("with a = d = {d:g} the joint A runs through B0, where the coupler has no direction", d=d)
     as_step(step)
     builder = SolutionBuilder(unit)
     builder.say(
@@ -112,7 +117,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
         "Die Koppel zeigt stets von A durch den Gleitstein in B0 = (d; 0); C liegt an ihrem Ende, um b von A entfernt:",
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     rows = []
     for phi in drives.tolist():
         joint = a * cmath.exp(1j * phi)

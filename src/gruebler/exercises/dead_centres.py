@@ -42,7 +42,7 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
 def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
     if size.dead_centres is None:
         raise LinkageError(
-            f"the crank of the slider-crank a = {size.a:g}, b = {size.b:g}, e = {size.e:g} does not turn"
+            "the crank of the slider-crank a = {a:g}, b = {b:g}, e = {e:g} does not turn", a=size.a, b=size.b, e=size.e
         )
     a, b, e = size.a, size.b, abs(size.e)
     if not e:
@@ -203,7 +203,7 @@ def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, 
     rod = _rod(builder, a, b, ratio)
     size = SliderCrank(a, rod)
     if size.dead_centres is None:
-        raise LinkageError(f"the crank of the slider-crank a = {a:g}, b = {rod:g} does not turn")
+        raise LinkageError("the crank of the slider-crank a = {a:g}, b = {rod:g} does not turn", a=a, rod=rod)
     builder.find("H", _STROKE, "2·a", 2 * a, a=a)
     builder.find(
         "s_H2",
@@ -290,7 +290,14 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
     """
     size = FourBar(a, b, c, d)
     if size.dead_centres is None:
-        raise LinkageError(f"the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker: {size.type}")
+        raise LinkageError(
+            "the four-bar a = {a:g}, b = {b:g}, c = {c:g}, d = {d:g} is no crank-rocker: {type}",
+            a=a,
+            b=b,
+            c=c,
+            d=d,
+            type=size.type,
+        )
     way = SolutionBuilder(unit)
     lengths = {"a": number(a), "b": number(b), "c": number(c), "d": number(d)}
     phi_i, phi_a = _dead_centre_angles(way, size, lengths)

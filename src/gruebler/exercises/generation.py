@@ -45,11 +45,11 @@ def generate(kind: str, seed: int, level: int = 1) -> Exercise:
     ('dead-centre-1-7', {'a': 30, 'b': 100, 'unit': 'mm'})
     """
     if kind not in KINDS:
-        raise GrueblerError(f"the kinds of fresh tasks are {', '.join(KINDS)}, not {kind!r}")
+        raise GrueblerError("the kinds of fresh tasks are {kinds}, not {kind!r}", kinds=", ".join(KINDS), kind=kind)
     if level not in LEVELS:
-        raise GrueblerError(f"the level is 1, 2 or 3, not {level!r}")
+        raise GrueblerError("the level is 1, 2 or 3, not {level!r}", level=level)
     if not isinstance(seed, int) or not 0 <= seed < 10**9:
-        raise GrueblerError(f"the seed is a whole number from 0 to 999999999, not {seed!r}")
+        raise GrueblerError("the seed is a whole number from 0 to 999999999, not {seed!r}", seed=seed)
     name, maker = KINDS[kind]
     random = Random(f"gruebler {kind} {level} {seed}")
     title = Text(f"{name.en}, level {level}", f"{name.de}, Stufe {level}")
@@ -93,7 +93,7 @@ def generated_from_id(id: str) -> Exercise:
     """The fresh task of an id."""
     match = _GENERATED.fullmatch(id)
     if match is None:
-        raise GrueblerError(f"a fresh task is named KIND-LEVEL-SEED, such as grashof-1-7, not {id!r}")
+        raise GrueblerError("a fresh task is named KIND-LEVEL-SEED, such as grashof-1-7, not {id!r}", id=id)
     return generate(match[1], int(match[3]), int(match[2]))
 
 

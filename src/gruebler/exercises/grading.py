@@ -87,14 +87,12 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
     """
     solution = solve(exercise)
     if not solution.results:
-        raise GrueblerError(
-            f"{exercise.id} is answered by a table, which `gruebler exercise solve {exercise.id}` shows"
-        )
+        raise GrueblerError("{id} is answered by a table, which `gruebler exercise solve {id}` shows", id=exercise.id)
     grades: list[Grade] = []
     for word, answer in answers.items():
         key = _asked_for(word, exercise, solution.results)
         if key in (one.key for one in grades):
-            raise GrueblerError(f"{word} is answered twice: give one answer for each")
+            raise GrueblerError("{word} is answered twice: give one answer for each", word=word)
         printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
         known = [*printed, *(m for m in solution.mistakes if m.key == key)]
         result = solution.results[key]
@@ -112,10 +110,19 @@ def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> 
     if len(named) == 1:
         return named[0]
     if named:
-        raise GrueblerError(f"{word} stands for several results of {exercise.id}: {', '.join(map(ascii_key, named))}")
+        raise GrueblerError(
+            "{word} stands for several results of {id}: {named}",
+            word=word,
+            id=exercise.id,
+            named=", ".join(map(ascii_key, named)),
+        )
     asked = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
     raise GrueblerError(
-        f"{exercise.id} does not ask for {word!r}{nearest(word, asked)}; it asks for {', '.join(asked)}"
+        "{id} does not ask for {word!r}{suggestion}; it asks for {asked}",
+        id=exercise.id,
+        word=word,
+        suggestion=nearest(word, asked),
+        asked=", ".join(asked),
     )
 
 
@@ -215,7 +222,7 @@ def _worth(value: Value, given: GivenAnswer) -> Mark:
 def _worth_of_words(value: Value, answer: str) -> Mark:
     if isinstance(value, bool):
         if answer.casefold() not in _WORDS:
-            raise GrueblerError(f"expected yes or no (ja, nein), not {answer!r}")
+            raise GrueblerError("expected yes or no (ja, nein), not {answer!r}", answer=answer)
         return Mark.RIGHT if _WORDS[answer.casefold()] == value else Mark.WRONG
     names = [value.en, value.de] if isinstance(value, Text) else [str(value)]
     return Mark.RIGHT if _plain(answer) in map(_plain, names) else Mark.WRONG

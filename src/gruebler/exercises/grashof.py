@@ -24,7 +24,7 @@ _SAYS = {
 
 
 def _name(kind: LinkageType) -> Text:
-    return Text(kind.english, kind.german)
+    return Text(kind.name("en"), kind.name("de"))
 
 
 def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solution:
@@ -35,7 +35,7 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     """
     grashof = FourBar(a, b, c, d).grashof
     if not grashof.assemblable:
-        raise LinkageError(f"lengths {a:g}, {b:g}, {c:g}, {d:g} cannot be assembled")
+        raise LinkageError("lengths {a:g}, {b:g}, {c:g}, {d:g} cannot be assembled", a=a, b=b, c=c, d=d)
     builder = SolutionBuilder(unit)
     _add_sums(builder, grashof)
     shortest = ", ".join(grashof.shortest)
@@ -113,13 +113,19 @@ def length_range(
     """
     lengths = {name: value for name, value in zip("abcd", (a, b, c, d), strict=True) if value is not None}
     if free not in ("b", "c", "d") or set(lengths) != set("abcd") - {free}:
-        raise LinkageError(f"of a, b, c, d all but the free length must be given, and that must be b, c or d: {free!r}")
+        raise LinkageError(
+            "of a, b, c, d all but the free length must be given, and that must be b, c or d: {free!r}", free=free
+        )
     crank = lengths["a"]
     (one, long), (other, short) = sorted(((n, v) for n, v in lengths.items() if n != "a"), key=lambda item: -item[1])
     low, high = crank + long - short, long + short - crank
     if crank >= short:
         told = ", ".join(f"{name} = {value:g}" for name, value in lengths.items())
-        raise LinkageError(f"no value of {free} makes a crank-rocker with crank a of {told}: a is not the shortest")
+        raise LinkageError(
+            "no value of {free} makes a crank-rocker with crank a of {told}: a is not the shortest",
+            free=free,
+            told=told,
+        )
     builder = SolutionBuilder(unit)
     builder.say(
         "For the crank a to turn fully against the frame and drive a rocker it must be the shortest link, and with "

@@ -24,7 +24,9 @@ def all_exercises() -> dict[str, Exercise]:
     for path in sorted((catalog_folder() / "solved").glob("*.toml")):
         record = read_exercise(path)
         if record.id != path.stem:
-            raise CatalogError(f"{path}: id: {record.id!r} should be the name of the file, {path.stem!r}")
+            raise CatalogError(
+                "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
+            )
         found[record.id] = record
     return {id: found[id] for id in sorted(found, key=_order)}
 
@@ -50,6 +52,8 @@ def exercise(word: str) -> Exercise:
     if is_generated(word):
         return generated_from_id(word)
     raise CatalogError(
-        f"there is no exercise {word!r}{nearest(word, known)}; `gruebler exercise list` shows them, and a fresh task "
-        "is named KIND-LEVEL-SEED, such as grashof-1-7"
+        "there is no exercise {word!r}{suggestion}; `gruebler exercise list` shows them, and a fresh "
+        "task is named KIND-LEVEL-SEED, such as grashof-1-7",
+        word=word,
+        suggestion=nearest(word, known),
     )

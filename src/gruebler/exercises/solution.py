@@ -168,7 +168,7 @@ def as_step(step: object) -> float:
     """
     number = as_finite("step", step)
     if not 0.1 <= number <= 360:
-        raise LinkageError(f"the step of the table must lie from 0.1 to 360 degrees, not {step!r}")
+        raise LinkageError("the step of the table must lie from 0.1 to 360 degrees, not {step!r}", step=step)
     return number
 
 

@@ -57,14 +57,16 @@ def solve(exercise: Exercise) -> Solution:
 @lru_cache(maxsize=256)
 def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], cases: tuple[object, ...]) -> Solution:
     if name not in methods():
-        raise CatalogError(f"{id}: unknown method {name!r}{nearest(name, methods())}")
+        raise CatalogError(
+            "{id}: unknown method {name!r}{suggestion}", id=id, name=name, suggestion=nearest(name, methods())
+        )
     method, given = methods()[name], dict(quantities)
     if name == "mobility.machines" and not given:
         given = {"machines": " ".join(case.machine for case in cases)}  # type: ignore[attr-defined]
     try:
         inspect.signature(method).bind(**given)
     except TypeError as error:
-        raise CatalogError(f"{id}: given: {error} of {name}") from None
+        raise CatalogError("{id}: given: {error} of {name}", id=id, error=error, name=name) from None
     return method(**given)
 
 
@@ -92,7 +94,12 @@ def compare(exercise: Exercise, solution: Solution) -> list[Comparison]:
     for asked in exercise.asked:
         if asked.key not in solution.results:
             keys = ", ".join(solution.results)
-            raise CatalogError(f"{exercise.id}: asked: the solution has no result {asked.key!r}; it has {keys}")
+            raise CatalogError(
+                "{id}: asked: the solution has no result {key!r}; it has {keys}",
+                id=exercise.id,
+                key=asked.key,
+                keys=keys,
+            )
         result = solution.results[asked.key]
         found.append(Comparison(asked, result, None if asked.printed is None else _agrees(asked, result)))
     return found

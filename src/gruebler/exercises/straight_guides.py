@@ -14,8 +14,7 @@ from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import Path, PathPiece, coupler_path, linkage_path, path_piece
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.lever_contact import lever_contact
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
+from gruebler.kinematics import from_degrees, move
 from gruebler.text import Text
 
 __all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
@@ -29,7 +28,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     (80.0, 0.195075)
     """
     if not b == c == e or a + d >= 2 * b:
-        raise LinkageError(f"the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}")
+        raise LinkageError("the lambda linkage has b = c = e and a + d < 2 b, not {b:g}, {c:g}, {e:g}", b=b, c=c, e=e)
     size = FourBar(a, b, c, d)
     builder = SolutionBuilder(unit)
     builder.say(
@@ -45,7 +44,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     height = builder.find(
         "h", name, "√((b + e)² - (a + d)²)", sqrt((b + e) ** 2 - (a + d) ** 2), text=text, a=a, b=b, d=d, e=e
     )
-    drives = turns(0, 360, as_step(step))
+    drives = from_degrees(0, 360, as_step(step))
     motion = size.motion(drives)
     points = motion.point(b + e).value
     rows = [
@@ -130,10 +129,10 @@ def watt_linkage(
         "Zu jedem Winkel t der linken Schwinge: A aus t, B auf beiden Kreisen, F in der Mitte.",
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
     )
-    values = turns(start, stop, as_step(step))
+    values = from_degrees(start, stop, as_step(step))
     motion = size.motion(values - tilt, branch=-1)
     if not motion.complete:
-        raise LinkageError(f"the left rocker cannot reach these angles: {motion.message}")
+        raise LinkageError("the left rocker cannot reach these angles: {message}", message=motion.message)
     local = motion.point(coupler / 2).value
     path = left + (local[:, 0] + 1j * local[:, 1]) * cmath.exp(1j * tilt)
     right = np.degrees(motion.output.value + tilt) % 360 - 180
@@ -163,7 +162,9 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left:
     excess = {sign: lambda t, s=sign: s * at(t).real - side for sign in (-1, 1)}
     reach = next((t for t in np.radians(np.arange(1.0, 60.0)) if all(excess[s](s * t) > 0 for s in (-1, 1))), None)
     if reach is None:
-        raise LinkageError(f"F does not leave the strip of {side:g} {builder.unit} at both ends within 60 degrees")
+        raise LinkageError(
+            "F does not leave the strip of {side:g} {unit} at both ends within 60 degrees", side=side, unit=builder.unit
+        )
     ends = [float(brentq(excess[sign], 0, sign * reach, xtol=1e-14)) for sign in (-1, 1)]
     low, high = (at(t).imag for t in ends)
     name = Text(f"stroke with |F_x| ≤ {number(side)} {builder.unit}", f"Hub mit |F_x| ≤ {number(side)} {builder.unit}")
@@ -228,11 +229,11 @@ def double_rocker(
         "D folgt aus φ; A liegt auf dem Kreis um D mit Radius a und dem um den anderen Drehpunkt mit Radius b:",
         "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
     )
-    values = turns(start, stop, as_step(step))
+    values = from_degrees(start, stop, as_step(step))
     tilt = radians(frame)
     motion = size.motion(values - tilt)
     if not motion.complete:
-        raise LinkageError(f"the rocker d cannot reach these angles: {motion.message}")
+        raise LinkageError("the rocker d cannot reach these angles: {message}", message=motion.message)
     spin = cmath.exp(1j * tilt)
     local = motion.point(a - ac).value
     columns = [spin * (z[:, 0] + 1j * z[:, 1]) for z in (motion.B.value, motion.A.value, local)]
@@ -315,7 +316,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     0.0
     """
     if not a == b == e:
-        raise LinkageError(f"an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}")
+        raise LinkageError("an exact straight line needs a = b = e, not {a:g}, {b:g}, {e:g}", a=a, b=b, e=e)
     size = SliderCrank(a, b)
     builder = SolutionBuilder(unit)
     builder.say(
@@ -325,7 +326,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
         "der Geraden durch A0 senkrecht zum Schieberweg.",
         "C = A - e·(B - A)/b, C_x = 0, C_y = 2·a·sin φ",
     )
-    drives = turns(-60, 60, as_step(step))
+    drives = from_degrees(-60, 60, as_step(step))
     points = size.motion(drives).point(-e).value
     rows = [(round(degrees(p), 9), round(float(z[0]), 12), float(z[1])) for p, z in zip(drives, points, strict=True)]
     builder.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)

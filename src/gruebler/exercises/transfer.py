@@ -20,7 +20,12 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     0.5
     """
     if as_positive("i", i) * 360 > _MOST * as_step(step):
-        raise LinkageError(f"the table has at most {_MOST} rows, too few for i = {i:g} in steps of {step:g} degrees")
+        raise LinkageError(
+            "the table has at most {most} rows, too few for i = {i:g} in steps of {step:g} degrees",
+            most=_MOST,
+            i=i,
+            step=step,
+        )
     builder = SolutionBuilder()
     name = Text("slope of the transfer function", "Steigung der Übertragungsfunktion")
     builder.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)

@@ -33,7 +33,14 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     """
     size = FourBar(a, b, c, d)
     if "a" not in size.turning:
-        raise LinkageError(f"the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {size.type}")
+        raise LinkageError(
+            "the crank of the four-bar {a:g}, {b:g}, {c:g}, {d:g} does not turn fully: {type}",
+            a=a,
+            b=b,
+            c=c,
+            d=d,
+            type=size.type,
+        )
     builder = SolutionBuilder(unit)
     builder.say(
         "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - a or d + "
@@ -135,7 +142,9 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     """Steps for one slider-crank; ``mark`` numbers its symbols. Returns the smallest transmission angle."""
     size = SliderCrank(a, b, e)
     if size.turning != ("a",):
-        raise LinkageError(f"the crank of the slider-crank a = {a:g}, b = {b:g}, e = {e:g} does not turn fully")
+        raise LinkageError(
+            "the crank of the slider-crank a = {a:g}, b = {b:g}, e = {e:g} does not turn fully", a=a, b=b, e=e
+        )
     off = abs(e)
     rise = "(a + e)/b" if off else "a/b"
     if off and not mark:

@@ -105,7 +105,7 @@ def _four_bar_rates(
     speed = builder.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{builder.unit}/s", a=a, ω=abs(omega))
     name = Text("angular velocity of the rocker", "Winkelgeschwindigkeit der Schwinge")
     if min(abs(sin(psi - theta)), abs(sin(phi - theta))) < 1e-9:
-        raise LinkageError(f"in the dead centre at φ = {angles[0]:g}° there is no transmission ratio")
+        raise LinkageError("in the dead centre at φ = {angles:g}° there is no transmission ratio", angles=angles[0])
     rocker = omega * a * sin(phi - theta) / (c * sin(psi - theta))
     formula = "ω·a·sin(φ - θ)/(c·sin(ψ - θ))"
     builder.find("ω_c", name, formula, rocker, unit="1/s", a=a, c=c, ω=omega, values=shown)

@@ -115,7 +115,7 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     def linkage(self) -> Linkage:
         """The machine with its dimensions; `CatalogError` if the entry has none."""
         if self.dimensions is None:
-            raise CatalogError(f"the catalog entry {self.id!r} has no dimensions")
+            raise CatalogError("the catalog entry {id!r} has no dimensions", id=self.id)
         chain = self.chain()
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return linkage_from_record(self.dimensions, mechanism, self.outputs)
@@ -179,7 +179,7 @@ def read_entry(path: Path) -> Entry:
 
 def entry_of_data(data: object, where: str) -> Entry:
     """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
-    entry = convert_document(data, Entry, lambda text: CatalogError(f"{where}: {text}"))
+    entry = convert_document(data, Entry, lambda text: CatalogError("{where}: {text_}", where=where, text_=text))
     _check(entry, where)
     return entry
 
@@ -191,7 +191,7 @@ def read_exercise(path: Path) -> Exercise:
 
 def _read(path: Path, kind: type[Record]) -> Record:
     def fail(text: str) -> CatalogError:
-        return CatalogError(f"{path}: {text}")
+        return CatalogError("{path}: {text_}", path=path, text_=text)
 
     return convert_document(load_document(path, fail), kind, fail)
 
@@ -201,7 +201,7 @@ def _check(entry: Entry, path: Path | str) -> None:
     try:
         chain = entry.chain()
     except (ChainError, NotationError, PairError) as error:
-        raise CatalogError(f"{path}: joints: {error}") from None
+        raise CatalogError("{path}: joints: {error}", path=path, error=error) from None
     for key, links in (
         ("frame", (entry.frame,) if entry.frame is not None else ()),
         ("outputs", entry.outputs),
@@ -211,31 +211,34 @@ def _check(entry: Entry, path: Path | str) -> None:
             try:
                 chain.index(link)
             except ChainError as error:
-                raise CatalogError(f"{path}: {key}: {error}") from None
+                raise CatalogError("{path}: {key}: {error}", path=path, key=key, error=error) from None
     for drive in entry.drives:
         if chain.find_joint(drive) is None:
             raise CatalogError(
-                f"{path}: drives: {drive!r} is not one of the joints; they are {', '.join(chain.joint_names())}"
+                "{path}: drives: {drive!r} is not one of the joints; they are {joint_names}",
+                path=path,
+                drive=drive,
+                joint_names=", ".join(chain.joint_names()),
             )
     if entry.screws is not None:
         if entry.screws.assumed == bool(entry.screws.source):
-            raise CatalogError(f"{path}: screws: either assumed = true, or a source that prints them")
+            raise CatalogError("{path}: screws: either assumed = true, or a source that prints them", path=path)
         try:
             entry.placed()
         except GrueblerError as error:
-            raise CatalogError(f"{path}: {error}") from None
+            raise CatalogError("{path}: {error}", path=path, error=error) from None
     if entry.dimensions is not None:
         _check_dimensions(entry, entry.dimensions, chain, path)
 
 
 def _check_dimensions(entry: Entry, sizes: Sizes, chain: Chain, path: Path | str) -> None:
     if sizes.assumed == bool(sizes.source):
-        raise CatalogError(f"{path}: dimensions: either assumed = true, or a source that prints them")
+        raise CatalogError("{path}: dimensions: either assumed = true, or a source that prints them", path=path)
     if sizes.shown_drives and (entry.drives or any(chain.find_joint(drive) is None for drive in sizes.shown_drives)):
-        raise CatalogError(f"{path}: dimensions.drive: for an entry without drives, one of its joints")
+        raise CatalogError("{path}: dimensions.drive: for an entry without drives, one of its joints", path=path)
     if sizes.range is not None and not -1e9 < sizes.range[0] < sizes.range[1] < 1e9:
-        raise CatalogError(f"{path}: dimensions.range: expected two numbers, the smaller first")
+        raise CatalogError("{path}: dimensions.range: expected two numbers, the smaller first", path=path)
     try:
         entry.linkage()
     except GrueblerError as error:
-        raise CatalogError(f"{path}: dimensions: {error}") from None
+        raise CatalogError("{path}: dimensions: {error}", path=path, error=error) from None

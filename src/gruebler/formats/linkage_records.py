@@ -121,14 +121,18 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
     """
     given = [way for way in _WAYS if getattr(sizes, way) is not None]
     if len(given) != 1:
-        raise LinkageError(f"expected one of {', '.join(_WAYS)}, but found {' and '.join(given) or 'none'}")
+        raise LinkageError(
+            "expected one of {ways}, but found {value}", ways=", ".join(_WAYS), value=" and ".join(given) or "none"
+        )
     way = given[0]
     if sizes.home is not None and way != "elements":
-        raise LinkageError(f"home goes with elements; {way} says itself how the linkage is assembled")
+        raise LinkageError("home goes with elements; {way} says itself how the linkage is assembled", way=way)
     if not sizes.unit.strip() or len(sizes.unit) > 20 or not sizes.unit.isprintable():
-        raise LinkageError(f"unit: expected the name of a unit of length such as 'mm', but found {sizes.unit[:20]!r}")
+        raise LinkageError(
+            "unit: expected the name of a unit of length such as 'mm', but found {unit!r}", unit=sizes.unit[:20]
+        )
     if mechanism is None and way not in _DOORS:
-        raise LinkageError(f"joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...")
+        raise LinkageError("joints: missing; {way} needs them, such as R(frame-crank) R(crank-coupler) ...", way=way)
     if way in _DOORS:
         return _door(way, getattr(sizes, way), sizes, mechanism, outputs)
     assert mechanism is not None
@@ -144,7 +148,9 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
     for link, mine in sizes.elements.items():
         _check_link(link, mechanism.chain.links, "elements")
         if not isinstance(mine, Mapping):
-            raise LinkageError(f"elements.{link}: expected a table of joints, but found {_short(mine)}")
+            raise LinkageError(
+                "elements.{link}: expected a table of joints, but found {short}", link=link, short=_short(mine)
+            )
         elements[link] = _by_joint(mechanism, mine, f"elements.{link}")
     home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
     return Linkage(mechanism, elements, points, unit=sizes.unit, reference_pose=home, outputs=chosen)
@@ -156,11 +162,11 @@ def _door(
     given = msgspec.structs.asdict(lengths)
     branch = given.pop("branch")
     if branch not in (1, -1):
-        raise LinkageError(f"{way}.branch: expected 1 or -1, but found {branch}")
+        raise LinkageError("{way}.branch: expected 1 or -1, but found {branch}", way=way, branch=branch)
     try:
         door: ClosedForm = _DOORS[way](**given)
     except LinkageError as error:
-        raise LinkageError(f"{way}: {error}") from None
+        raise LinkageError("{way}: {error}", way=way, error=error) from None
     linkage = linkage_on_mechanism(way, door, branch, mechanism, unit=sizes.unit, outputs=outputs)
     points = _points(sizes.points, linkage.mechanism.chain.links)
     return linkage.with_points(points) if points else linkage
@@ -174,9 +180,9 @@ def _by_joint(
         try:
             number = joint_number(mechanism, joint)
         except LinkageError as error:
-            raise LinkageError(f"{where}: {error}") from None
+            raise LinkageError("{where}: {error}", where=where, error=error) from None
         if number in out:
-            raise LinkageError(f"{where}.{joint}: this joint stands there twice")
+            raise LinkageError("{where}.{joint}: this joint stands there twice", where=where, joint=joint)
         out[number] = _element(raw, f"{where}.{joint}", slots)
     return out
 
@@ -191,10 +197,14 @@ def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
             continue
         where, target = f"places.{joint}", by_number.get(chain.find_joint(raw[2]))
         if not isinstance(target, list):
-            raise LinkageError(f"{where}: {raw[2][:60]!r} has no place through which the slide could pass")
+            raise LinkageError(
+                "{where}: {raw!r} has no place through which the slide could pass", where=where, raw=raw[2][:60]
+            )
         (x, y), (u, v) = _numbers(raw[:2], where, (2,)), _numbers(target[:2], f"places.{raw[2]}", (2,))
         if (x, y) == (u, v):
-            raise LinkageError(f"{where}: {raw[2]} is at the slide's own point; give another point of its line")
+            raise LinkageError(
+                "{where}: {raw} is at the slide's own point; give another point of its line", where=where, raw=raw[2]
+            )
         out[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
     return out
 
@@ -220,8 +230,12 @@ def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object
             far, miss = math.hypot(*across), abs(math.cos(angle) * across[1] - math.sin(angle) * across[0])
             if _ROUNDED * far < miss < _MEANT * far:
                 raise LinkageError(
-                    f"places.{names[number]}: the slide through {names[one]} misses {names[other]} by {miss:.2g}; "
-                    f'write "{names[other]}" instead of the angle, or the angle with all its digits'
+                    'places.{names}: the slide through {names_2} misses {names_3} by {miss:.2g}; write "{names_3}" '
+                    "instead of the angle, or the angle with all its digits",
+                    names=names[number],
+                    names_2=names[one],
+                    names_3=names[other],
+                    miss=miss,
                 )
 
 
@@ -240,14 +254,16 @@ def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element
     allowed = _KINDS.get(kind, {"radius", "teeth", "module", "belt"})
     wrong = next((key for key in given if key not in {"at", *allowed}), None)
     if wrong is not None:
-        raise LinkageError(f"{where}.{wrong}: does not go with {kind or 'a wheel'}")
+        raise LinkageError(
+            "{where}.{wrong}: does not go with {value}", where=where, wrong=wrong, value=kind or "a wheel"
+        )
     if kind in ("", "circle"):
         x, y = _numbers(record.at, f"{where}.at", (2,))
         return Circle(x, y, record.circle) if record.circle is not None else _wheel(record, x, y, where)
     x, y, angle = _numbers([*record.at, record.angle], f"{where}.at", (3,))
     if record.cam is not None:
         if record.base is None:
-            raise LinkageError(f"{where}.base: the radius of the base circle is missing")
+            raise LinkageError("{where}.base: the radius of the base circle is missing", where=where)
         sizes = (record.base, record.roller, record.offset, record.flat, record.scale)
         return CamDisc(x, y, angle, record.cam, *sizes, record.arm, record.distance, record.face)
     if record.pins is not None:
@@ -262,10 +278,12 @@ def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
     radius = record.radius
     if record.module is not None:
         if radius is not None or not record.teeth or not record.module > 0:
-            raise LinkageError(f"{where}.module: a positive number that goes with teeth, and without a radius")
+            raise LinkageError(
+                "{where}.module: a positive number that goes with teeth, and without a radius", where=where
+            )
         radius = record.module * record.teeth / 2
     if radius is None and not record.teeth:
-        raise LinkageError(f"{where}: expected a radius, teeth or a circle")
+        raise LinkageError("{where}: expected a radius, teeth or a circle", where=where)
     return Wheel(x, y, radius or 0.0, record.teeth, record.belt)
 
 
@@ -273,14 +291,20 @@ def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]
     """x, y and perhaps an angle, which comes in degrees and goes in radians."""
     if not isinstance(raw, list) or len(raw) not in counts:
         wanted = " or ".join("[x, y]" if count == 2 else "[x, y, degrees]" for count in counts)
-        raise LinkageError(f"{where}: expected {wanted}, but found {_short(raw)}")
+        raise LinkageError(
+            "{where}: expected {wanted}, but found {short}", where=where, wanted=wanted, short=_short(raw)
+        )
     for value in raw[:2]:
         if isinstance(value, bool) or not isinstance(value, int | float) or not -1e100 < value < 1e100:
-            raise LinkageError(f"{where}: expected numbers below 1e100, but found {_short(value)}")
+            raise LinkageError(
+                "{where}: expected numbers below 1e100, but found {short}", where=where, short=_short(value)
+            )
     try:
         return (float(raw[0]), float(raw[1]), *(in_radians(angle) for angle in raw[2:]))
     except ValueError:
-        raise LinkageError(f"{where}: expected an angle in degrees, but found {_short(raw[2])}") from None
+        raise LinkageError(
+            "{where}: expected an angle in degrees, but found {short}", where=where, short=_short(raw[2])
+        ) from None
 
 
 def _home(home: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, Pose2D]:
@@ -294,7 +318,7 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
     for name, raw in points.items():
         where = f"points.{name}"
         if not name.strip() or not name.isprintable():
-            raise LinkageError(f"points: {name!r} cannot name a point")
+            raise LinkageError("points: {name!r} cannot name a point", name=name)
         point = convert_document(raw, PointRecord, LinkageError, where)
         _check_link(point.link, links, where)
         x, y = _numbers(point.at, f"{where}.at", (2,))
@@ -305,7 +329,13 @@ def _points(points: Mapping[str, Any], links: tuple[str, ...]) -> dict[str, tupl
 def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
     if link not in links:
         known = ", ".join(links[:12]) + (", ..." if len(links) > 12 else "")
-        raise LinkageError(f"{where}: there is no link {link!r}{nearest(link, links)}; links are {known}")
+        raise LinkageError(
+            "{where}: there is no link {link!r}{suggestion}; links are {known}",
+            where=where,
+            link=link,
+            suggestion=nearest(link, links),
+            known=known,
+        )
 
 
 def _short(value: object) -> str:

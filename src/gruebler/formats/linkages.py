@@ -16,6 +16,7 @@ from gruebler.documents import convert_document, load_document
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.angles import in_degrees
 from gruebler.formats.linkage_records import Dimensions, linkage_from_record
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
 from gruebler.linkages.model import Linkage
 from gruebler.mechanism import Mechanism
@@ -49,17 +50,18 @@ def read_linkage(path: Path | str) -> Linkage:
     """
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
-        raise LinkageError(f"{path}: a linkage is in a .toml or .json file")
-    data = load_document(path, lambda text: LinkageError(f"{path}: {text}"))
+        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
+    data = load_document(path, lambda text: LinkageError("{path}: {text_}", path=path, text_=text))
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
-            f"{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler freedoms "
-            f"{path}` says how it moves"
+            "{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler "
+            "freedoms {path}` says how it moves",
+            path=path,
         )
     try:
         return linkage_from_json(data)
     except LinkageError as error:
-        raise LinkageError(f"{path}: {error}") from None
+        raise LinkageError("{path}: {error}", path=path, error=error) from None
 
 
 def linkage_from_json(document: Mapping[str, Any]) -> Linkage:
@@ -80,24 +82,26 @@ def _mechanism(record: LinkageRecord) -> Mechanism | None:
     if record.joints is None:
         for key in ("links", "frame"):
             if getattr(record, key) is not None:
-                raise LinkageError(f"{key}: goes with joints, which are missing")
+                raise LinkageError("{key}: goes with joints, which are missing", key=key)
         return None
     if len(record.joints) > _LONGEST:
-        raise LinkageError(f"joints: {len(record.joints):,} characters are more than {_LONGEST:,}")
+        raise LinkageError(
+            "joints: {count:,} characters are more than {longest:,}", count=len(record.joints), longest=_LONGEST
+        )
     try:
         chain = Chain.parse(record.joints)
     except GrueblerError as error:
-        raise LinkageError(f"joints: {error}") from None
+        raise LinkageError("joints: {error}", error=error) from None
     if record.links is not None:
         try:
             chain = Chain(chain.joints, links=record.links, space=chain.space)
         except GrueblerError as error:
-            raise LinkageError(f"links: {error}") from None
+            raise LinkageError("links: {error}", error=error) from None
     frame = chain.links[0] if record.frame is None else record.frame
     try:
         chain.index(frame)
     except GrueblerError as error:
-        raise LinkageError(f"frame: {error}") from None
+        raise LinkageError("frame: {error}", error=error) from None
     return _driven(chain, frame, record.drives or ())
 
 
@@ -105,7 +109,7 @@ def _driven(chain: Chain, frame: str, drives: tuple[str, ...]) -> Mechanism:
     try:
         return Mechanism(chain, frame, drives)
     except GrueblerError as error:
-        raise LinkageError(f"drives: {error}") from None
+        raise LinkageError("drives: {error}", error=error) from None
 
 
 def linkage_to_json(linkage: Linkage) -> dict[str, Any]:
@@ -195,15 +199,16 @@ def _value(value: Any) -> str:
 def check_linkage_path(path: Path) -> None:
     """`LinkageError` if no linkage can be written there: to be asked before a long search."""
     if path.suffix.lower() not in (".toml", ".json"):
-        raise LinkageError(f"{path}: end the name with .toml or .json")
+        raise LinkageError("{path}: end the name with .toml or .json", path=path)
     if not path.parent.is_dir():
-        raise LinkageError(f"{path}: there is no folder {str(path.parent)!r}")
+        raise LinkageError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def write_linkage(path: Path | str, linkage: Linkage) -> None:
+def write_linkage(path: Path | str, linkage: LinkageLike) -> None:
     """Write a ``.toml`` or ``.json`` file; it appears whole or not at all."""
     path = Path(path)
     check_linkage_path(path)
+    linkage = as_linkage(linkage)
     if path.suffix.lower() == ".toml":
         text = linkage_to_toml(linkage)
     else:

@@ -87,7 +87,7 @@ def spatial_from_json(document: Mapping[str, Any]) -> SpatialLinkage:
         chain = Chain.parse(record.joints, record.space)
         mechanism = Mechanism(chain, chain.links[0] if record.frame is None else record.frame, record.drives)
     except GrueblerError as error:
-        raise LinkageError(f"joints, frame or drives: {error}") from None
+        raise LinkageError("joints, frame or drives: {error}", error=error) from None
     return spatial_linkage_from_record(record.screws, mechanism)
 
 
@@ -127,11 +127,11 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
     """
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
-        raise LinkageError(f"{path}: a linkage is in a .toml or .json file")
-    data = load_document(path, lambda text: LinkageError(f"{path}: {text}"))
+        raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
+    data = load_document(path, lambda text: LinkageError("{path}: {text_}", path=path, text_=text))
     try:
         if isinstance(data, Mapping) and "screws" in data:
             return spatial_from_json(data)
         return linkage_from_json(data)
     except LinkageError as error:
-        raise LinkageError(f"{path}: {error}") from None
+        raise LinkageError("{path}: {error}", path=path, error=error) from None

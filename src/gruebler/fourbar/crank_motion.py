@@ -9,8 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.linkages.quantities import FloatArray, as_finite, as_numbers
+from gruebler.linkages.quantities import as_finite, as_numbers
+from gruebler.text import Message
 
 __all__ = [
     "CrankMotion",
@@ -26,10 +28,10 @@ __all__ = [
 class CrankRates(NamedTuple):
     """A quantity at given instants with its velocity, acceleration and jerk; four arrays of one shape."""
 
-    value: FloatArray
-    velocity: FloatArray
-    acceleration: FloatArray
-    jerk: FloatArray
+    value: Reals
+    velocity: Reals
+    acceleration: Reals
+    jerk: Reals
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,16 +53,21 @@ class CrankMotion:
     """The joint of crank and coupler."""
     B: CrankRates
     """The joint of coupler and output."""
-    mu: FloatArray
+    mu: Reals
     """The angle between coupler and output in 0..pi, not folded."""
     branch: int
-    message: str
-    """Empty if every pose is assembled and every rate determined."""
+    reason: Message | None
+    """Why some pose is not assembled or some rate not determined; None if all are."""
+
+    @property
+    def message(self) -> str:
+        """The reason in English; empty if there is none."""
+        return str(self.reason or "")
 
     @property
     def complete(self) -> bool:
         """Whether every pose is assembled and every rate determined."""
-        return not self.message
+        return self.reason is None
 
     @property
     def assembled(self) -> npt.NDArray[np.bool_]:
@@ -68,17 +75,17 @@ class CrankMotion:
         return np.isfinite(self.coupler.value)
 
     @property
-    def transmission_angle(self) -> FloatArray:
+    def transmission_angle(self) -> Reals:
         """The transmission angle, folded to at most pi/2."""
         return np.minimum(self.mu, np.pi - self.mu)
 
     @property
-    def deviation_angle(self) -> FloatArray:
+    def deviation_angle(self) -> Reals:
         """The deviation angle alpha, pi/2 less the transmission angle."""
         return np.pi / 2 - self.transmission_angle
 
     @property
-    def ratio(self) -> FloatArray:
+    def ratio(self) -> Reals:
         """The transmission ratio i, the crank's velocity by the output's; infinite in a dead centre."""
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(self.crank.velocity / self.output.velocity)
@@ -98,7 +105,7 @@ class InvertedMotion(CrankMotion):
     """The way r of the block along the guide, from A to B."""
 
 
-def points(z: Any) -> FloatArray:
+def points(z: Any) -> Reals:
     """Complex numbers as points: (x, y) in a new last axis."""
     return np.stack([np.real(z), np.imag(z)], axis=-1)
 
@@ -121,15 +128,17 @@ def crank_rates(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, 
     given = {name: as_numbers(name, value) for name, value in named.items()}
     for name, values in given.items():
         if values.size and np.abs(values).max() > 1e50:
-            raise LinkageError(f"{name} must be below 1e50: choose another unit of time")
+            raise LinkageError("{name} must be below 1e50: choose another unit of time", name=name)
     try:
         return CrankRates(*(np.array(part) for part in np.broadcast_arrays(*given.values())))
     except ValueError:
         shapes = ", ".join(f"{name} {values.shape}" for name, values in given.items() if values.ndim)
-        raise LinkageError(f"the crank's angles and rates must fit each other in shape, not {shapes}") from None
+        raise LinkageError(
+            "the crank's angles and rates must fit each other in shape, not {shapes}", shapes=shapes
+        ) from None
 
 
-def determined_rates(rates: Sequence[FloatArray]) -> CrankRates:
+def determined_rates(rates: Sequence[Reals]) -> CrankRates:
     """A track whose rates are NaN wherever they are not finite."""
     value, *derivatives = rates
     return CrankRates(np.asarray(value), *(np.where(np.isfinite(rate), rate, np.nan) for rate in derivatives))

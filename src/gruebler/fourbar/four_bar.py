@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
@@ -31,7 +32,7 @@ from gruebler.fourbar.extremes import (
 )
 from gruebler.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
 from gruebler.linkages.model import Linkage
-from gruebler.linkages.quantities import FloatArray, as_branch, as_finite, as_lengths, as_positive, given_and_missing
+from gruebler.linkages.quantities import as_branch, as_finite, as_lengths, as_positive, given_and_missing
 from gruebler.mechanism import Mechanism
 
 __all__ = ["FourBar", "four_bar_linkage"]
@@ -72,10 +73,20 @@ class FourBar:
         square = math.fsum(given[x] ** 2 for x in others) - math.fsum(given[x] ** 2 for x in own if x != missing)
         if square <= 0:
             lengths = ", ".join(f"{name} = {value:g}" for name, value in given.items())
-            raise LinkageError(f"no central crank-rocker has {lengths}: {missing}^2 would be {square:g}")
+            raise LinkageError(
+                "no central crank-rocker has {lengths}: {missing}^2 would be {square:g}",
+                lengths=lengths,
+                missing=missing,
+                square=square,
+            )
         four_bar = cls(**given, **{missing: math.sqrt(square)})
         if four_bar.dead_centres is None:
-            raise LinkageError(f"a^2 + d^2 = b^2 + c^2 asks for {missing} = {math.sqrt(square):g}: {four_bar.type}")
+            raise LinkageError(
+                "a^2 + d^2 = b^2 + c^2 asks for {missing} = {length:g}: {type}",
+                missing=missing,
+                length=math.sqrt(square),
+                type=four_bar.type.title,
+            )
         return four_bar
 
     @classmethod
@@ -86,7 +97,7 @@ class FourBar:
         30.0
         """
         if not 0 < as_finite("swing", swing) < math.pi:
-            raise LinkageError(f"the swing must lie between 0 and pi, not {swing!r}")
+            raise LinkageError("the swing must lie between 0 and pi, not {swing!r}", swing=swing)
         return cls.central(a=as_positive("c", c) * math.sin(swing / 2), b=b, c=c, d=d)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
@@ -127,7 +138,7 @@ class FourBar:
 
     def _without(self, free: str) -> dict[str, float]:
         if free not in ("a", "b", "c", "d"):
-            raise LinkageError(f"the free length must be a, b, c or d, not {free!r}")
+            raise LinkageError("the free length must be a, b, c or d, not {free!r}", free=free)
         return {name: getattr(self, name) for name in "abcd" if name != free}
 
     def reversed(self) -> FourBar:
@@ -192,7 +203,9 @@ class FourBar:
         """
         limits = self.limits
         if not limits:
-            raise LinkageError(f"the four-bar {self.a:g}, {self.b:g}, {self.c:g}, {self.d:g} is not assemblable")
+            raise LinkageError(
+                "the four-bar {a:g}, {b:g}, {c:g}, {d:g} is not assemblable", a=self.a, b=self.b, c=self.c, d=self.d
+            )
         arc = limits[0]
         first = max(arc.start, 0.0)
         second = math.pi if arc.end > math.pi else arc.end
@@ -252,10 +265,10 @@ class FourBar:
             B=CrankRates(*map(points, joint_b)),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
+            reason=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
         )
 
-    def _add_rates(self, crank: CrankRates, theta: list[FloatArray], psi: list[FloatArray], sine: FloatArray) -> None:
+    def _add_rates(self, crank: CrankRates, theta: list[Reals], psi: list[Reals], sine: Reals) -> None:
         """Append three derivatives of theta and psi, by differentiating the loop; ``sine`` is sin(theta - psi)."""
         for k in (1, 2, 3):
             known = (

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
@@ -34,7 +35,7 @@ from gruebler.fourbar.extremes import (
 from gruebler.fourbar.grashof import LinkageType
 from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
 from gruebler.linkages.model import Linkage
-from gruebler.linkages.quantities import FloatArray, as_branch, as_eccentricity, as_finite, as_lengths, as_positive
+from gruebler.linkages.quantities import as_branch, as_eccentricity, as_finite, as_lengths, as_positive
 from gruebler.mechanism import Mechanism
 
 __all__ = ["InvertedSliderCrank", "inverted_slider_crank_linkage"]
@@ -50,7 +51,7 @@ class InvertedSliderCrank:
     swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
 
     >>> shaper = InvertedSliderCrank(a=30, d=50)
-    >>> print(shaper.type.german, round(shaper.dead_centres.time_ratio, 6))
+    >>> print(shaper.type.name("de"), round(shaper.dead_centres.time_ratio, 6))
     schwingende Kurbelschleife 2.38791
     """
 
@@ -72,7 +73,9 @@ class InvertedSliderCrank:
         """
         ratio = as_finite("time_ratio", time_ratio)
         if ratio <= 1:
-            raise LinkageError(f"the time ratio, slow by quick, must be above 1, not {time_ratio!r}")
+            raise LinkageError(
+                "the time ratio, slow by quick, must be above 1, not {time_ratio!r}", time_ratio=time_ratio
+            )
         return cls(as_positive("d", d) * math.cos(math.pi / (1 + ratio)), d)
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
@@ -127,7 +130,9 @@ class InvertedSliderCrank:
         """
         limits = self.limits
         if not limits:
-            raise LinkageError(f"the inverted slider-crank {self.a:g}, {self.d:g}, e = {self.e:g} is not assemblable")
+            raise LinkageError(
+                "the inverted slider-crank {a:g}, {d:g}, e = {e:g} is not assemblable", a=self.a, d=self.d, e=self.e
+            )
         nearest = max(abs(self.d - self.a), abs(self.e))
         first = limits[0].start
         return TransmissionAngle(
@@ -182,11 +187,11 @@ class InvertedSliderCrank:
             B=CrankRates(b0 - foot[0], *(-rate for rate in foot[1:])),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
+            reason=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
             displacement=block,
         )
 
-    def _add_rates(self, crank: CrankRates, theta: list[FloatArray], slide: list[FloatArray]) -> None:
+    def _add_rates(self, crank: CrankRates, theta: list[Reals], slide: list[Reals]) -> None:
         """Append three derivatives of theta and of the way r, by differentiating the loop."""
         for k in (1, 2, 3):
             arm: list[Any] = [slide[0] + 1j * self.e, *slide[1:], 0.0]

@@ -109,7 +109,11 @@ class SliderCrank:
         """
         near, far = as_positive("inner", inner), as_positive("outer", outer)
         if near >= far:
-            raise LinkageError(f"the outer dead centre must lie outside the inner one: {outer!r} against {inner!r}")
+            raise LinkageError(
+                "the outer dead centre must lie outside the inner one: {outer!r} against {inner!r}",
+                outer=outer,
+                inner=inner,
+            )
         e = as_finite("e", e)
         difference, total = math.hypot(near, e), math.hypot(far, e)
         return cls((total - difference) / 2, (total + difference) / 2, e)
@@ -125,12 +129,18 @@ class SliderCrank:
         """
         h, lam, e = as_positive("stroke", stroke), as_positive("ratio", ratio), as_finite("e", e)
         if lam >= 1:
-            raise LinkageError(f"ratio = a/b must be below 1 for a crank that turns fully, not {ratio!r}")
+            raise LinkageError("ratio = a/b must be below 1 for a crank that turns fully, not {ratio!r}", ratio=ratio)
         # sqrt((b + a)^2 - e^2) - sqrt((b - a)^2 - e^2) = H is a quadratic equation for a^2.
         p, q, r = 4 / lam**2, h**2 * (1 + 1 / lam**2), h**2 * (h**2 / 4 + e**2)
         if q**2 < 4 * p * r:
             most = h * (1 / lam - lam) / 4
-            raise LinkageError(f"stroke {h:g} with ratio {lam:g} allows |e| = {most:g} at most, not {abs(e):g}")
+            raise LinkageError(
+                "stroke {h:g} with ratio {lam:g} allows |e| = {most:g} at most, not {e:g}",
+                h=h,
+                lam=lam,
+                most=most,
+                e=abs(e),
+            )
         a = math.sqrt((q + math.sqrt(q**2 - 4 * p * r)) / (2 * p))
         return cls(a, a / lam, e)
 
@@ -242,7 +252,9 @@ class SliderCrank:
         36.869898
         """
         if not self.limits:
-            raise LinkageError(f"the slider-crank {self.a:g}, {self.b:g}, e = {self.e:g} is not assemblable")
+            raise LinkageError(
+                "the slider-crank {a:g}, {b:g}, e = {e:g} is not assemblable", a=self.a, b=self.b, e=self.e
+            )
         high, low = min(self.a, self.e + self.b), max(-self.a, self.e - self.b)
         return TransmissionAngle(
             *(
@@ -299,7 +311,7 @@ class SliderCrank:
             B=CrankRates(*(points(s + (1j * e if k == 0 else 0j)) for k, s in enumerate(output))),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
+            reason=cannot_assemble(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
         )
 
 

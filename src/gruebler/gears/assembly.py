@@ -48,17 +48,20 @@ def assembly(train: Train, planet: str, number: int) -> Assembly:
     (True, False, False)
     """
     if not isinstance(number, int) or isinstance(number, bool) or number < 1:
-        raise GearError(f"planets: expected a whole number, at least 1, not {number!r}")
+        raise GearError("planets: expected a whole number, at least 1, not {number!r}", number=number)
     train.known(planet)
     meshes = [_from(mesh, planet) for mesh in train.meshes if planet in (mesh.a, mesh.b) and mesh.carrier != FRAME]
     meshes = [mesh for mesh in meshes if mesh.kind == "gear"]
     carriers = {mesh.carrier for mesh in meshes}
     if len(meshes) != 2 or len(carriers) != 1:
         raise GearError(
-            f"{planet} is no planet between two gears on one moving carrier: no conditions of assembly are known"
+            "{planet} is no planet between two gears on one moving carrier: no conditions of assembly are known",
+            planet=planet,
         )
     if any(mesh.size_a.denominator != 1 or mesh.size_b.denominator != 1 for mesh in meshes):
-        raise GearError(f"the conditions of assembly need whole tooth numbers on {planet} and its partners")
+        raise GearError(
+            "the conditions of assembly need whole tooth numbers on {planet} and its partners", planet=planet
+        )
     distances = {abs(mesh.size_a + mesh.size_b) for mesh in meshes}
     tip = max(mesh.size_a for mesh in meshes) + 2
     apart = min(distances) * math.sin(math.pi / number) > tip if number > 1 else True

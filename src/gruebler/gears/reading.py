@@ -63,13 +63,17 @@ def read_train(text: str) -> TrainReading:
             for word in rest:
                 link, value = (word, "0") if head == "hold" else _pair(word, "=", statement)
                 if link in found[kind]:
-                    raise GearError(f"'{statement}': {link} is given twice")
+                    raise GearError("'{statement}': {link} is given twice", statement=statement, link=link)
                 found[kind][link] = exact_number(value, f"'{statement}': {link}")
         else:
             if not head and ":" not in statement:
                 known = ", ".join(_STATEMENTS)
-                hint = nearest(words[0], _STATEMENTS)
-                raise GearError(f"'{statement}': expected wheels such as sun:24 planet:18, or one of {known}{hint}")
+                raise GearError(
+                    "'{statement}': expected wheels such as sun:24 planet:18, or one of {known}{suggestion}",
+                    statement=statement,
+                    known=known,
+                    suggestion=nearest(words[0], _STATEMENTS),
+                )
             meshes += _read_meshes(head or "gear", rest, statement, found["planets"])
     train = Train(meshes)
     for link in (*found["drive"], *found["load"]):
@@ -87,13 +91,23 @@ def read_toml(text: str, name: str = "TOML") -> TrainReading:
     try:
         document = tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise GearError(f"{name}: is not TOML: {error}") from None
+        raise GearError("{name}: is not TOML: {error}", name=name, error=error) from None
     known: dict[str, tuple[type, ...]] = {"train": (str, list), "drive": (dict,), "load": (dict,), "hold": (list,)}
     for key, value in document.items():
         if key not in known:
-            raise GearError(f"{name}: no key is called {key!r}: {', '.join(known)}{nearest(key, known)}")
+            raise GearError(
+                "{name}: no key is called {key!r}: {known}{suggestion}",
+                name=name,
+                key=key,
+                known=", ".join(known),
+                suggestion=nearest(key, known),
+            )
         if not isinstance(value, known[key]):
-            raise GearError(f"{name}: {key} has the wrong form: train is text, drive and load are tables, hold a list")
+            raise GearError(
+                "{name}: {key} has the wrong form: train is text, drive and load are tables, hold a list",
+                name=name,
+                key=key,
+            )
     train = document.get("train", "")
     statements = [train] if isinstance(train, str) else [str(one) for one in train]
     statements += [f"hold {link}" for link in document.get("hold", [])]
@@ -113,7 +127,9 @@ def _statements(text: str) -> Iterator[str]:
 def _pair(word: str, sign: str, statement: str) -> tuple[str, str]:
     left, found, right = word.partition(sign)
     if not found or not left or not right:
-        raise GearError(f"'{statement}': expected LINK{sign}NUMBER, not {word!r}")
+        raise GearError(
+            "'{statement}': expected LINK{sign}NUMBER, not {word!r}", statement=statement, sign=sign, word=word
+        )
     return left, right
 
 
@@ -122,13 +138,15 @@ def _read_meshes(kind: str, words: list[str], statement: str, planets: dict[str,
     options = dict(_pair(word, "=", statement) for word in words if "=" in word)
     for option in options:
         if option not in _OPTIONS.get(kind, set()):
-            raise GearError(f"'{statement}': {kind} has no option {option!r}")
+            raise GearError(
+                "'{statement}': {kind} has no option {option!r}", statement=statement, kind=kind, option=option
+            )
     wheels = [word for word in words if "=" not in word]
     if KINDS[kind].sign == 0:
         yield _linear(kind, wheels, options, carrier, statement)
         return
     if len(wheels) < 2:
-        raise GearError(f"'{statement}': expected at least two wheels LINK:TEETH")
+        raise GearError("'{statement}': expected at least two wheels LINK:TEETH", statement=statement)
     sized = [
         (link, exact_number(size, f"'{statement}': {link}"))
         for link, size in (_pair(w, ":", statement) for w in wheels)
@@ -145,17 +163,20 @@ def _read_meshes(kind: str, words: list[str], statement: str, planets: dict[str,
 
 def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str, statement: str) -> Mesh:
     if len(wheels) != 2 or ":" in wheels[1]:
-        raise GearError(f"'{statement}': expected a wheel and a link that slides, such as 'rack pinion:18 slide'")
+        raise GearError(
+            "'{statement}': expected a wheel and a link that slides, such as 'rack pinion:18 slide'",
+            statement=statement,
+        )
     what = f"'{statement}'"
     numbers = {option: exact_number(value, f"{what}: {option}") for option, value in options.items()}
     if kind == "screw":
         if ":" in wheels[0] or "lead" not in numbers:
-            raise GearError(f"{what}: expected 'screw SPINDLE SLIDE lead=NUMBER'")
+            raise GearError("{statement}: expected 'screw SPINDLE SLIDE lead=NUMBER'", statement=what)
         return Mesh(wheels[0], wheels[1], numbers["lead"], Fraction(1), carrier, kind)
     link, text = _pair(wheels[0], ":", statement)
     size = exact_number(text, f"{what}: {link}")
     if numbers.get("falls", 1) < 1:
-        raise GearError(f"{what}: at least one rope carries the load")
+        raise GearError("{statement}: at least one rope carries the load", statement=what)
     if "pitch" in numbers:
         travel = size * numbers["pitch"] / numbers.get("falls", 1)
         return Mesh(link, wheels[1], travel, Fraction(1), carrier, "rack by pitch")
@@ -169,11 +190,13 @@ def _carrier(words: list[str], statement: str) -> tuple[str, list[str]]:
         return FRAME, words
     at = words.index("on")
     if at + 1 >= len(words) or not _NAME.match(words[at + 1]):
-        raise GearError(f"'{statement}': expected the name of a carrier after 'on'")
+        raise GearError("'{statement}': expected the name of a carrier after 'on'", statement=statement)
     return words[at + 1], words[:at] + words[at + 2 :]
 
 
 def _count(text: str, statement: str) -> int:
     if re.fullmatch("[1-9][0-9]{0,3}", text) is None:
-        raise GearError(f"'{statement}': expected a whole number of planets, not {text!r}")
+        raise GearError(
+            "'{statement}': expected a whole number of planets, not {text!r}", statement=statement, text=text
+        )
     return int(text)

@@ -17,13 +17,14 @@ from typing import NamedTuple
 from gruebler import notebook
 from gruebler.errors import GrueblerError, nearest
 from gruebler.gears.rational import Elimination, Row, rational_echelon
+from gruebler.text import Message, message
 
 __all__ = ["KINDS", "MIXED", "GearError", "Mesh", "MeshKind", "Train", "Unit", "comparable", "exact_number"]
 
 FRAME = "frame"
 
 
-MIXED = "some slide per radian, others per turn, which differ by 2 pi; give racks and winches by pitch=TRAVEL"
+MIXED = message("some slide per radian, others per turn, which differ by 2 pi; give racks and winches by pitch=TRAVEL")
 
 
 class GearError(GrueblerError):
@@ -38,6 +39,13 @@ class Unit(StrEnum):
     """Length: a rack moves radius times angle."""
     PER_TURN = "per turn"
     """Length: a nut moves its lead in a full turn. Per radian and per turn differ by 2 pi and are never mixed."""
+
+
+_UNITS = {
+    Unit.TURNING: message("a turning link"),
+    Unit.PER_RADIAN: message("sliding per radian"),
+    Unit.PER_TURN: message("sliding per turn"),
+}
 
 
 class MeshKind(NamedTuple):
@@ -66,7 +74,7 @@ KINDS = MappingProxyType(
 )
 
 
-def exact_number(value: object, what: str) -> Fraction:
+def exact_number(value: object, what: str | Message) -> Fraction:
     """A finite number as a fraction; decimals as they are written.
 
     >>> exact_number(0.1, "size"), exact_number("7/2", "size")
@@ -80,7 +88,7 @@ def exact_number(value: object, what: str) -> Fraction:
             return Fraction(str(value))
     except (ValueError, ZeroDivisionError):
         pass
-    raise GearError(f"{what}: expected a finite number such as 24, 12.5 or 7/2, not {value!r}")
+    raise GearError("{what}: expected a finite number such as 24, 12.5 or 7/2, not {value!r}", what=what, value=value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,21 +109,28 @@ class Mesh:
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
-            raise GearError(f"no kind of mesh is called {self.kind!r}: {', '.join(KINDS)}{nearest(self.kind, KINDS)}")
+            raise GearError(
+                "no kind of mesh is called {kind!r}: {kinds}{suggestion}",
+                kind=self.kind,
+                kinds=", ".join(KINDS),
+                suggestion=nearest(self.kind, KINDS),
+            )
         if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
-            raise GearError(f"a mesh joins two different links and is carried by a third: {self}")
+            raise GearError("a mesh joins two different links and is carried by a third: {mesh}", mesh=self)
         for name, given in ((self.a, self.size_a), (self.b, self.size_b)):
             if not isinstance(name, str) or not name:
-                raise GearError(f"a link has a name, not {name!r}")
-            size = exact_number(given, f"wheel on {name}")
+                raise GearError("a link has a name, not {name!r}", name=name)
+            size = exact_number(given, message("wheel on {link}", link=name))
             if size == 0 or (size < 0 and not KINDS[self.kind].signed):
-                raise GearError(f"wheel on {name}: {self.kind} takes a positive size, not {size}")
+                raise GearError(
+                    "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
+                )
         object.__setattr__(self, "size_a", exact_number(self.size_a, self.a))
         object.__setattr__(self, "size_b", exact_number(self.size_b, self.b))
         if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
-            raise GearError(f"an internal wheel (minus) is larger than the wheel in it: {self}")
+            raise GearError("an internal wheel (minus) is larger than the wheel in it: {mesh}", mesh=self)
         if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
-            raise GearError(f"two internal wheels do not mesh: {self}")
+            raise GearError("two internal wheels do not mesh: {mesh}", mesh=self)
 
     def __str__(self) -> str:
         """The text of the mesh, as `read_train` takes it back.
@@ -186,8 +201,16 @@ class Train:
         for mesh in self.meshes:
             for link, unit in mesh.units().items():
                 if link != FRAME and found.setdefault(link, unit) != unit:
-                    hint = "" if Unit.TURNING in (unit, found[link]) else "; give the rack by its pitch instead"
-                    raise GearError(f"{link} is {found[link]} in one mesh and {unit} in '{mesh}'{hint}")
+                    raise GearError(
+                        "{link} is {first} in one mesh and {second} in '{mesh}'"
+                        if Unit.TURNING in (unit, found[link])
+                        else "{link} is {first} in one mesh and {second} in '{mesh}'; give the rack by its pitch "
+                        "instead",
+                        link=link,
+                        first=_UNITS[found[link]],
+                        second=_UNITS[unit],
+                        mesh=mesh,
+                    )
         return found
 
     @property
@@ -216,7 +239,10 @@ class Train:
         """The link, if the train has it; otherwise an error that offers the nearest name."""
         if link not in self.links:
             raise GearError(
-                f"the train has no moving link {link!r}: {', '.join(self.links)}{nearest(link, self.links)}"
+                "the train has no moving link {link!r}: {links}{suggestion}",
+                link=link,
+                links=", ".join(self.links),
+                suggestion=nearest(link, self.links),
             )
         return link
 
@@ -244,10 +270,15 @@ class Train:
         """
         found = self.relations(*links)
         if len(found) != 1:
-            number = f"{len(found)} relations" if found else "no relation"
-            raise GearError(f"there is {number} between the speeds of {', '.join(links)}, not one")
+            raise GearError(
+                "there are {count} relations between the speeds of {links}, not one"
+                if found
+                else "there is no relation between the speeds of {links}",
+                count=len(found),
+                links=", ".join(links),
+            )
         if not self.comparable(found[0]):
-            raise GearError(f"{', '.join(found[0])}: {MIXED}")
+            raise GearError("{links}: {mixed}", links=", ".join(found[0]), mixed=MIXED)
         return found[0]
 
     def _repr_svg_(self) -> str | None:

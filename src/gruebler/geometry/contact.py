@@ -55,9 +55,9 @@ def tangent_contact(
     (6, 0.000155006772785)
     """
     if not -len(motion) <= row < len(motion):
-        raise LinkageError(f"the motion has {len(motion)} rows, but row {row} was asked for")
+        raise LinkageError("the motion has {count} rows, but row {row} was asked for", count=len(motion), row=row)
     if isinstance(highest, bool) or not isinstance(highest, int) or not 2 <= highest <= 30:
-        raise LinkageError(f"highest must be a whole number from 2 to 30, not {highest!r}")
+        raise LinkageError("highest must be a whole number from 2 to 30, not {highest!r}", highest=highest)
     least, size = as_positive("tolerance", tolerance), motion.plan.lower.size
     z = taylor_series(_row(motion, row), highest).point(point)[0]
     speed = abs(z[1])

@@ -9,6 +9,7 @@ from math import degrees, pi
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.contact import TangentContact, tangent_contact
 from gruebler.geometry.double_points import DoublePoint, double_points
@@ -24,9 +25,9 @@ from gruebler.geometry.path_events import (
     vertices,
 )
 from gruebler.geometry.point_path import PointPath, point_path
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.sampling import PathPolygon, path_area, path_length, path_polygon
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import LinkPoint
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.quantities import as_finite
 from gruebler.notebook import Brief
 
@@ -123,7 +124,13 @@ class CouplerCurve(Brief):
                 value = span.low + (value - span.low) % (span.period if span.full else 2 * pi)
         if not span.low <= value <= span.high:
             low, high, drive = span.low * scale, span.high * scale, drive * scale
-            raise LinkageError(f"the drive goes from {low:.6g}{unit} to {high:.6g}{unit}, not to {drive:.6g}{unit}")
+            raise LinkageError(
+                "the drive goes from {low:.6g}{unit} to {high:.6g}{unit}, not to {drive:.6g}{unit}",
+                low=low,
+                unit=unit,
+                high=high,
+                drive=drive,
+            )
         motion = cycle.at(np.array([value]), 1)
         return tangent_contact(motion, self.point_path.place, 0, highest)
 
@@ -145,7 +152,7 @@ class CouplerCurve(Brief):
 
 
 def coupler_curve(
-    linkage: Linkage,
+    linkage: LinkageLike,
     point: str | LinkPoint,
     *,
     branch: str | None = None,
@@ -171,5 +178,5 @@ def coupler_curve(
     >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
     [80.56, 147.1, 212.9, 279.44]
     """
-    trail = point_path(linkage, point, branch, drives)
+    trail = point_path(as_linkage(linkage), point, branch, drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

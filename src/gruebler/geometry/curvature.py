@@ -6,8 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals, RelativeMotion, relative_motion
+from gruebler.geometry.relative import RelativeMotion, relative_motion
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
 
@@ -149,4 +150,4 @@ def _moving(motion: Motion, name: str, reference: str | None) -> LinkPoint:
     for place in reversed(motion.linkage.points_named(name)):
         if place.link != fixed:
             return place
-    raise LinkageError(f"the point {name!r} lies on {fixed!r}: it does not move against it")
+    raise LinkageError("the point {name!r} lies on {fixed!r}: it does not move against it", name=name, fixed=fixed)

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.geometry.point_path import PointPath
-from gruebler.geometry.relative import Complexes, Flags, Reals
 from gruebler.geometry.sampling import PathPolygon
 
 __all__ = ["DoublePoint", "double_points"]

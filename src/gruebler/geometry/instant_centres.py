@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError, nearest
-from gruebler.geometry.relative import Complexes, link_numbers, relative_motion, resting_and_translating
+from gruebler.geometry.relative import link_numbers, relative_motion, resting_and_translating
 from gruebler.kinematics import Motion
 from gruebler.notebook import Brief
 
@@ -53,7 +54,10 @@ class Poles(Brief):
     def _number(self, link: str) -> int:
         if link not in self.links:
             raise LinkageError(
-                f"there is no link {link!r}{nearest(str(link), self.links)}; the links are {', '.join(self.links)}"
+                "there is no link {link!r}{suggestion}; the links are {links}",
+                link=link,
+                suggestion=nearest(str(link), self.links),
+                links=", ".join(self.links),
             )
         return self.links.index(link)
 

@@ -143,15 +143,15 @@ def symmetric_rocker(ratio: float, phi0: float | None = None, diameter: float = 
     length = as_positive("D", diameter)
     if phi0 is None:
         if not 0.5 < place < 1.5:
-            raise LinkageError(f"lambda must lie between 0.5 and 1.5, both excluded, not {ratio!r}")
+            raise LinkageError("lambda must lie between 0.5 and 1.5, both excluded, not {ratio!r}", ratio=ratio)
         return _sound(SymmetricRocker(place, math.asin(math.sqrt((1 + 2 * place) / 4)), length))
     angle = as_finite("phi0", phi0)
     if not 0 < angle < math.pi / 2:
         raise LinkageError(
-            f"phi0 must lie between 0 and 90 degrees, both excluded, not {math.degrees(angle):g} degrees"
+            "phi0 must lie between 0 and 90 degrees, both excluded, not {angle:g} degrees", angle=math.degrees(angle)
         )
     if place <= 0:
-        raise LinkageError(f"lambda must be positive, not {ratio!r}")
+        raise LinkageError("lambda must be positive, not {ratio!r}", ratio=ratio)
     return _sound(SymmetricRocker(place, angle, length))
 
 
@@ -163,8 +163,11 @@ def _sound(made: SymmetricRocker) -> SymmetricRocker:
     lengths = abs(a - a0), abs(b - a), abs(b0 - a0)
     if not max(lengths) < _WIDEST * min(lengths):
         raise LinkageError(
-            f"lambda = {made.ratio:.9g} and phi0 = {math.degrees(made.phi0):.9g} degrees make no linkage that can be "
-            f"built: its links differ more than {_WIDEST:g}-fold in length"
+            "lambda = {ratio:.9g} and phi0 = {phi0:.9g} degrees make no linkage that can be built: its links "
+            "differ more than {widest:g}-fold in length",
+            ratio=made.ratio,
+            phi0=math.degrees(made.phi0),
+            widest=_WIDEST,
         )
     return made
 
@@ -185,5 +188,5 @@ def lambdas_for(kappa: float) -> tuple[float, ...]:
     both = [0.5 + math.cos((math.pi + side * angle) / 3) for side in (2, -2)]
     found = tuple(dict.fromkeys(value for value in both if _LEAST <= value <= _MOST))
     if not 0 <= angle < math.pi / 2 or not found:
-        raise LinkageError(f"kappa must lie from 0 to 88.78 degrees, not {math.degrees(angle):.9g} degrees")
+        raise LinkageError("kappa must lie from 0 to 88.78 degrees, not {angle:.9g} degrees", angle=math.degrees(angle))
     return found

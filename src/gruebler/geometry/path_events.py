@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.point_path import PointPath
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.series import taylor_series
 from gruebler.kinematics.root_finding import Zero, find_zeros
 from gruebler.linkages.quantities import as_finite

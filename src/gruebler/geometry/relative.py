@@ -5,21 +5,19 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
+from gruebler.text import message
 
 __all__ = ["RelativeMotion", "link_numbers", "relative_motion", "resting_and_translating"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 _FAR = 1e10  # sizes of the linkage: poles further off have lost ten of their digits, and are told as directions
 _STILL = 1e-12  # velocities below this part of the largest in the row are roundings
 _BINOMIAL = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1))
-_ORDERS = ("positions", "velocities", "accelerations", "jerks")
+_ORDERS = (message("positions"), message("velocities"), message("accelerations"), message("jerks"))
 
 
 class RelativeMotion(NamedTuple):
@@ -60,13 +58,16 @@ def relative_motion(motion: Motion, link: str, reference: str | None = None, ord
     """
     if motion.order < order:
         raise LinkageError(
-            f"this needs {_ORDERS[order]}, but the motion was solved up to order {motion.order}: "
-            f"ask move(..., speed=..., order={order})"
+            "this needs {derivatives}, but the motion was solved up to order {solved}: ask move(..., speed=..., "
+            "order={order})",
+            derivatives=_ORDERS[order],
+            solved=motion.order,
+            order=order,
         )
     fixed = motion.linkage.mechanism.frame if reference is None else reference
     m, r = link_numbers(motion, [link, fixed])
     if m == r:
-        raise LinkageError(f"a link does not move against itself: {link!r} is given twice")
+        raise LinkageError("a link does not move against itself: {link!r} is given twice", link=link)
     back = np.conj(motion.turns[:, r])
     gaps = motion.places[:, :, m] - motion.places[:, :, r]
     turning = [np.conj(_turning(motion.rates[:, :, r], k)) for k in range(order + 1)]
@@ -86,7 +87,10 @@ def link_numbers(motion: Motion, links: list[str]) -> list[int]:
         if link not in known:
             names = motion.linkage.mechanism.chain.links
             raise LinkageError(
-                f"there is no link {link!r}{nearest(str(link), names)}; the links are {', '.join(names)}"
+                "there is no link {link!r}{suggestion}; the links are {links}",
+                link=link,
+                suggestion=nearest(str(link), names),
+                links=", ".join(names),
             )
     return [known.index(link) for link in links]
 

@@ -9,13 +9,14 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.fourbar.crank_motion import CrankMotion
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_numbers
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message, message
 
 __all__ = ["Cognate", "CognateSizes", "cognate_sizes", "cognates", "parallel_motion", "slider_cognates"]
 
@@ -136,12 +137,12 @@ def cognate_sizes(
     numbers = [as_numbers(name, value) for name, value in given.items()]
     for name, length in zip("abcd", numbers[:4], strict=True):
         if (length <= 0).any():
-            raise LinkageError(f"{name} must be positive, not {length.min():g}")
+            raise LinkageError("{name} must be positive, not {length:g}", name=name, length=length.min())
     try:
         la, lb, lc, ld, lu, lv = np.broadcast_arrays(*numbers)
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in zip(given, numbers, strict=True))
-        raise LinkageError(f"arrays of one shape are needed, not {shapes}") from None
+        raise LinkageError("arrays of one shape are needed, not {shapes}", shapes=shapes) from None
     arm = lu + 1j * lv
     s, t = arm / lb, (lb - arm) / lb
     k, m = np.abs(s), np.abs(t)
@@ -227,8 +228,8 @@ def parallel_motion(
     The third cognate, moved so that its pivot C0 comes to A0, has a crank that turns with the given one: both are made
     one link; its coupler carries the point K + A0 - C0, and its rocker is left out.
 
-    >>> from gruebler.kinematics import degrees, move
-    >>> motion = move(parallel_motion(FourBar(25, 70, 40, 70), 45, 40), degrees(180, 540, 5))
+    >>> from gruebler.kinematics import from_degrees, move
+    >>> motion = move(parallel_motion(FourBar(25, 70, 40, 70), 45, 40), from_degrees(180, 540, 5))
     >>> motion.complete, bool(np.ptp(motion.angle("platform")) < 1e-9)
     (True, True)
     """
@@ -250,15 +251,21 @@ def _pose(
     arm = complex(as_finite("u", u), as_finite("v", v))
     for name, joint in (("A", 0.0), ("B", size.b)):
         if abs(arm - joint) <= _AT_A_JOINT * size.b:
-            raise LinkageError(f"the coupler point lies on the joint {name}: it traces an arc, and has no cognates")
+            raise LinkageError(
+                "the coupler point lies on the joint {name}: it traces an arc, and has no cognates", name=name
+            )
     if phi is None:
         if not size.limits:
-            raise LinkageError(f"it cannot be assembled in any position: {size!r}")
+            raise LinkageError("it cannot be assembled in any position: {size!r}", size=size)
         start, end = size.limits[0]
         phi = start + (end - start) * (1 / 3 if _folds(size) else 1 / 2)
     motion = size.motion(as_finite("phi", phi), branch=branch)
     if not motion.assembled:
-        raise LinkageError(f"it cannot be assembled at the crank angle {math.degrees(phi):g} degrees: {motion.message}")
+        raise LinkageError(
+            "it cannot be assembled at the crank angle {phi:g} degrees: {reason}",
+            phi=math.degrees(phi),
+            reason=motion.reason,
+        )
     a, b = (complex(*(float(x) for x in track.value)) for track in (motion.A, motion.B))
     _check_moving(size, a, b)
     s = arm / size.b
@@ -279,15 +286,16 @@ def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
     def same(one: complex, other: complex) -> bool:
         return abs(one - other) <= _AT_A_JOINT * size.b
 
-    still = ""
+    still: Message | None = None
     if isinstance(size, SliderCrank):
-        still = "slider stands still" if same(size.a, size.b) and same(b, 0) else ""
+        still = message("the slider stands still") if same(size.a, size.b) and same(b, 0) else None
     elif same(size.a, size.c) and same(size.b, size.d) and same(b - a, size.d):
-        still = "coupler only translates"
+        still = message("the coupler only translates")
     elif same(size.a, size.b) and same(size.c, size.d) and same(b, 0):
-        still = "rocker stands still"
+        still = message("the rocker stands still")
     if still:
         raise LinkageError(
-            f"the {still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank would "
-            "turn with that link does not move"
+            "{still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank "
+            "would turn with that link does not move",
+            still=still,
         )

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.point_path import PointPath
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages.quantities import as_positive
 
 __all__ = ["PathPolygon", "path_area", "path_length", "path_polygon"]
@@ -37,8 +37,10 @@ def path_polygon(trail: PointPath, tolerance: float) -> PathPolygon:
     bow = as_positive("tolerance", tolerance)
     if not _FINEST * trail.reach <= bow <= trail.reach:
         raise LinkageError(
-            f"the tolerance must lie between {_FINEST * trail.reach:.3g} and {trail.reach:.3g} for this path, but is "
-            f"{tolerance!r}"
+            "the tolerance must lie between {finest:.3g} and {reach:.3g} for this path, but is {tolerance!r}",
+            finest=_FINEST * trail.reach,
+            reach=trail.reach,
+            tolerance=tolerance,
         )
     turns = max(trail.cycle.span.turns, 1)
     s = np.linspace(trail.start, trail.end, _FIRST * turns + 1)

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals, link_numbers
+from gruebler.geometry.relative import link_numbers
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line, Linkage, LinkPoint
 
@@ -69,15 +70,18 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
     [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= _HIGHEST:
-        raise LinkageError(f"the order of a series is a whole number from 1 to {_HIGHEST}, not {order!r}")
+        raise LinkageError(
+            "the order of a series is a whole number from 1 to {highest}, not {order!r}", highest=_HIGHEST, order=order
+        )
     lower = motion.plan.lower
     if len(lower.mechanism.drives) != 1:
-        raise LinkageError(f"a series is by one drive, but this linkage has {len(lower.mechanism.drives)}")
+        raise LinkageError("a series is by one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
     roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])
     if roots.size and roots.min() < _SINGULAR:
         row = int(np.argmin(roots.min(axis=1)))
         raise LinkageError(
-            f"at the drive value {motion.drives[row, 0]:.9g} assembly modes meet: there is no series in the drive"
+            "at the drive value {drives:.9g} assembly modes meet: there is no series in the drive",
+            drives=motion.drives[row, 0],
         )
     conditions = _conditions(lower)
     z: Complexes = np.zeros((*motion.turns.shape, order + 1), np.complex128)
@@ -92,7 +96,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
         turn[..., k] = 1j / k * (powers * angle[..., 1:k] * turn[..., k - 1 : 0 : -1]).sum(axis=-1)
         right: Reals = -_residual(conditions, z, turn, angle, k)
         if k == 1:
-            turning = lower.mechanism.drives[0].direction.startswith("R")
+            turning = lower.mechanism.drives[0].turning
             right[:, -1] += 1.0 if turning else 1 / lower.size
         found = _solved(jacobian, right).reshape(len(right), -1, 3)
         z[:, bodies, k] = found[..., 0] + 1j * found[..., 1]
@@ -109,7 +113,8 @@ def _conditions(lower: Linkage) -> list[_Condition]:
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError(
-                f"a series is that of turning and sliding joints, but {chain.joint_names()[number]} is none"
+                "a series is that of turning and sliding joints, but {joint} is none",
+                joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)
@@ -117,7 +122,7 @@ def _conditions(lower: Linkage) -> list[_Condition]:
             out += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
     drive = lower.mechanism.drives[0]
     first, second = lower.reference(0)
-    kind = "angle" if drive.direction.startswith("R") else "along"
+    kind = "angle" if drive.turning else "along"
     ends = _ends(lower, drive.joint, first, second)
     return [*out, _Condition(kind, links.index(first), links.index(second), *ends)]
 

@@ -9,9 +9,9 @@ from math import comb
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.linkages.quantities import as_finite
 
 __all__ = ["CouplerSextic", "coupler_sextic"]

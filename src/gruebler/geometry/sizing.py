@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.geometry.straight import Path, PathPiece, longest_piece, path_piece
 from gruebler.linkages.quantities import as_finite, as_positive
 
@@ -78,7 +78,7 @@ def ratio_curve(path: Path, window: Window, samples: int = 721) -> RatioCurve:
 def _points(path: Path, parameters: Reals) -> Complexes:
     points = path(parameters)
     if not np.isfinite(points).all():
-        raise LinkageError(f"the path has no point at {parameters[~np.isfinite(points)][0]:.6g}")
+        raise LinkageError("the path has no point at {parameter:.6g}", parameter=parameters[~np.isfinite(points)][0])
     return points
 
 
@@ -103,7 +103,7 @@ def widest_piece(path: Path, window: Window, ratio: float, samples: int = 721) -
     curve = ratio_curve(path, window, samples)
     good = np.flatnonzero(curve.ratios <= wanted)
     if not len(good):
-        raise LinkageError(f"no window of the path has a relative deviation of {ratio:g} or less")
+        raise LinkageError("no window of the path has a relative deviation of {ratio:g} or less", ratio=ratio)
     last = int(good[-1])
     width = float(curve.widths[last])
     if last + 1 < len(curve.widths):

@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.geometry.relative import Complexes, Reals
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_positive
@@ -62,7 +62,7 @@ def linkage_path(linkage: Linkage, point: str, branch: str | None = None) -> Pat
     def at(values: Reals) -> Complexes:
         motion = move(linkage, np.ravel(values), branch=branch)
         if not motion.complete:
-            raise LinkageError(motion.message())
+            raise LinkageError("{reason}", reason=motion.reason)
         return motion.complex_point(point).reshape(np.shape(values))
 
     return at
@@ -83,7 +83,7 @@ def path_piece(path: Path, start: float, end: float, direction: float | None = N
     (80.0, 0.195075, 0.002438)
     """
     if as_finite("start", start) == as_finite("end", end):
-        raise LinkageError(f"a piece has two different ends, but both are at {start:.6g}")
+        raise LinkageError("a piece has two different ends, but both are at {start:.6g}", start=start)
     parameters = np.linspace(start, end, _samples(samples))
     points = _points(path, parameters)
     angle = _narrowest(points)[1] if direction is None else as_finite("direction", direction)
@@ -136,7 +136,9 @@ def piece_of_ratio(
     low = _below(excess, float(halves[beyond[0] - 1]) or high / 2)
     if low is None:
         raise LinkageError(
-            f"at the parameter {middle:.6g} the path bends too much for a relative deviation of {wanted:g}"
+            "at the parameter {middle:.6g} the path bends too much for a relative deviation of {wanted:g}",
+            middle=middle,
+            wanted=wanted,
         )
     width = float(brentq(excess, low, high, xtol=1e-14, rtol=1e-14)) if excess(high) > 0 else high
     return path_piece(path, middle - width, middle + width, angle, samples)
@@ -184,17 +186,21 @@ def _below(excess: Callable[[float], float], width: float) -> float | None:
 
 def _samples(samples: int) -> int:
     if not isinstance(samples, int) or not 5 <= samples <= 1_000_000:
-        raise LinkageError(f"samples must be a whole number from 5 to 1,000,000, not {samples!r}")
+        raise LinkageError("samples must be a whole number from 5 to 1,000,000, not {samples!r}", samples=samples)
     return samples
 
 
 def _points(path: Path, parameters: Reals) -> Complexes:
     points = np.asarray(path(parameters), np.complex128)
     if points.shape != parameters.shape:
-        raise LinkageError(f"a path gives one point for each parameter, but {points.shape} for {parameters.shape}")
+        raise LinkageError(
+            "a path gives one point for each parameter, but found {points} for {parameters}",
+            points=points.shape,
+            parameters=parameters.shape,
+        )
     missing = np.flatnonzero(~np.isfinite(points))
     if len(missing):
-        raise LinkageError(f"the path has no point at the parameter {parameters[missing[0]]:.6g}")
+        raise LinkageError("the path has no point at the parameter {parameter:.6g}", parameter=parameters[missing[0]])
     return points
 
 

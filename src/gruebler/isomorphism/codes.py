@@ -101,7 +101,7 @@ def decode(text: str) -> MarkedChain:
     """
     prefix = re.match(r"gr(\d+):", text)
     if prefix is None or prefix[0] != CODE_PREFIX:
-        raise NotationError(f"a code begins with {CODE_PREFIX!r}, not with {text[:8]!r}")
+        raise NotationError("a code begins with {prefix!r}, not with {found!r}", prefix=CODE_PREFIX, found=text[:8])
     body, *marks = text[len(CODE_PREFIX) :].split(";")
     chain = Chain.parse(body)
     ordered = sorted((_number(link), link) for link in chain.links)
@@ -115,7 +115,7 @@ def decode(text: str) -> MarkedChain:
         elif re.fullmatch(rf"drives={_DRIVE}(?:,{_DRIVE})*", mark):
             drives = tuple(_drive(chain, text) for text in mark.removeprefix("drives=").split(","))
         else:
-            raise NotationError(f"{mark!r} is no mark of a code: expected frame=LINK or drives=JOINT,JOINT")
+            raise NotationError("{mark!r} is no mark of a code: expected frame=LINK or drives=JOINT,JOINT", mark=mark)
     return MarkedChain(chain, frame, drives)
 
 
@@ -125,15 +125,19 @@ _DRIVE = r"\d+(?::[RTH][xyz])?(?::\d+-\d+)?"
 def _drive(chain: Chain, text: str) -> int | DriveMark:
     joint, *parts = text.split(":")
     if int(joint) >= len(chain.joints):
-        raise NotationError(f"'drives={text}': the code has joints 0 to {len(chain.joints) - 1}")
+        raise NotationError(
+            "'drives={drives}': the code has joints 0 to {count}", drives=text, count=len(chain.joints) - 1
+        )
     direction = "".join(part for part in parts if "-" not in part)
     links = tuple(link for part in parts if "-" in part for link in part.split("-"))
     if not set(links) <= set(chain.joints[int(joint)].links):
-        raise NotationError(f"'drives={text}': joint {joint} is {chain.joints[int(joint)]}")
+        raise NotationError(
+            "'drives={drives}': joint {number} is {joint}", drives=text, number=joint, joint=chain.joints[int(joint)]
+        )
     return DriveMark(int(joint), direction, links) if parts else int(joint)
 
 
 def _number(link: str) -> int:
     if not link.isascii() or not link.isdigit():
-        raise NotationError(f"the links of a code are numbers, not {link!r}")
+        raise NotationError("the links of a code are numbers, not {link!r}", link=link)
     return int(link)

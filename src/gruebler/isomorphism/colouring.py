@@ -62,7 +62,11 @@ def coloured_graph(chain: Chain, frame: str | None = None, drives: Collection[in
     partly = {mark.joint for mark in marks}
     for number in (*partly, *(number for number in drives if isinstance(number, int))):
         if not 0 <= number < len(chain.joints):
-            raise ChainError(f"there is no joint number {number}; the chain has joints 0 to {len(chain.joints) - 1}")
+            raise ChainError(
+                "there is no joint number {number}; the chain has joints 0 to {count}",
+                number=number,
+                count=len(chain.joints) - 1,
+            )
     repeats = Counter(frozenset(joint.links) for joint in chain.joints)
     colours = [_LINK] * chain.n
     if frame is not None:

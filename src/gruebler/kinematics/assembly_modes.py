@@ -15,6 +15,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 
 __all__ = [
@@ -28,9 +30,7 @@ __all__ = [
     "search_modes",
 ]
 
-PIN, SLIDE = 0, 1
 Row = tuple[int, int, int, complex, complex, complex, complex]
-Reals = NDArray[np.float64]
 Method = Literal["exact", "degenerate", "search"]
 
 _CLOSED = 1e-12  # of size or distance: an assembled group is open by less
@@ -133,11 +133,14 @@ def conditions(rows: Iterable[Row]) -> GroupConditions:
     bodies = sorted(set(owners.tolist()) - {-1})
     if not bodies or bodies != list(range(len(bodies))):
         raise LinkageError(
-            f"the bodies of a group are numbered 0, 1, ... without gaps, and there is one; found {bodies}"
+            "the bodies of a group are numbered 0, 1, ... without gaps, and there is one; found {bodies}", bodies=bodies
         )
     if 2 * len(rows) != 3 * len(bodies):
         raise LinkageError(
-            f"{len(bodies)} bodies are determined by {1.5 * len(bodies):g} joints of one freedom, not {len(rows)}"
+            "{bodies} bodies are determined by {wanted:g} joints of one freedom, not {joints}",
+            bodies=len(bodies),
+            wanted=1.5 * len(bodies),
+            joints=len(rows),
         )
     points = np.array([z for row in rows for z in (row[3], row[5])], np.complex128)
     lines = np.array([z for row in rows for z in (row[4], row[6])], np.complex128)
@@ -147,15 +150,19 @@ def conditions(rows: Iterable[Row]) -> GroupConditions:
 def _check(row: Row) -> None:
     if len(row) != 7:
         raise LinkageError(
-            f"a closing condition has a kind, two bodies, and for each a point and a direction, not {row}"
+            "a closing condition has a kind, two bodies, and for each a point and a direction, not {row}", row=row
         )
     kind, a, b, *numbers = row
     if kind not in (PIN, SLIDE):
-        raise LinkageError(f"a closing condition is PIN ({PIN}) or SLIDE ({SLIDE}), not {kind!r}")
+        raise LinkageError(
+            "a closing condition is PIN ({pin}) or SLIDE ({slide}), not {kind!r}", pin=PIN, slide=SLIDE, kind=kind
+        )
     if not isinstance(a, Integral) or not isinstance(b, Integral) or a == b or min(a, b) < -1:
-        raise LinkageError(f"a joint is between two bodies 0, 1, ... or a body and what is known (-1), not {a} and {b}")
+        raise LinkageError(
+            "a joint is between two bodies 0, 1, ... or a body and what is known (-1), not {a} and {b}", a=a, b=b
+        )
     if not all(isinstance(z, Number) for z in numbers) or not np.isfinite(np.array(numbers, np.complex128)).all():
-        raise LinkageError(f"points and directions of a joint are finite numbers, not {numbers}")
+        raise LinkageError("points and directions of a joint are finite numbers, not {numbers}", numbers=numbers)
     if numbers[1] == 0 or numbers[3] == 0:
         raise LinkageError("a direction is a complex number other than 0")
 
@@ -293,7 +300,9 @@ def search_modes(group: GroupConditions, *, seed: int = 0, patience: int = 30, m
     (False, [0.5236, 2.618])
     """
     if patience < 1 or most < 1:
-        raise LinkageError(f"patience and the number of starts are at least 1, not {patience} and {most}")
+        raise LinkageError(
+            "patience and the number of starts are at least 1, not {patience} and {most}", patience=patience, most=most
+        )
     rng = np.random.default_rng(seed)
     solver, bodies, size, centre = GroupSolver(group), group.bodies, group.size, group.centre
 

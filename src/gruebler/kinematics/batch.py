@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics.branches import Unassembled, read_branch, starting_state
@@ -24,9 +25,6 @@ from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.notebook import Brief
 
 __all__ = ["Designs", "Motions", "designs", "four_bars", "inverted_slider_cranks", "move_many", "slider_cranks"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, repr=False)
@@ -100,7 +98,9 @@ class Motions(Brief):
                 k = self.links.index(link)
                 arm = self.turns[:, k] * self.designs.points[:, e, None]
                 return np.asarray(self.places[order, :, k] + self._factor(k, order) * arm)
-        raise LinkageError(f"{joint!r} is not a joint of the links kept: {', '.join(self.links)}")
+        raise LinkageError(
+            "{joint!r} is not a joint of the links kept: {links}", joint=joint, links=", ".join(self.links)
+        )
 
     def _factor(self, k: int, order: int) -> Any:
         w, a, j = (self.rates[m, :, k] if m < order else 0.0 for m in range(3))
@@ -112,12 +112,19 @@ class Motions(Brief):
 
     def _link(self, link: str) -> int:
         if link not in self.links:
-            raise LinkageError(f"the link {link!r} was not kept; kept are {', '.join(self.links)}")
+            raise LinkageError(
+                "the link {link!r} was not kept; kept are {links}", link=link, links=", ".join(self.links)
+            )
         return self.links.index(link)
 
     def _ordered(self, order: int, least: int) -> None:
         if order not in range(least, len(self.places)):
-            raise LinkageError(f"expected an order from {least} to {len(self.rates)}, but found {order!r}")
+            raise LinkageError(
+                "expected an order from {least} to {count}, but found {order!r}",
+                least=least,
+                count=len(self.rates),
+                order=order,
+            )
 
 
 def designs(linkages: Sequence[Linkage]) -> Designs:
@@ -131,7 +138,7 @@ def designs(linkages: Sequence[Linkage]) -> Designs:
         raise LinkageError("expected at least one design")
     for number, linkage in enumerate(linkages):
         if linkage.mechanism != linkages[0].mechanism:
-            raise LinkageError(f"design {number} has another mechanism than the first")
+            raise LinkageError("design {number} has another mechanism than the first", number=number)
     plan = cached_plan(linkages[0])
     if plan.wheels and len(linkages) > 1:
         raise LinkageError("linkages with wheels are moved one by one, by move")
@@ -190,18 +197,25 @@ def _lengths(given: dict[str, ArrayLike]) -> dict[str, Reals]:
         try:
             arrays[name] = np.asarray(values, np.float64)
         except (TypeError, ValueError):
-            raise LinkageError(f"{name}: expected numbers, but found {values!r}") from None
+            raise LinkageError("{name}: expected numbers, but found {values!r}", name=name, values=values) from None
         wrong = ~np.isfinite(arrays[name]) if name == "e" else ~((arrays[name] > 0) & (arrays[name] < np.inf))
         if wrong.any():
-            wanted = "finite numbers" if name == "e" else "positive numbers"
-            raise LinkageError(f"{name}: expected {wanted}, but found {arrays[name][wrong].flat[0]:g}")
+            raise LinkageError(
+                "{name}: expected finite numbers, but found {number:g}"
+                if name == "e"
+                else "{name}: expected positive numbers, but found {number:g}",
+                name=name,
+                number=arrays[name][wrong].flat[0],
+            )
     try:
         together = np.broadcast_arrays(*arrays.values())
     except ValueError:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
-        raise LinkageError(f"expected arrays of one length, but found {shapes}") from None
+        raise LinkageError("expected arrays of one length, but found {shapes}", shapes=shapes) from None
     if together[0].ndim > 1 or not together[0].size:
-        raise LinkageError(f"expected one-dimensional arrays, not empty, but found the shape {together[0].shape}")
+        raise LinkageError(
+            "expected one-dimensional arrays, not empty, but found the shape {shape}", shape=together[0].shape
+        )
     return dict(zip(arrays, (np.atleast_1d(array).astype(np.float64) for array in together), strict=True))
 
 
@@ -244,13 +258,15 @@ def move_many(
     path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
-        raise LinkageError(f"the order is 0, 1, 2 or 3, not {order!r}")
+        raise LinkageError("the order is 0, 1, 2 or 3, not {order!r}", order=order)
     speeds = drive_speeds(path, (1.0 if speed is None else speed, acceleration, jerk), upto)
     chain, frame = plan.lower.mechanism.chain, plan.lower.mechanism.frame
     kept = tuple(link for link in chain.links if link != frame) if links is None else tuple(links)
     for link in kept:
         if link not in chain.links:
-            raise LinkageError(f"there is no link {link!r}; the links are {', '.join(chain.links)}")
+            raise LinkageError(
+                "there is no link {link!r}; the links are {links}", link=link, links=", ".join(chain.links)
+            )
     shape = (count, len(kept), len(path))
     out = (
         np.empty((upto + 1, *shape), np.complex128),
@@ -293,7 +309,7 @@ def _run(
 
     program = designs.plan.program
     longest = designs.sizes[:, None] / program.size * program.most
-    turning = [d.direction.startswith("R") for d in designs.plan.lower.mechanism.drives]
+    turning = [d.turning for d in designs.plan.lower.mechanism.drives]
     longest[:, turning] = program.most[turning]
 
     sizes = designs.points, designs.lines, longest, designs.sizes

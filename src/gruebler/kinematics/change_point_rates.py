@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.kinematics.kernel_calls import run_rows
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 
 __all__ = ["set_change_point_rates"]
 
-Reals = NDArray[np.float64]
 _SINGULAR = 1e-5  # below this root the linear equations of the rates lose too many digits
 _STEP = 0.04  # radians (or part of the size): how far from a change point rates are taken to find those at it
 
@@ -41,7 +41,7 @@ def _limit(
     plan: Plan, motion: Motion, path: Reals, speeds: Reals, signs: Reals, row: int
 ) -> tuple[NDArray[np.complex128], Reals] | None:
     way = speeds[0, row].copy()
-    scale = np.array([1.0 if d.direction.startswith("R") else plan.lower.size for d in plan.linkage.mechanism.drives])
+    scale = np.array([1.0 if d.turning else plan.lower.size for d in plan.linkage.mechanism.drives])
     if not way.any():  # at rest: any direction does
         way = scale.copy()
     length = float(np.abs(way / scale).max())

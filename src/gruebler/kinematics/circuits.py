@@ -14,8 +14,9 @@ from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.configuration_curve import (
     ClosureSystem,
@@ -28,11 +29,12 @@ from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.kinematics.solve import move
 from gruebler.linkages import Linkage, LinkPoint, with_lower_pairs
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
+from gruebler.text import message
 
 __all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
 
-Reals = NDArray[np.float64]
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
 
@@ -129,13 +131,17 @@ class Circuit(Brief):
 
         given = np.atleast_1d(np.asarray(arcs, np.float64))
         if given.ndim != 1 or not np.isfinite(given).all():
-            raise LinkageError(f"expected finite places on the circuit, but found {arcs!r}")
+            raise LinkageError("expected finite places on the circuit, but found {arcs!r}", arcs=arcs)
         traced, laps = self.traced, np.zeros(len(given))
         if self.closed:
             laps = np.floor(given / self.length)
         place = given - laps * self.length
         if len(place) and not (place.min() >= 0 and place.max() <= self.length):
-            raise LinkageError(f"this circuit goes from 0 to {self.length:.9g} and is not closed, so no {arcs!r} on it")
+            raise LinkageError(
+                "this circuit goes from 0 to {length:.9g} and is not closed, so no {arcs!r} on it",
+                length=self.length,
+                arcs=arcs,
+            )
         segments = np.clip(np.searchsorted(traced.arcs, place, side="right") - 1, 0, len(self) - 2)
         x, t = traced.poses[segments], traced.tangents[segments]
         between = np.flatnonzero(traced.arcs[segments] != place)
@@ -148,7 +154,9 @@ class Circuit(Brief):
             )
             if found < len(between):
                 where = place[between[found]]
-                raise LinkageError(f"the position at {where:.9g} of the circuit cannot be found: it is singular there")
+                raise LinkageError(
+                    "the position at {where:.9g} of the circuit cannot be found: it is singular there", where=where
+                )
             x[between], t[between] = near, slopes
         x += laps[:, None] * (traced.poses[-1] - traced.poses[0])
         return self._poses(given, x, t)
@@ -232,7 +240,7 @@ class Circuit(Brief):
     @cached_property
     def drive_limits(self) -> tuple[Extremum, ...]:
         """Where the drive turns back: dead centres of the linkage for this drive."""
-        turns = all(drive.direction.startswith("R") for drive in self.system.lower.mechanism.drives)
+        turns = all(drive.turning for drive in self.system.lower.mechanism.drives)
         return self.extremes(lambda poses, order: poses.drive(order), 1.0 if turns else self.system.lower.size)
 
     @property
@@ -268,23 +276,17 @@ class Circuit(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
-        return _OPEN[self.traced.ended]["de" if lang == "de" else "en"] if self.traced.ended else ""
+        return _OPEN[self.traced.ended].in_language(lang) if self.traced.ended else ""
 
 
 _OPEN = {
-    "long": {
-        "en": "The circuit was not followed to its end: it is longer than what was asked for.",
-        "de": "Der Umlauf wurde nicht zu Ende verfolgt: er ist länger als verlangt.",
-    },
-    "singular": {
-        "en": "The circuit ends in a singular position from which it cannot be followed.",
-        "de": "Der Umlauf endet in einer singulären Lage, aus der er nicht weiter verfolgt werden kann.",
-    },
+    "long": message("The circuit was not followed to its end: it is longer than what was asked for."),
+    "singular": message("The circuit ends in a singular position from which it cannot be followed."),
 }
 
 
 def circuit(
-    linkage: Linkage,
+    linkage: LinkageLike,
     *,
     branch: str | Iterable[str] | None = None,
     drive: float | None = None,
@@ -314,17 +316,20 @@ def circuit(
     >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
     (True, [121.855431, -121.855431])
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    linkage = as_linkage(linkage)
     for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
-            raise LinkageError(f"{name}: expected a finite number, but found {value!r}")
+            raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
     if not 1e-4 <= step <= 0.2 or not most > 0:
-        raise LinkageError(f"the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}")
+        raise LinkageError(
+            "the step lies between 0.0001 and 0.2, the greatest length above 0, not {step:g}, {most:g}",
+            step=step,
+            most=most,
+        )
     lower = with_lower_pairs(linkage)
     count = len(linkage.mechanism.drives)
     if count > 1:
-        raise LinkageError(f"a circuit has one drive at most, but this linkage has {count}")
+        raise LinkageError("a circuit has one drive at most, but this linkage has {count}", count=count)
     system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, system, branch, drive)
     found = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
@@ -332,7 +337,7 @@ def circuit(
     if lower.mechanism.drives:
         value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
         tangent = -tangent if ahead < 0 else tangent
-        if lower.mechanism.drives[0].direction.startswith("R"):
+        if lower.mechanism.drives[0].turning:
             turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))
     traced = trace_circuit(system, pose, tangent, float(step), float(most))
     if not traced.closed and traced.arcs[-1] < _SHAKY:
@@ -362,8 +367,14 @@ def _start(
         if largest > _SINGULAR:
             break
     if best is None:
-        where = f"at {drive:.9g}" if drive is not None else f"at any of {_TRIALS} values of its drive"
-        raise LinkageError(f"the linkage cannot be assembled {where}; another drive value or a home may help")
+        raise LinkageError(
+            "the linkage cannot be assembled at any of {count} values of its drive; another drive value or a home may "
+            "help"
+            if drive is None
+            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a home may help",
+            count=_TRIALS,
+            drive=drive,
+        )
     return best
 
 
@@ -383,7 +394,7 @@ def _trial_values(lower: Linkage) -> Iterator[float]:
     """Drive values for a start, far apart at first, then closer and closer."""
     if not lower.mechanism.drives:
         raise LinkageError("a circuit starts from a home position or from a drive value; this linkage has neither")
-    reach = np.pi if lower.mechanism.drives[0].direction.startswith("R") else _REACH * lower.size
+    reach = np.pi if lower.mechanism.drives[0].turning else _REACH * lower.size
     for k in range(_TRIALS):
         part = sum(((k >> bit) & 1) / 2 ** (bit + 1) for bit in range(10))
         yield reach * (2 * ((part + 0.637) % 1) - 1)
@@ -398,7 +409,7 @@ def _assembled(
     except LinkageError as error:
         if system.redundant and system.lower.reference_pose is None:
             raise LinkageError(
-                f"{error} With a home (Linkage.drawn) its circuit can be followed all the same."
+                "{error} With a home (Linkage.drawn) its circuit can be followed all the same.", error=error
             ) from None
         raise
     if not len(motion):

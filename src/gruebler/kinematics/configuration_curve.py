@@ -14,8 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import MESH, POLAR, RACK, RIDE
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import MESH, POLAR, RACK, RIDE, contact_conditions, law_tables
+from gruebler.kinematics.contacts import contact_conditions, law_tables
 from gruebler.kinematics.contours import PiecewiseLaw
 from gruebler.linkages import Element, Linkage, Pose2D
 from gruebler.linkages.elements import direction
@@ -26,7 +28,6 @@ if TYPE_CHECKING:
 
 __all__ = ["ChangeSample", "ClosureSystem", "TracedCurve", "closure_system", "nearest_on_curve", "trace_circuit"]
 
-Reals = NDArray[np.float64]
 
 _SHORT = 0.02  # a change point is passed by a step of at most this length
 _EXACT = 1e-12  # a change point is open by less; if by more, the linkage only passes near one
@@ -195,7 +196,8 @@ def closure_system(lower: Linkage, still: Sequence[tuple[str, str]] = ()) -> Clo
     unknowns, equations = 3 * (len(bodies) + len(free)), int(first[-1])
     if equations < unknowns - 1:
         raise LinkageError(
-            f"a circuit is the motion of a linkage with one freedom, but this one has {unknowns - equations}"
+            "a circuit is the motion of a linkage with one freedom, but this one has {unknowns}",
+            unknowns=unknowns - equations,
         )
     return ClosureSystem(
         lower, bodies, tuple(free), conditions, new_trace_scratch(conditions), equations, (first[meshes], meshes)

@@ -9,8 +9,8 @@ from math import log, pi
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.cams import Cam, CamError, Flat, Roller, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geneva import Geneva
@@ -19,7 +19,6 @@ from gruebler.linkages import CamDisc, Element, GenevaDriver, GenevaWheel, NonCi
 
 __all__ = ["COEFFICIENTS", "PiecewiseLaw", "cam_law", "cam_of", "turn_law"]
 
-Reals = NDArray[np.float64]
 COEFFICIENTS = 12
 _EXACT = 5e-16  # of the largest value: terms of a piece that are rounding
 _CONSTANT = 1e-14  # of the largest value: a law that varies by less between two joints varies by rounding only
@@ -57,7 +56,7 @@ def cam_of(disc: CamDisc) -> Cam:
         cam = Cam(lift.scaled(pi / 180) if follower.swings else lift, disc.base, follower)
         undercut = cam.findings().undercut
     except GrueblerError as error:
-        raise LinkageError(f"cam: {error}") from None
+        raise LinkageError("cam: {error}", error=error) from None
     if undercut:
         raise LinkageError("cam: the profile crosses itself, so that the follower cannot follow the lift")
     return cam
@@ -77,11 +76,11 @@ def cam_law(disc: CamDisc) -> PiecewiseLaw:
     cam = cam_of(disc)
     breaks = [span.start for span in cam.lift.spans()] + [2 * pi]
     if not (np.diff(_bearing(cam, np.linspace(0, 2 * pi, 2881))[0]) < 0).all():
-        raise LinkageError(
-            "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
-            if isinstance(cam.follower, Roller)
-            else "cam: the face turns faster than the cam; less lift or a longer angle for it helps"
-        )
+        if isinstance(cam.follower, Roller):
+            raise LinkageError(
+                "cam: the pitch curve turns back as seen from the axis; less lift or a larger base circle helps"
+            )
+        raise LinkageError("cam: the face turns faster than the cam; less lift or a longer angle for it helps")
     bounds = _bearing(cam, np.array(breaks[::-1]) - 1e-300)[0].tolist()
     start = np.array([cam.start])
     base = cam.follower.line(start).distance if isinstance(cam.follower, Flat) else abs(cam.follower.path(start).at)
@@ -138,7 +137,7 @@ def _geneva_law(driver: GenevaDriver, cross: GenevaWheel) -> PiecewiseLaw:
     try:
         drive = Geneva(cross.slots, cross.internal, driver.pins)
     except GrueblerError as error:
-        raise LinkageError(f"Geneva drive: {error}") from None
+        raise LinkageError("Geneva drive: {error}", error=error) from None
     pitch = 2 * pi / driver.pins
     bounds = sorted({k * pitch + side * drive.engaged for k in range(driver.pins) for side in (-1, 1)})
     bounds = [*bounds, bounds[0] + 2 * pi]

@@ -3,27 +3,28 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan
 
-__all__ = ["degrees", "drive_path", "drive_speeds"]
-
-Reals = NDArray[np.float64]
+__all__ = ["drive_path", "drive_speeds", "from_degrees"]
 
 
-def degrees(start: float, stop: float, step: float) -> Reals:
+def from_degrees(start: float, stop: float, step: float) -> Reals:
     """Angles from start to stop, both included, given in degrees, in radians.
 
-    >>> degrees(0, 180, 90).round(4).tolist()
+    >>> from_degrees(0, 180, 90).round(4).tolist()
     [0.0, 1.5708, 3.1416]
     """
     if not step or not np.isfinite([start, stop, step]).all() or (stop - start) / step < 0:
-        raise LinkageError(f"no angles lead from {start:g} to {stop:g} by steps of {step:g}")
+        raise LinkageError(
+            "no angles lead from {start:g} to {stop:g} by steps of {step:g}", start=start, stop=stop, step=step
+        )
     count = int(np.floor((stop - start) / step * (1 + 1e-12) + 1e-9))
     if count > 10_000_000:
-        raise LinkageError(f"{count + 1:,} rows are more than 10,000,000")
+        raise LinkageError("{count:,} rows are more than 10,000,000", count=count + 1)
     out: Reals = np.radians(start + step * np.arange(count + 1))
     return out
 
@@ -34,17 +35,26 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     try:
         path = np.array(drives, np.float64)
     except (TypeError, ValueError):
-        raise LinkageError(f"drive values are numbers, but found {drives!r}") from None
+        raise LinkageError("drive values are numbers, but found {drives!r}", drives=drives) from None
     if path.ndim == 0:
         path = path.reshape(1, 1)
     if path.ndim == 1:
         path = path.reshape(-1, 1) if wanted == 1 else path.reshape(1, -1)
     if path.ndim != 2 or path.shape[1] != wanted or not len(path):
-        given = "no rows" if not path.size else f"rows of {path.shape[-1]}"
-        raise LinkageError(f"the linkage has {wanted} drive{'s' * (wanted != 1)}, but found {given}")
+        if not path.size:
+            raise LinkageError("expected drive values, but found no rows")
+        raise LinkageError(
+            "the linkage has 1 drive, but found rows of {count}"
+            if wanted == 1
+            else "the linkage has {wanted} drives, but found rows of {count}",
+            wanted=wanted,
+            count=path.shape[-1],
+        )
     if not np.isfinite(path).all():
         row = int(np.argwhere(~np.isfinite(path))[0, 0])
-        raise LinkageError(f"drive values are finite numbers, but row {row} has {path[row].tolist()}")
+        raise LinkageError(
+            "drive values are finite numbers, but row {row} has {numbers}", row=row, numbers=path[row].tolist()
+        )
     return np.ascontiguousarray(path)
 
 
@@ -56,12 +66,16 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
             break
         numbers = np.asarray(value, np.float64)
         if not np.isfinite(numbers).all():
-            raise LinkageError(f"{name}: expected finite numbers, but found {value!r}")
+            raise LinkageError("{name}: expected finite numbers, but found {value!r}", name=name, value=value)
         if numbers.ndim == 1 and path.shape[1] == 1 and len(numbers) == len(path):
             numbers = numbers.reshape(-1, 1)
         try:
             out[k] = numbers
         except ValueError:
-            shape = "one number, one for each drive, or one for each row and drive"
-            raise LinkageError(f"{name}: expected {shape}, but found an array {numbers.shape}") from None
+            raise LinkageError(
+                "{name}: expected one number, one for each drive, or one for each row and drive, but found an array "
+                "{shape}",
+                name=name,
+                shape=numbers.shape,
+            ) from None
     return out

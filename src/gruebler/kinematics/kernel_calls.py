@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Integers, Reals
 from gruebler.kinematics.plan import Plan
 
 if TYPE_CHECKING:
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 
 __all__ = ["SolvedRows", "follow_path", "run_rows", "without_first"]
 
-Reals = NDArray[np.float64]
-Ints = NDArray[np.int64]
 _AT_IT = 1e-12  # of the size: a row so near to the shortest way of a slide is there
 _AT_CHANGE = 1e-7  # below this root a path that turns back is taken to turn back in a change point
 
@@ -75,14 +74,14 @@ def _lingers(plan: Plan, path: Reals, rows: SolvedRows) -> bool:
     return bool((np.abs(roots).min(axis=1, initial=1.0) < _AT_CHANGE).any())
 
 
-def _without_rests(path: Reals) -> tuple[Ints, Ints]:
+def _without_rests(path: Reals) -> tuple[Integers, Integers]:
     """The rows that differ from the one before, and for each row which of these it repeats."""
     moves = np.concatenate([[True], (np.diff(path, axis=0) != 0).any(axis=1)])
     return np.flatnonzero(moves), np.cumsum(moves) - 1
 
 
 def _with_rests(
-    rows: SolvedRows, kept: Ints, again: Ints, plan: Plan, path: Reals, speeds: Reals, order: int
+    rows: SolvedRows, kept: Integers, again: Integers, plan: Plan, path: Reals, speeds: Reals, order: int
 ) -> SolvedRows:
     """The rows of a path whose rests were left out; rates there are solved with the speeds that are given for them."""
     count = int(np.searchsorted(again, rows.reached))

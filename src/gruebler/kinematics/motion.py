@@ -11,19 +11,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler import notebook
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
+from gruebler.kinematics.messages import stop_message, unbounded_message
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, LinkPoint, NonCircular, Pose2D, Wheel
 from gruebler.linkages.elements import INVERSE
 from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sliding_joint
 from gruebler.notebook import Brief
+from gruebler.text import Message, joined, message
 
 __all__ = ["Motion", "Stop", "joint_openings"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -86,9 +86,19 @@ class Motion(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Where and why it stopped, and in which rows rates are not finite; else empty."""
-        from gruebler.kinematics.messages import stop_message
+        return self.reason.in_language(lang)
 
-        return stop_message(self, lang)
+    @property
+    def reason(self) -> Message:
+        """What `message` says, in any language."""
+        parts = []
+        if self.unbounded:
+            first = tuple(float(value) for value in self.drives[self.unbounded[0]])
+            parts.append(unbounded_message(self.linkage, first))
+        if self.stop is not None:
+            stop = self.stop
+            parts.append(stop_message(self.linkage, stop.reason, stop.drives, stop.links, stop.form))
+        return joined(parts, " ")
 
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
@@ -159,16 +169,23 @@ class Motion(Brief):
         links: Sequence[str] = self.plan.lower.mechanism.chain.links
         if link not in links:
             known = self.linkage.mechanism.chain.links
-            raise LinkageError(f"there is no link {link!r}{nearest(link, known)}; the links are {', '.join(known)}")
+            raise LinkageError(
+                "there is no link {link!r}{suggestion}; the links are {known}",
+                link=link,
+                suggestion=nearest(link, known),
+                known=", ".join(known),
+            )
         return links.index(link)
 
     def _ordered(self, order: int) -> None:
         if not 0 <= order <= self.order:
-            raise LinkageError(
-                f"this motion was solved up to order {self.order}; for order {order} ask move(..., order={order})"
-                if 0 <= order <= 3
-                else f"the order of a derivative is 0, 1, 2 or 3, not {order!r}"
-            )
+            if 0 <= order <= 3:
+                raise LinkageError(
+                    "this motion was solved up to order {solved}; for order {order} ask move(..., order={order})",
+                    solved=self.order,
+                    order=order,
+                )
+            raise LinkageError("the order of a derivative is 0, 1, 2 or 3, not {order!r}", order=order)
 
 
 def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
@@ -177,7 +194,11 @@ def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
     number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
     if number is None or not sliding_joint(motion.linkage, number):
         sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
-        raise LinkageError(f"{joint!r} is no sliding joint; there are {', '.join(sliding) or 'none'}")
+        raise LinkageError(
+            "{joint!r} is no sliding joint; there are {joints}",
+            joint=joint,
+            joints=", ".join(sliding) or message("none"),
+        )
     first, other = mechanism.chain.joints[number].links[:2]
     elements = motion.linkage.elements
     if not isinstance(elements[number, first], Line) or (

@@ -8,16 +8,15 @@ from math import degrees, pi, sqrt, tau
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams import Lift, read_lift
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import NonCircular
 
 __all__ = ["Transfer", "transfer_of"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _RATIOS = (1e-3, 1e3)  # beyond them a radius is less than a thousandth of the centre distance
 _FLATTEST = 0.8  # eccentricity: the ratio goes from 1/9 to 9; beyond, pieces of 0.04 rad are not exact
@@ -82,9 +81,11 @@ def transfer_of(wheel: NonCircular, other: NonCircular) -> Transfer:
     try:
         transfer = _read(wheel.transfer, mean)
     except GrueblerError as error:
-        raise LinkageError(f"transfer: {error}") from None
+        raise LinkageError("transfer: {error}", error=error) from None
     if max(mean.numerator, mean.denominator) > _LOBES:
-        raise LinkageError(f"transfer: the mean ratio is one of numbers up to {_LOBES}, not {mean}")
+        raise LinkageError(
+            "transfer: the mean ratio is one of numbers up to {lobes}, not {mean}", lobes=_LOBES, mean=mean
+        )
     _check_ratio(transfer)
     _check_closed(transfer)
     return transfer
@@ -99,7 +100,11 @@ def _read(text: str, mean: Fraction) -> Transfer:
     except ValueError:
         e = float("nan")
     if not 0 <= e <= _FLATTEST:
-        raise LinkageError(f"expected 'ellipse' and an eccentricity from 0 to {_FLATTEST}, but found {text[:40]!r}")
+        raise LinkageError(
+            "expected 'ellipse' and an eccentricity from 0 to {flattest}, but found {law!r}",
+            flattest=_FLATTEST,
+            law=text[:40],
+        )
     m = float(mean)
     parameter = (1 - e * e) * m / (m + sqrt(1 - e * e + m * m * e * e))  # docs/theory/wheels.md
     reach = 1 - parameter
@@ -112,15 +117,21 @@ def _check_ratio(made: Transfer) -> None:
     else:
         if jump := next((jump for jump in made.lift.jumps() if jump.order == 1), None):
             raise LinkageError(
-                f"transfer: the ratio jumps by {jump.size:.4g} at {degrees(jump.at):.6g}°: no closed curve; "
-                "take a law that starts and ends at rest, such as 3-4-5"
+                "transfer: the ratio jumps by {size:.4g} at {at:.6g}°: no closed curve; take a law that starts "
+                "and ends at rest, such as 3-4-5",
+                size=jump.size,
+                at=degrees(jump.at),
             )
         extremes = [(a, float(made.mean) + slope) for a, slope in made.lift.extremes(1)]
     for at, ratio in (min(extremes, key=lambda one: one[1]), max(extremes, key=lambda one: one[1])):
         if not _RATIOS[0] <= ratio <= _RATIOS[1]:
             raise LinkageError(
-                f"transfer: the ratio is {ratio:.4g} at {degrees(at):.6g}°; it must be positive everywhere, "
-                f"from {_RATIOS[0]:g} to {_RATIOS[1]:g}"
+                "transfer: the ratio is {ratio:.4g} at {at:.6g}°; it must be positive everywhere, from "
+                "{least:g} to {greatest:g}",
+                ratio=ratio,
+                at=degrees(at),
+                least=_RATIOS[0],
+                greatest=_RATIOS[1],
             )
 
 
@@ -132,6 +143,8 @@ def _check_closed(made: Transfer) -> None:
     off = made.at(places + tau / times) - made.at(places) - tau / made.mean.denominator
     if np.abs(off).max() > _CLOSED:
         raise LinkageError(
-            f"transfer: the second wheel's curve does not close: with a mean ratio of {made.mean} the ratio must "
-            f"repeat every {360 / times:.6g}° of the first wheel"
+            "transfer: the second wheel's curve does not close: with a mean ratio of {mean} the ratio must "
+            "repeat every {times:.6g}° of the first wheel",
+            mean=made.mean,
+            times=360 / times,
         )

@@ -10,10 +10,11 @@ from math import radians
 
 import numpy as np
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, SolvedGroup, decompose
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.kinematics.contacts import Condition, contact_conditions, law_tables
 from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
@@ -156,7 +157,7 @@ class Plan(Brief):
     @property
     def longest_steps(self) -> np.ndarray:
         """How far each drive may move between two checks."""
-        turning = [d.direction.startswith("R") for d in self.lower.mechanism.drives]
+        turning = [d.turning for d in self.lower.mechanism.drives]
         return np.array([_LONGEST_TURN if turns else _LONGEST_PUSH * self.lower.size for turns in turning])
 
     @cached_property
@@ -222,12 +223,15 @@ def plan(linkage: Linkage) -> Plan:
             assert parts.report is not None
             raise LinkageError(
                 "the linkage cannot be moved by its drives: constraints or drives work against one another. "
-                f"Mobility {parts.report.mobility}, drives {parts.report.drives}, at almost all sizes. {error}"
+                "Mobility {mobility}, drives {drives}, at almost all sizes. {error}",
+                mobility=parts.report.mobility,
+                drives=parts.report.drives,
+                error=error,
             ) from None
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)
     if not parts.complete:
-        raise LinkageError(f"the linkage cannot be moved by its drives. {parts.message()}")
+        raise LinkageError("the linkage cannot be moved by its drives. {reason}", reason=parts.reason)
     return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
@@ -274,7 +278,7 @@ class _Planner:
             sign = 1
             if self.against.get(first) != root:
                 first, other, sign = other, first, -1
-            kind = TURN if drives[k].direction.startswith("R") else PUSH
+            kind = TURN if drives[k].turning else PUSH
             joint = drives[k].joint
             self.operations.append((kind, k, self.number[joint, first], self.number[joint, other], sign))
             self.against[other] = root
@@ -348,5 +352,7 @@ class _Planner:
                     try:
                         out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
-                        raise LinkageError(f"{self.chain.joint_names()[joint]}: {error}") from None
+                        raise LinkageError(
+                            "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
+                        ) from None
         return tuple(out)

@@ -7,17 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.linkages import Element, Line, Linkage, LinkPoint, Pose2D
 from gruebler.linkages.wheels import sliding_joint
 from gruebler.notebook import Brief
 
 __all__ = ["Poses"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -72,7 +69,7 @@ class Poses(Brief):
         chain, frame = self.linkage.mechanism.chain, self.linkage.mechanism.frame
         number = joint if isinstance(joint, int) else chain.find_joint(joint)
         if number is None or not sliding_joint(self.linkage, number):
-            raise LinkageError(f"{joint!r} is no sliding joint")
+            raise LinkageError("{joint!r} is no sliding joint", joint=joint)
         first, other = chain.joints[number].links[:2]
         if other == frame or not isinstance(self.linkage.elements[number, first], Line):
             first, other = other, first
@@ -86,7 +83,7 @@ class Poses(Brief):
             raise LinkageError("this linkage has no drive")
         drive = self.lower.mechanism.drives[0]
         first, other = self.lower.reference(0)
-        if drive.direction.startswith("R"):
+        if drive.turning:
             return self.angle(other, order) - self.angle(first, order) + (self.turned if order == 0 else 0.0)
         return self._way(self.lower, drive.joint, first, other, order, 1)
 
@@ -125,14 +122,17 @@ class Poses(Brief):
         if link not in links:
             known = self.linkage.mechanism.chain.links
             raise LinkageError(
-                f"there is no link {link!r}{nearest(str(link), known)}; the links are {', '.join(known)}"
+                "there is no link {link!r}{suggestion}; the links are {known}",
+                link=link,
+                suggestion=nearest(str(link), known),
+                known=", ".join(known),
             )
         return links.index(link)
 
 
 def _order(order: int) -> int:
     if order not in (0, 1):
-        raise LinkageError(f"along a circuit there are values (0) and first derivatives (1), not {order!r}")
+        raise LinkageError("along a circuit there are values (0) and first derivatives (1), not {order!r}", order=order)
     return order
 
 

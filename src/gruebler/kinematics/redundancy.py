@@ -13,8 +13,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.assur import decompose
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Pair, pair
@@ -23,14 +23,13 @@ from gruebler.linkages import Element, Line, Linkage, Pin, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism import Drive, Mechanism
+from gruebler.text import message
 
 __all__ = [
     "Independent",
     "independent_part",
 ]
 
-
-Reals = NDArray[np.float64]
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `gruebler freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
@@ -104,9 +103,12 @@ def independent_part(linkage: Linkage) -> Independent:
     if freedoms < len(drives):
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
-            f"In the given position its joints leave mobility {freedoms}, less than the number of drives "
-            f"({len(drives)}); the drives are blocked by {names or 'one another'}. `gruebler freedoms` analyses its "
-            "mobility with these dimensions."
+            "In the given position its joints leave mobility {freedoms}, less than the number of drives "
+            "({count}); the drives are blocked by {joints}. `gruebler freedoms` analyses its mobility with "
+            "these dimensions.",
+            freedoms=freedoms,
+            count=len(drives),
+            joints=names or message("one another"),
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
@@ -162,7 +164,7 @@ class ReferenceConditions:
         out = []
         for k, drive in enumerate(self.linkage.mechanism.drives):
             first, other = self.linkage.reference(k)
-            if drive.direction.startswith("R"):
+            if drive.turning:
                 out.append(self._turn(first, other))
                 continue
             lined = first if isinstance(self.linkage.elements[drive.joint, first], Line) else other
@@ -189,7 +191,9 @@ class ReferenceConditions:
         far = np.abs(residual)
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < _NEAR:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
-            raise LinkageError(f"home: the joints are not closed there; {worst} is open by {far.max():.1e} sizes")
+            raise LinkageError(
+                "home: the joints are not closed there; {worst} is open by {gap:.1e} sizes", worst=worst, gap=far.max()
+            )
         return x
 
     def _conditions(self, x: Reals, number: int, joint: Joint, links: tuple[str, str]) -> Iterator[tuple[float, Reals]]:

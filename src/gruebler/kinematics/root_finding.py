@@ -11,11 +11,11 @@ from itertools import groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gruebler.arrays import Reals
 
 __all__ = ["FunctionSamples", "Zero", "bracketed_root", "find_zeros", "sample_function", "vanishing"]
 
-Reals = NDArray[np.float64]
 Jet = Callable[[Reals], Reals]
 """From (n,) places to (derivatives, n): the function, and as many of its derivatives as are known."""
 

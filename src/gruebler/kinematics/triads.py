@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.assembly_modes import (
     PIN,
@@ -21,7 +22,6 @@ from gruebler.kinematics.assembly_modes import (
     GroupConditions,
     GroupSolver,
     Method,
-    Reals,
     conditions,
     ordered_modes,
     search_modes,
@@ -57,7 +57,6 @@ _ON_CIRCLE = 2e-3  # roots of modulus so near to 1 are tried
 _OPEN = 1e-2  # a trial that misses a leg equation by more is dropped
 _FLAT = 1e-3  # sine of the angle below which two lines do not determine a point well
 
-Complexes = NDArray[np.complex128]
 Z = TypeVar("Z", complex, NDArray[np.complex128])
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, isfinite, pi, sin
 from types import MappingProxyType
 from typing import Any
 
@@ -29,6 +29,7 @@ from gruebler.linkages.elements import (
 )
 from gruebler.linkages.wheels import check_wheels, resolve_wheels
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message, message
 
 __all__ = ["Linkage"]
 
@@ -84,13 +85,13 @@ class Linkage:
     ) -> None:
         chain = mechanism.chain
         if chain.space is not Space.PLANAR:
-            raise LinkageError(f"dimensions are those of planar mechanisms; this one is {chain.space}")
+            raise LinkageError("dimensions are those of planar mechanisms; this one is {space}", space=chain.space)
         made: dict[tuple[int, str], Element] = {}
         for link, mine in elements.items():
             for joint, raw in mine.items():
                 number = joint_number(mechanism, joint)
                 if link not in chain.joints[number].links:
-                    raise LinkageError(f"{chain.joint_names()[number]} is no joint of {link!r}")
+                    raise LinkageError("{joint} is no joint of {link!r}", joint=chain.joint_names()[number], link=link)
                 made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
         self._check_joints(mechanism, made)
         made = resolve_wheels(mechanism, made)
@@ -101,7 +102,7 @@ class Linkage:
         }
         for name in named:
             if name in chain.links or chain.find_joint(name) is not None:
-                raise LinkageError(f"the point {name!r} has the name of a link or joint")
+                raise LinkageError("the point {name!r} has the name of a link or joint", name=name)
         for link in outputs:
             _link(mechanism, link, "outputs")
         object.__setattr__(self, "mechanism", mechanism)
@@ -121,7 +122,7 @@ class Linkage:
         for number, joint in enumerate(mechanism.chain.joints):
             for link in joint.links:
                 if (number, link) not in made:
-                    raise LinkageError(f"{names[number]} has no dimensions on {link!r}")
+                    raise LinkageError("{joint} has no dimensions on {link!r}", joint=names[number], link=link)
             check_elements_fit(joint.pair, names[number], {link: made[number, link] for link in joint.links})
         if any(isinstance(element, CENTRED) for element in made.values()):
             return  # shafts on one axis
@@ -132,8 +133,11 @@ class Linkage:
                     size = max(hypot(*pin), hypot(*other), 1e-300)
                     if hypot(pin.x - other.x, pin.y - other.y) <= 1e-12 * size or pin == other:
                         raise LinkageError(
-                            f"on {link!r} the points of {names[m]} and {names[n]} coincide: a link needs a length "
-                            "(turning joints of several links at one place are written as one, such as R(a-b-c))"
+                            "on {link!r} the points of {joint} and {other} coincide: a link needs a length "
+                            "(turning joints of several links at one place are written as one, such as R(a-b-c))",
+                            link=link,
+                            joint=names[m],
+                            other=names[n],
                         )
 
     @classmethod
@@ -167,7 +171,11 @@ class Linkage:
         """What a joint is on one of its links."""
         number = joint_number(self.mechanism, joint)
         if (number, link) not in self.elements:
-            raise LinkageError(f"{self.mechanism.chain.joint_names()[number]} is no joint of {link!r}")
+            raise LinkageError(
+                "{joint} is no joint of {link!r}",
+                joint=self.mechanism.chain.joint_names()[number],
+                link=link,
+            )
         return self.elements[number, link]
 
     def length(self, link: str, first: str | int, second: str | int) -> float:
@@ -175,8 +183,15 @@ class Linkage:
         a, b = self.element(first, link), self.element(second, link)
         return hypot(a.x - b.x, a.y - b.y)
 
+    @property
+    def required_pose(self) -> Mapping[str, Pose2D]:
+        """The reference pose; `LinkageError` if the linkage has none."""
+        if self.reference_pose is None:
+            raise LinkageError("the linkage has no reference pose: give the place of every link in one position")
+        return self.reference_pose
+
     def points_named(self, name: str) -> tuple[LinkPoint, ...]:
-        """The point of that name, or of the joint of that name (on each of its links, the frame's first).
+        """The point of that name, of the joint of that name (on each of its links, the frame's first), or of LINK:X,Y.
 
         Raises `LinkageError` for a name that is neither, with the nearest one that is.
         """
@@ -185,8 +200,16 @@ class Linkage:
         chain = self.mechanism.chain
         number = chain.find_joint(name)
         if number is None:
+            place = _read_point(name)
+            if place is not None and place.link in chain.links:
+                return (place,)
             known = [*self.points, *chain.joint_names()]
-            raise LinkageError(f"there is no point {name!r}{nearest(name, known)}; known are {', '.join(known)}")
+            raise LinkageError(
+                "there is no point {name!r}{suggestion}; known are {known}",
+                name=name,
+                suggestion=nearest(name, known),
+                known=", ".join(known),
+            )
         links = sorted(chain.joints[number].links, key=lambda link: link != self.mechanism.frame)
         return tuple(LinkPoint(link, *self.elements[number, link][:2]) for link in links)
 
@@ -228,7 +251,7 @@ class Linkage:
     def scaled(self, factor: float) -> Linkage:
         """Every length times a positive factor."""
         if not 0 < factor < 1e100:
-            raise LinkageError(f"a scale is a positive number, not {factor!r}")
+            raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
 
         def element(e: Element) -> Element:
             if isinstance(e, Wheel | Circle):
@@ -319,40 +342,53 @@ def joint_number(mechanism: Mechanism, joint: str | int) -> int:
     if isinstance(joint, int):
         if 0 <= joint < len(chain.joints):
             return joint
-        raise LinkageError(f"there is no joint number {joint}; the chain has joints 0 to {len(chain.joints) - 1}")
+        raise LinkageError(
+            "there is no joint number {joint}; the chain has joints 0 to {count}",
+            joint=joint,
+            count=len(chain.joints) - 1,
+        )
     number = chain.find_joint(joint)
     if number is None:
         names = chain.joint_names()
-        raise LinkageError(f"{joint!r} is not one of the joints{nearest(joint, names)}; they are {', '.join(names)}")
+        raise LinkageError(
+            "{joint!r} is not one of the joints{suggestion}; they are {joints}",
+            joint=joint,
+            suggestion=nearest(joint, names),
+            joints=", ".join(names),
+        )
     return number
 
 
-def _link(mechanism: Mechanism, link: str, where: str) -> str:
+def _link(mechanism: Mechanism, link: str, where: str | Message) -> str:
     if link not in mechanism.chain.links:
         known = mechanism.chain.links
         raise LinkageError(
-            f"{where}: there is no link {link!r}{nearest(str(link), known)}; links are {', '.join(known)}"
+            "{where}: there is no link {link!r}{suggestion}; links are {known}",
+            where=where,
+            link=link,
+            suggestion=nearest(str(link), known),
+            known=", ".join(known),
         )
     return link
 
 
 def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> LinkPoint:
-    pin = read_element([x, y], f"the point {name!r}")
-    return LinkPoint(_link(mechanism, link, f"the point {name!r}"), pin.x, pin.y)
+    pin = read_element([x, y], message("the point {name!r}", name=name))
+    return LinkPoint(_link(mechanism, link, message("the point {name!r}", name=name)), pin.x, pin.y)
 
 
 def _refuse_point(name: str) -> LinkPoint:
-    raise LinkageError(f"the point {name!r} needs a link and two coordinates")
+    raise LinkageError("the point {name!r} needs a link and two coordinates", name=name)
 
 
 def _home(mechanism: Mechanism, home: Mapping[str, tuple[float, float, float]]) -> dict[str, Pose2D]:
     out = {}
     for link in mechanism.chain.links:
         if link not in home and link != mechanism.frame:
-            raise LinkageError(f"home: the position of {link!r} is missing")
+            raise LinkageError("home: the position of {link!r} is missing", link=link)
         line = read_element(tuple(home.get(link, (0.0, 0.0, 0.0))), f"home, {link}")
         if not isinstance(line, Line):
-            raise LinkageError(f"home, {link}: expected x, y and an angle")
+            raise LinkageError("home, {link}: expected x, y and an angle", link=link)
         out[link] = Pose2D(*line)
     for link in home:
         _link(mechanism, link, "home")
@@ -382,8 +418,8 @@ def _from_drawing(
     seen = {}
     for name, (link, x, y) in points.items():
         if link not in home:
-            raise LinkageError(f"the point {name!r}: there is no link {link!r}")
-        pin = read_element([x, y], f"the point {name!r}")
+            raise LinkageError("the point {name!r}: there is no link {link!r}", name=name, link=link)
+        pin = read_element([x, y], message("the point {name!r}", name=name))
         seen[name] = (link, *home[link].to_local(pin.x, pin.y))
     return Linkage(mechanism, elements, seen, unit=unit, reference_pose=home, outputs=outputs)
 
@@ -395,25 +431,28 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
     drawn: dict[tuple[int, str], Element] = {}
     for number, joint in enumerate(chain.joints):
         if number not in given:
-            raise LinkageError(f"the place of {names[number]} is missing")
+            raise LinkageError("the place of {joint} is missing", joint=names[number])
         raw, slot = given[number], None
         if isinstance(raw, Mapping):
             for link in joint.links:
                 if link not in raw:
-                    raise LinkageError(f"{names[number]}: the element of {link!r} is missing")
+                    raise LinkageError("{joint}: the element of {link!r} is missing", joint=names[number], link=link)
                 drawn[number, link] = read_element(raw[link], f"{link}, {names[number]}")
             continue
         if isinstance(raw, list | tuple) and len(raw) == 4:
             *raw, slot = raw
             if slot not in joint.links:
-                raise LinkageError(f"{names[number]}: the slot is in one of its links, not in {slot!r}")
+                raise LinkageError(
+                    "{joint}: the slot is in one of its links, not in {slot!r}", joint=names[number], slot=slot
+                )
         element = read_element(raw, names[number])
         if joint.pair.name == "roll_slide" and slot is None:
             raise LinkageError(
-                f"{names[number]}: say which link has the slot: [x, y, angle, link]; wheels are given for each link"
+                "{joint}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
+                joint=names[number],
             )
         if isinstance(element, CENTRED):
-            raise LinkageError(f"{names[number]}: wheels are given for each of its links")
+            raise LinkageError("{joint}: wheels are given for each of its links", joint=names[number])
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element
     for (number, link), element in list(drawn.items()):
@@ -446,3 +485,13 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
         return Pose2D(first.x, first.y, lines[0].angle)
     far = next((p for p in pins[1:] if hypot(p.x - first.x, p.y - first.y) > 0), None)
     return Pose2D(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)
+
+
+def _read_point(text: str) -> LinkPoint | None:
+    """The point of a link in its coordinates, as in ``coupler:45,40``; None for another text."""
+    link, _, place = text.rpartition(":")
+    try:
+        x, y = (float(part) for part in place.split(","))
+    except ValueError:
+        return None
+    return LinkPoint(link, x, y) if isfinite(x) and isfinite(y) else None

@@ -10,9 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
+from gruebler.text import message
 
 __all__ = [
-    "FloatArray",
     "as_branch",
     "as_eccentricity",
     "as_finite",
@@ -40,7 +40,7 @@ def as_finite(name: str, value: object) -> float:
         except (OverflowError, ValueError):
             number = math.nan
     if not math.isfinite(number):
-        raise LinkageError(f"{name} must be a finite number, not {value!r}")
+        raise LinkageError("{name} must be a finite number, not {value!r}", name=name, value=value)
     return number
 
 
@@ -54,9 +54,11 @@ def as_positive(name: str, value: object) -> float:
     """
     number = as_finite(name, value)
     if number <= 0:
-        raise LinkageError(f"{name} must be positive, not {value!r}")
+        raise LinkageError("{name} must be positive, not {value!r}", name=name, value=value)
     if not 1e-70 < number < 1e70:
-        raise LinkageError(f"{name} must lie between 1e-70 and 1e70, not {value!r}: choose another unit")
+        raise LinkageError(
+            "{name} must lie between 1e-70 and 1e70, not {value!r}: choose another unit", name=name, value=value
+        )
     return number
 
 
@@ -66,8 +68,11 @@ def as_lengths(**lengths: object) -> dict[str, float]:
     small, large = min(checked, key=checked.__getitem__), max(checked, key=checked.__getitem__)
     if checked[large] > 1e9 * checked[small]:
         raise LinkageError(
-            f"lengths of one linkage may differ by a factor of 1e9 at most: {small} = {checked[small]:g}, "
-            f"{large} = {checked[large]:g}"
+            "lengths of one linkage may differ by a factor of 1e9 at most: {small} = {least:g}, {large} = {greatest:g}",
+            small=small,
+            least=checked[small],
+            large=large,
+            greatest=checked[large],
         )
     return checked
 
@@ -76,7 +81,7 @@ def as_eccentricity(e: object, *lengths: float) -> float:
     """An eccentricity of any sign, not out of all proportion to the lengths."""
     number = as_finite("e", e)
     if abs(number) > 1e9 * max(lengths):
-        raise LinkageError(f"the eccentricity e = {number:g} is more than 1e9 times any length")
+        raise LinkageError("the eccentricity e = {e:g} is more than 1e9 times any length", e=number)
     return number
 
 
@@ -89,7 +94,11 @@ def as_numbers(name: str, value: npt.ArrayLike) -> FloatArray:
         sound = False
     if not sound:
         shown = repr(value)
-        raise LinkageError(f"{name} must be finite numbers, not {shown if len(shown) < 60 else shown[:57] + '...'}")
+        raise LinkageError(
+            "{name} must be finite numbers, not {shown}",
+            name=name,
+            shown=shown if len(shown) < 60 else shown[:57] + "...",
+        )
     return numbers.astype(np.float64)
 
 
@@ -97,7 +106,7 @@ def as_branch(branch: object) -> int:
     """One of the two ways to assemble: +1 or -1."""
     if isinstance(branch, (int, np.integer)) and not isinstance(branch, bool) and branch in {1, -1}:
         return int(branch)
-    raise LinkageError(f"branch must be +1 or -1, not {branch!r}")
+    raise LinkageError("branch must be +1 or -1, not {branch!r}", branch=branch)
 
 
 def given_and_missing(**lengths: float | None) -> tuple[dict[str, float], str]:
@@ -108,5 +117,9 @@ def given_and_missing(**lengths: float | None) -> tuple[dict[str, float], str]:
     """
     missing = [name for name, value in lengths.items() if value is None]
     if len(missing) != 1:
-        raise LinkageError(f"exactly one of {', '.join(lengths)} must be left out, not {', '.join(missing) or 'none'}")
+        raise LinkageError(
+            "exactly one of {lengths} must be left out, not {missing}",
+            lengths=", ".join(lengths),
+            missing=", ".join(missing) or message("none"),
+        )
     return as_lengths(**{name: value for name, value in lengths.items() if value is not None}), missing[0]

@@ -146,8 +146,9 @@ def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, 
         fit = len(wheels) == 2 and all(wheel.teeth and not wheel.radius for wheel in wheels) and teeth
         if number not in held or not fit or wheels[0].belt:
             raise LinkageError(
-                f"{mechanism.chain.joint_names()[number]}: tooth numbers without a radius or module need wheels with "
-                "tooth numbers on both links, and a link that carries both centres by pins"
+                "{joint}: tooth numbers without a radius or module need wheels with tooth numbers on both "
+                "links, and a link that carries both centres by pins",
+                joint=mechanism.chain.joint_names()[number],
             )
         for link, wheel in zip(links, wheels, strict=True):
             out[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))
@@ -161,9 +162,9 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
         name = mechanism.chain.joint_names()[number]
         joint = mechanism.chain.joints[number]
         if len(joint.links) > 2:
-            raise LinkageError(f"{name}: wheels touch in pairs; write a joint for each two of them")
+            raise LinkageError("{name}: wheels touch in pairs; write a joint for each two of them", name=name)
         if any(drive.joint == number for drive in mechanism.drives):
-            raise LinkageError(f"{name}: a pair of wheels is not driven; drive a shaft")
+            raise LinkageError("{name}: a pair of wheels is not driven; drive a shaft", name=name)
         one, other = (elements[number, link] for link in links)
         if isinstance(one, CamDisc) or isinstance(other, CamDisc):
             _check_disc(name, *((one, other) if isinstance(one, CamDisc) else (other, one)))
@@ -174,9 +175,13 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
             assert isinstance(other, NonCircular)
             _check_noncircular(name, one, other)
             if number not in held:
-                raise LinkageError(f"{name}: non-circular wheels need a link that carries both centres by pins")
+                raise LinkageError(
+                    "{name}: non-circular wheels need a link that carries both centres by pins", name=name
+                )
             if not held[number].distance > _SAME * _reach(elements, held[number].link):
-                raise LinkageError(f"{name}: the centre distance on {held[number].link!r} is too small: it is 0")
+                raise LinkageError(
+                    "{name}: the centre distance on {link!r} is too small: it is 0", name=name, link=held[number].link
+                )
             continue
         if isinstance(one, Line) or isinstance(other, Line):
             _check_rack(name, other if isinstance(one, Line) else one)
@@ -188,18 +193,27 @@ def check_wheels(mechanism: Mechanism, elements: Elements) -> None:
         touching = joint.pair.name == "rolling" or isinstance(one, Circle)
         if number in held and touching and abs(held[number].distance - apart) > _SAME * apart:
             raise LinkageError(
-                f"{name}: the centres are {held[number].distance:.12g} apart on {held[number].link!r}, "
-                f"but the radii make {apart:.12g}"
+                "{name}: the centres are {distance:.12g} apart on {link!r}, but the radii make {apart:.12g}",
+                name=name,
+                distance=held[number].distance,
+                link=held[number].link,
+                apart=apart,
             )
 
 
 def _check_noncircular(name: str, one: NonCircular, other: NonCircular) -> None:
     if not all(isinstance(wheel.transfer, str) and wheel.transfer.strip() for wheel in (one, other)):
-        raise LinkageError(f"{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'")
+        raise LinkageError(
+            "{name}: transfer: expected a text such as 'ellipse 0.5' or 'rise 20 180; fall 20 180'", name=name
+        )
     if (one.transfer == INVERSE) == (other.transfer == INVERSE):
-        raise LinkageError(f"{name}: one of two non-circular wheels has a transfer function, the other {INVERSE!r}")
+        raise LinkageError(
+            "{name}: one of two non-circular wheels has a transfer function, the other {inverse!r}",
+            name=name,
+            inverse=INVERSE,
+        )
     if bool(one.teeth) != bool(other.teeth):
-        raise LinkageError(f"{name}: tooth numbers on both wheels or on none")
+        raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
 
 
 def _reach(elements: Elements, link: str) -> float:
@@ -210,37 +224,47 @@ def _reach(elements: Elements, link: str) -> float:
 def _check_disc(name: str, disc: Element, other: Element) -> None:
     assert isinstance(disc, CamDisc)
     if disc.flat != isinstance(other, Line):
-        raise LinkageError(f"{name}: a cam for a flat face touches a line, one for a roller a circle or a pin")
+        raise LinkageError(
+            "{name}: a cam for a flat face touches a line, one for a roller a circle or a pin", name=name
+        )
     radius = other.radius if isinstance(other, Circle) else 0.0
     if abs(radius - disc.roller * disc.scale) > _SAME * disc.base * disc.scale:
-        raise LinkageError(f"{name}: the cam is made for a roller of {disc.roller * disc.scale:g}, not {radius:g}")
+        raise LinkageError(
+            "{name}: the cam is made for a roller of {roller:g}, not {radius:g}",
+            name=name,
+            roller=disc.roller * disc.scale,
+            radius=radius,
+        )
 
 
 def _check_rack(name: str, wheel: Element) -> None:
     assert isinstance(wheel, Wheel | Circle)
     if wheel.radius < 0 or (isinstance(wheel, Wheel) and wheel.belt):
-        raise LinkageError(f"{name}: along a line rolls a wheel of positive radius, without a belt")
+        raise LinkageError("{name}: along a line rolls a wheel of positive radius, without a belt", name=name)
 
 
 def _check_pair(name: str, rolling: bool, one: Wheel | Circle, other: Wheel | Circle) -> None:
     low, high = sorted((one.radius, other.radius))
     if high < 0:
-        raise LinkageError(f"{name}: two internal wheels do not touch")
+        raise LinkageError("{name}: two internal wheels do not touch", name=name)
     if low < 0 <= low + high:
         raise LinkageError(
-            f"{name}: the internal wheel (minus) must be larger than the one in it: {low:g} and {high:g}"
+            "{name}: the internal wheel (minus) must be larger than the one in it: {low:g} and {high:g}",
+            name=name,
+            low=low,
+            high=high,
         )
     if not isinstance(one, Wheel) or not isinstance(other, Wheel):
         return
     if one.belt != other.belt:
-        raise LinkageError(f"{name}: both wheels of a belt are 'open' or both 'crossed'")
+        raise LinkageError("{name}: both wheels of a belt are 'open' or both 'crossed'", name=name)
     if one.belt and rolling:
-        raise LinkageError(f"{name}: a belt is no rolling contact; write it as a roll-slide joint G")
+        raise LinkageError("{name}: a belt is no rolling contact; write it as a roll-slide joint G", name=name)
     if bool(one.teeth) != bool(other.teeth):
-        raise LinkageError(f"{name}: tooth numbers on both wheels or on none")
+        raise LinkageError("{name}: tooth numbers on both wheels or on none", name=name)
     if one.teeth and abs(one.radius / one.teeth - other.radius / other.teeth) > _SAME * abs(one.radius / one.teeth):
         modules = " and ".join(f"{2 * wheel.radius / wheel.teeth:.9g}" for wheel in (one, other))
-        raise LinkageError(f"{name}: the modules differ: {modules}")
+        raise LinkageError("{name}: the modules differ: {modules}", name=name, modules=modules)
 
 
 def redundant_wheels(mechanism: Mechanism, elements: Elements) -> set[int]:

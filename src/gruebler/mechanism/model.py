@@ -13,6 +13,7 @@ from gruebler.chain import Chain, notation
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import DriveMark, code, decode
+from gruebler.text import joined_by_and
 
 __all__ = ["Drive", "Mechanism"]
 
@@ -24,6 +25,11 @@ class Drive:
     joint: int
     direction: str
     between: tuple[str, str]
+
+    @property
+    def turning(self) -> bool:
+        """Whether it turns the links against each other: its values are angles, else lengths."""
+        return self.direction.startswith("R")
 
 
 class Mechanism:
@@ -56,7 +62,7 @@ class Mechanism:
         keys = [(d.joint, d.direction, frozenset(d.between)) for d in made]
         for k, key in enumerate(keys):
             if key in keys[:k]:
-                raise ChainError(f"the drive {_drive_text(chain, made[k])} is named twice")
+                raise ChainError("the drive {drive} is named twice", drive=_drive_text(chain, made[k]))
         object.__setattr__(self, "chain", chain)
         object.__setattr__(self, "frame", frame)
         object.__setattr__(self, "drives", made)
@@ -99,10 +105,11 @@ class Mechanism:
                     chain.index(output)
                 case _:
                     raise NotationError(
-                        f"{mark.strip()!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK"
+                        "{mark!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
+                        mark=mark.strip(),
                     )
         if output == frame:
-            raise ChainError(f"the output {output!r} is the frame")
+            raise ChainError("the output {output!r} is the frame", output=output)
         return cls(chain, frame, drives), output
 
     @classmethod
@@ -201,24 +208,46 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
     else:
         number, direction, links = _read_drive(chain, raw)
     if not 0 <= number < len(chain.joints):
-        raise ChainError(f"there is no joint number {number}; the chain has joints 0 to {len(chain.joints) - 1}")
+        raise ChainError(
+            "there is no joint number {number}; the chain has joints 0 to {count}",
+            number=number,
+            count=len(chain.joints) - 1,
+        )
     joint = chain.joints[number]
     freedoms = joint.pair.freedoms[chain.space]
     if not direction:
         if len(freedoms) > 1:
             raise ChainError(
-                f"{joint} has the freedoms {', '.join(freedoms)}; say which is driven: {joint}:{freedoms[0]}"
+                "{joint} has the freedoms {freedoms}; say which is driven: {joint}:{first}",
+                joint=joint,
+                freedoms=", ".join(freedoms),
+                first=freedoms[0],
             )
         direction = freedoms[0]
     if direction not in freedoms:
-        raise ChainError(f"{direction!r} is no freedom of {joint}; it has {', '.join(freedoms)}")
+        raise ChainError(
+            "{direction!r} is no freedom of {joint}; it has {freedoms}",
+            direction=direction,
+            joint=joint,
+            freedoms=", ".join(freedoms),
+        )
     if not links:
         if len(joint.links) > 2:
             a, b = joint.links[:2]
-            raise ChainError(f"{joint} joins {len(joint.links)} links; say which two the drive moves: {joint}:{a}-{b}")
+            raise ChainError(
+                "{joint} joins {count} links; say which two the drive moves: {joint}:{a}-{b}",
+                joint=joint,
+                count=len(joint.links),
+                a=a,
+                b=b,
+            )
         links = joint.links
     if len(links) != 2 or links[0] == links[1] or not set(links) <= set(joint.links):
-        raise ChainError(f"a drive of {joint} acts between two of its links, not between {' and '.join(links)}")
+        raise ChainError(
+            "a drive of {joint} acts between two of its links, not between {links}",
+            joint=joint,
+            links=joined_by_and(links),
+        )
     first, other = sorted(links, key=joint.links.index)
     return Drive(number, direction, (first, other))
 
@@ -227,7 +256,11 @@ def _read_drive(chain: Chain, text: str) -> tuple[int, str, tuple[str, ...]]:
     joint_text, *options = re.split(r":(?![^(]*\))", text)
     number = chain.find_joint(joint_text)
     if number is None:
-        raise ChainError(f"{joint_text!r} is not one of the joints; they are {', '.join(chain.joint_names())}")
+        raise ChainError(
+            "{joint!r} is not one of the joints; they are {joints}",
+            joint=joint_text,
+            joints=", ".join(chain.joint_names()),
+        )
     direction = ""
     links: tuple[str, ...] = ()
     for option in options:

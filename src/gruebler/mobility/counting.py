@@ -66,12 +66,17 @@ def count_freedoms(chain: Chain, b: int | None = None) -> Count:
     """
     motions = chain.space.b if b is None else b
     if not 1 <= motions <= 6:
-        raise ChainError(f"b is the number of motions of a free link, 1 to 6, not {b}")
+        raise ChainError("b is the number of motions of a free link, 1 to 6, not {b}", b=b)
     by_freedom = chain.joints_by_freedom
     too_free = max(by_freedom)
     if too_free >= motions:
         joint = next(j for j in chain.joints if j.pair.f(chain.space) == too_free)
-        raise ChainError(f"the joint {joint} has f = {too_free}, which leaves nothing to constrain when b = {motions}")
+        raise ChainError(
+            "the joint {joint} has f = {too_free}, which leaves nothing to constrain when b = {motions}",
+            joint=joint,
+            too_free=too_free,
+            motions=motions,
+        )
     return Count(chain.n, motions, tuple(by_freedom.items()))
 
 

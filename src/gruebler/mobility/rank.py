@@ -143,10 +143,10 @@ def _eliminated(rows: Iterable[Row], columns: int, *, large: bool) -> Echelon:
 def _too_large(core: CoreTooLarge) -> TooLargeError:
     numbers = f"{core.seconds / 60:.1f} min, {core.size / 1e9:.1f} GB"
     return TooLargeError(
-        f"the chain leaves {core.rows:,} equations to be solved at once: about {numbers}; "
-        "`gruebler check --yes` and mobility_report(..., large=True) begin it nevertheless",
-        f"die Kette lässt {core.rows:,} Gleichungen auf einmal zu lösen: etwa {numbers}; "
-        "`gruebler check --yes` und mobility_report(..., large=True) beginnen trotzdem",
+        "the chain leaves {rows:,} equations to be solved at once: about {numbers}; `gruebler check "
+        "--yes` and mobility_report(..., large=True) begin it nevertheless",
+        rows=core.rows,
+        numbers=numbers,
     )
 
 

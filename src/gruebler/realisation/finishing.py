@@ -6,8 +6,8 @@ from math import atan2, degrees, radians
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.reference_pose import pose_at_reference
@@ -19,7 +19,6 @@ from gruebler.realisation.measures import conditioning
 
 __all__ = ["FinishedLinkage", "finish_linkage", "motion_quality"]
 
-Reals = NDArray[np.float64]
 Ranges = tuple[tuple[float, float], ...]
 
 _SIZE = 100.0
@@ -94,14 +93,13 @@ def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
         x, y = _grid(e.x, length), _grid(e.y, length)
         turn = [radians(_grid(degrees(e.angle) % 360, degrees(angle)) % 360)] if isinstance(e, Line) else []
         elements[link][number] = (x, y, *turn)
-    assert linkage.reference_pose is not None
-    return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.reference_pose)
+    return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.required_pose)
 
 
 def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
     """The linkage with a home position of sensible drive values that is closed; None if it cannot be assembled."""
     reference = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
-    turning = [drive.direction.startswith("R") for drive in linkage.mechanism.drives]
+    turning = [drive.turning for drive in linkage.mechanism.drives]
     values: list[float] = [
         radians(round(degrees(value))) if turns else _grid(value, length)
         for value, turns in zip(reference.drives, turning, strict=True)
@@ -125,7 +123,7 @@ def _ranges(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -
     reference = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
     out = []
     for value, (low, high), drive in zip(reference.drives, trial.ranges, linkage.mechanism.drives, strict=True):
-        turning = drive.direction.startswith("R")
+        turning = drive.turning
         unit, factor = (radians(1) if length else 0.0, 1.0) if turning else (length, scale)
         start, end = value + factor * low, value + factor * high
         if unit and not trial.full:

@@ -14,23 +14,23 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.program import RPR, RRP, RRR
+from gruebler.arrays import Complexes, Reals
 from gruebler.chain import Chain
-from gruebler.chain.pairs import Space
+from gruebler.chain.pairs import Space, pair
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan, plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import joined
 
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
 
 __all__ = ["KernelLayout", "LayoutProgram", "check_drawable", "joint_places", "layout_program"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
-_RRR, _RRP, _RPR = 2, 3, 4
 
 
 class KernelLayout(NamedTuple):
@@ -156,12 +156,12 @@ class LayoutProgram:
         points = places[:, 0] + 1j * places[:, 1]
         lines = np.exp(1j * places[:, 2]) * self.askew
         size, program = self.size(drawing), self.plan.program
-        turning = [d.direction.startswith("R") for d in self.mechanism.drives]
+        turning = [d.turning for d in self.mechanism.drives]
         most = np.where(turning, self.plan.longest_steps, self.plan.longest_steps * (size / self.plan.lower.size))
         made = program._replace(points=points, lines=lines, size=size, most=most)
         signs = np.ones(len(self.plan.dyads))
         for row in self.plan.operations:
-            if row[0] in (_RRR, _RRP, _RPR):
+            if row[0] in (RRR, RRP, RPR):
                 signs[row[9]] = 1.0 if _side(row, points, lines) >= 0 else -1.0
         return KernelLayout(made, signs, np.zeros(3 * len(program.roots)))
 
@@ -169,9 +169,9 @@ class LayoutProgram:
 def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
     """The number whose sign is the label of a dyad (`gruebler.kinematics.branches`)."""
     kind, outer, inner, other = row[0], row[1], row[3], row[6]
-    if kind == _RRR:
+    if kind == RRR:
         return float(((points[other] - points[outer]).conjugate() * (points[inner] - points[outer])).imag)
-    if kind == _RRP:
+    if kind == RRP:
         return float((lines[other].conjugate() * (points[inner] - points[outer])).real)
     return float((lines[inner].conjugate() * (points[other] - points[outer])).real)
 
@@ -198,11 +198,14 @@ def layout_program(mechanism: Mechanism) -> LayoutProgram:
 def check_drawable(chain: Chain) -> None:
     """`LinkageError` for joints whose dimensions are not known."""
     if chain.space is not Space.PLANAR:
-        raise LinkageError(f"dimensions are found for planar mechanisms; this one is {chain.space}")
+        raise LinkageError("dimensions are found for planar mechanisms; this one is {space}", space=chain.space)
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
         if joint.pair.name not in _DRAWN:
             raise LinkageError(
-                f"{name}: dimensions of {joint.pair.name} joints are not found yet; known are {', '.join(_DRAWN)}"
+                "{name}: dimensions of {pair} joints are not found yet; known are {drawn}",
+                name=name,
+                pair=joint.pair.title,
+                drawn=joined(pair(name).title for name in _DRAWN),
             )
 
 

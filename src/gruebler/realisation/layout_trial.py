@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.kinematics.kernel_calls import SolvedRows, run_rows
 from gruebler.realisation.layout_program import KernelLayout, LayoutProgram
 from gruebler.realisation.measures import conditioning
 
 __all__ = ["FLOOR", "LayoutTrial", "closed_path_quality", "range_path", "returns_to_start", "try_layout"]
 
-Reals = NDArray[np.float64]
 
 FLOOR = 0.1
 """A pose with a smaller measure does not count as within the range."""
@@ -53,7 +53,7 @@ def try_layout(program: LayoutProgram, drawing: Reals, target_quality: float) ->
         return _NOTHING
     setting = program.setting(drawing)
     drives = program.mechanism.drives
-    turning = all(drive.direction.startswith("R") for drive in drives)
+    turning = all(drive.turning for drive in drives)
     if turning:
         around = ((0.0, 2 * np.pi),) * len(drives)
         quality = closed_path_quality(program, setting, range_path(around, full=True))
@@ -62,7 +62,7 @@ def try_layout(program: LayoutProgram, drawing: Reals, target_quality: float) ->
     ranges, quality = _limited(program, setting) if len(drives) == 1 else _swinging(program, setting)
     if not ranges:
         return _NOTHING
-    unit = [2 * np.pi if d.direction.startswith("R") else 2 * _STROKE * setting.program.size for d in drives]
+    unit = [2 * np.pi if d.turning else 2 * _STROKE * setting.program.size for d in drives]
     share = min(min(1.0, (r[1] - r[0]) / u) for r, u in zip(ranges, unit, strict=True))
     return LayoutTrial(share * beauty * (0.5 + 0.5 * min(quality / target_quality, 1.0)), ranges, False, quality)
 
@@ -101,7 +101,7 @@ def closed_path_quality(program: LayoutProgram, setting: KernelLayout, path: Rea
 
 def _limited(program: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
     """How far one drive moves to both sides of the drawn position, and the smallest measure there."""
-    turning = program.mechanism.drives[0].direction.startswith("R")
+    turning = program.mechanism.drives[0].turning
     most = 2 * np.pi if turning else _STROKE * setting.program.size
     ends, worst = [], 1.0
     for side in (-most, most):
@@ -120,7 +120,7 @@ def _limited(program: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple
 def _swinging(program: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
     """The widest of some ranges about the drawn position through which all drives move at once."""
     for swing in _SWINGS:
-        units = [np.pi if d.direction.startswith("R") else setting.program.size / 2 for d in program.mechanism.drives]
+        units = [np.pi if d.turning else setting.program.size / 2 for d in program.mechanism.drives]
         ranges = tuple((-swing * unit, swing * unit) for unit in units)
         quality = closed_path_quality(program, setting, range_path(ranges, full=False))
         if quality >= FLOOR:

@@ -12,13 +12,11 @@ from gruebler.realisation.finishing import finish_linkage
 from gruebler.realisation.layout_program import check_drawable, layout_program
 from gruebler.realisation.result import Realisation
 from gruebler.realisation.search import search_layouts
+from gruebler.text import message
 
 __all__ = ["realise", "with_drives"]
 
-_NOTHING_TO_DRIVE = (
-    "There is nothing to drive: the chain has no mobility.",
-    "Es gibt nichts anzutreiben: Die Kette ist nicht beweglich.",
-)
+_NOTHING_TO_DRIVE = message("There is nothing to drive: the chain has no mobility.")
 _AGAIN = 3  # searches with other random numbers if the first finds no full turn
 
 
@@ -49,15 +47,15 @@ def realise(
     _check("seed", seed, 0)
     _check("budget", budget, 1)
     if isinstance(target_quality, bool) or not isinstance(target_quality, int | float) or not 0 < target_quality <= 1:
-        raise LinkageError(f"target_quality lies between 0 and 1, not {target_quality!r}")
+        raise LinkageError("target_quality lies between 0 and 1, not {target_quality!r}", target_quality=target_quality)
     check_drawable(mechanism.chain)
     driven = mechanism if mechanism.drives else with_drives(mechanism)
     parts = decompose(driven)
-    reasons = (parts.message("en"), parts.message("de")) if driven.drives else _NOTHING_TO_DRIVE
     if not (driven.drives and parts.complete):
-        return Realisation(driven, None, (), False, 0.0, 0, seed, reasons)
+        reason = parts.reason if driven.drives else _NOTHING_TO_DRIVE
+        return Realisation(driven, None, (), False, 0.0, 0, seed, reason)
     drawn = layout_program(driven)
-    turning = all(drive.direction.startswith("R") for drive in driven.drives)
+    turning = all(drive.turning for drive in driven.drives)
     best, tries = None, 0
     for again in range(_AGAIN):
         result = search_layouts(drawn, seed=seed + (again << 32), budget=budget, target_quality=target_quality)
@@ -91,11 +89,13 @@ def with_drives(mechanism: Mechanism) -> Mechanism:
     ]
     if number < 1 or not freedoms:
         return mechanism
-    freedoms.sort(key=lambda d: (frame not in d.between, not d.direction.startswith("R")))
+    freedoms.sort(key=lambda d: (frame not in d.between, not d.turning))
     trials = [Mechanism(chain, frame, chosen) for chosen in combinations(freedoms, number)]
     return next((m for m in trials if decompose(m).complete), trials[0] if trials else mechanism)
 
 
 def _check(name: str, value: object, least: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**32:
-        raise LinkageError(f"{name} is a whole number of at least {least}, not {value!r}")
+        raise LinkageError(
+            "{name} is a whole number of at least {least}, not {found!r}", name=name, least=least, found=value
+        )

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.realisation.layout_program import LayoutProgram
 from gruebler.realisation.layout_trial import LayoutTrial, try_layout
 
 __all__ = ["SearchResult", "search_layouts"]
 
-Reals = NDArray[np.float64]
 
 _KEPT = 4  # drawings to be improved
 _ENOUGH = 12  # drawings that turn fully, after which no others are drawn
@@ -32,7 +31,7 @@ def search_layouts(program: LayoutProgram, *, seed: int, budget: int, target_qua
     """The best drawing of at most `budget` tried; same seed, same drawing."""
     rng = np.random.default_rng(seed)
     kept: list[SearchResult] = []
-    goal = (2 if all(d.direction.startswith("R") for d in program.mechanism.drives) else 1) - _CLOSE
+    goal = (2 if all(d.turning for d in program.mechanism.drives) else 1) - _CLOSE
     tries = turning = 0
     while tries < max(1, int(_DRAWING * budget)) and turning < _ENOUGH and not (kept and kept[0].trial.score > goal):
         drawing = program.tied(_drawn(program, rng))
@@ -78,7 +77,7 @@ def _drawn(program: LayoutProgram, rng: np.random.Generator) -> Reals:
         gaps = np.abs(trials[:, None, :] - out[None, :k, :2]).max(axis=2).min(axis=1, initial=1.0)
         out[k, :2] = trials[int(np.argmax(gaps))]
     for drive in program.mechanism.drives:
-        if drive.direction.startswith("R"):
+        if drive.turning:
             _shrink(program, out, drive.joint, _small_link(program, drive.between, rng), rng)
     return out
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 from math import cos, inf, sin
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.linkages import Line, Linkage, Pin
 from gruebler.screws.closing import Closing, JointFrames
@@ -20,7 +20,6 @@ from gruebler.screws.rigid_motions import inverse_motion
 
 __all__ = ["closed_pose", "has_only_lower_pairs"]
 
-Reals = NDArray[np.float64]
 
 _EXACT = 1e-15  # a home that is closed so well is meant as it is
 _NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
@@ -74,7 +73,9 @@ def _planar(linkage: Linkage) -> Closing:
 
 def _frame(element: object, size: float) -> Reals:
     if not isinstance(element, Pin | Line):
-        raise LinkageError(f"mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws")
+        raise LinkageError(
+            "mobility with dimensions knows pins and lines, not {element!r}; give the joints' screws", element=element
+        )
     return _matrix(element.x / size, element.y / size, element.angle if isinstance(element, Line) else 0.0)
 
 
@@ -84,8 +85,7 @@ def _matrix(x: float, y: float, angle: float) -> Reals:
 
 
 def _home(linkage: Linkage) -> Reals:
-    assert linkage.reference_pose is not None
-    places = [linkage.reference_pose[link] for link in linkage.mechanism.chain.links]
+    places = [linkage.required_pose[link] for link in linkage.mechanism.chain.links]
     return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
 
 
@@ -94,7 +94,9 @@ def _settled(closing: Closing, home: Reals) -> Reals:
     pose = closing.settled(home)
     if abs(closing.residual(pose)).max() > _CLOSED or abs(pose - home).max() > _NEAR:
         gap = abs(closing.residual(home)).max()
-        raise LinkageError(f"the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size")
+        raise LinkageError(
+            "the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size", gap=gap
+        )
     inexact = (pose != home).any() or abs(closing.residual(pose)).max() > _EXACT
     return refined_at_double_root(closing, pose) if inexact else pose
 
@@ -121,7 +123,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
 
     motion = move(linkage, [tuple(at)], branch=branch)
     if not len(motion):
-        raise LinkageError(motion.message())
+        raise LinkageError("{reason}", reason=motion.reason)
     chain = linkage.mechanism.chain
     rows = []
     for link in chain.links:
@@ -135,7 +137,13 @@ def _check_count(at: Sequence[float], drives: int) -> None:
     if not drives:
         raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
     if len(at) != drives:
-        raise LinkageError(f"expected {drives} drive value{'s' * (drives > 1)}, one for each, but found {len(at)}")
+        raise LinkageError(
+            "expected 1 drive value, but found {count}"
+            if drives == 1
+            else "expected {drives} drive values, one for each, but found {count}",
+            drives=drives,
+            count=len(at),
+        )
 
 
 def _sided(linkage: Linkage, drive: int, value: float) -> float:
@@ -184,7 +192,8 @@ def _assembled(closing: Closing) -> Reals:
             break
     if not found:
         raise LinkageError(
-            f"no position was found in which the joints can be closed: they stay open by {least:.1e} of the linkage's "
-            "size at least"
+            "no position was found in which the joints can be closed: they stay open by {least:.1e} of the "
+            "linkage's size at least",
+            least=least,
         )
     return _centred(closing, refined_at_double_root(closing, max(found, key=lambda one: one[:3])[3]))

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
 from gruebler.mechanism import Mechanism
 from gruebler.screws.closing_rows import Bent, joint_rows
@@ -17,7 +17,6 @@ from gruebler.screws.rigid_motions import exponential, exponential_rate, inverse
 
 __all__ = ["Closing", "JointFrames"]
 
-Reals = NDArray[np.float64]
 
 _COLUMNS = {Space.PLANAR: [2, 3, 4], Space.SPHERICAL: [0, 1, 2], Space.SPATIAL: [0, 1, 2, 3, 4, 5]}
 

@@ -16,14 +16,13 @@ from collections.abc import Callable
 from math import cos, inf, sin, tan
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Pair, Space
 from gruebler.screws.joint_places import JointPlace
 
 __all__ = ["Bent", "Row", "joint_rows"]
 
-Reals = NDArray[np.float64]
 Bent = Callable[[Reals], tuple[float, Reals]]
 """From E to the value of a row and its derivatives by the entries of E, (4, 4)."""
 Row = Reals | Bent

@@ -10,15 +10,14 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.screws.closing import Closing
 from gruebler.screws.instant_mobility import InstantMobility, instant_mobility
 from gruebler.screws.obstruction import ObstructionMap
 
 __all__ = ["is_near_double_root", "refined_at_double_root"]
 
-Reals = NDArray[np.float64]
 
 _ROUNDING = 1e-16  # no residual is known better
 _SAFETY = 3.0  # by which the root of the residual is taken larger

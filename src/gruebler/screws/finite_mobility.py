@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.notebook import Brief
 from gruebler.screws.double_roots import is_near_double_root
 from gruebler.screws.instant_mobility import InstantMobility, instant_mobility
@@ -22,7 +22,6 @@ from gruebler.screws.quadratic_forms import directions, is_definite
 
 __all__ = ["Evidence", "FiniteMobility", "finite_mobility"]
 
-Reals = NDArray[np.float64]
 
 _RADII = (0.02, 0.08, 0.25)  # of the velocities' numbers at which F is looked at: radians and sizes
 _TRIES = 4  # directions at each radius

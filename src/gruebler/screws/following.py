@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.screws.closing import Closing
 from gruebler.screws.model import SpatialLinkage
+from gruebler.text import joined, message
 
 __all__ = ["follow_from_pose", "follow_joint", "follow_joints", "joint_value"]
 
-Reals = NDArray[np.float64]
 
 _STEP = 0.05  # of the driven joint, in radians or sizes, between two corrections
 _CLOSED = 1e-11
@@ -48,7 +49,11 @@ def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -
     chain = linkage.mechanism.chain
     number = joint if isinstance(joint, int) else chain.find_joint(joint)
     if number is None or not 0 <= number < len(chain.joints):
-        raise LinkageError(f"{joint!r} is not one of the joints; they are {', '.join(chain.joint_names())}")
+        raise LinkageError(
+            "{joint!r} is not one of the joints; they are {joints}",
+            joint=joint,
+            joints=", ".join(chain.joint_names()),
+        )
     return follow_from_pose(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
 
 
@@ -63,7 +68,8 @@ def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: 
     for joint in joints:
         if chain.joints[joint].pair.name not in ("revolute", "prismatic") or chain.joints[joint].count > 1:
             raise LinkageError(
-                f"{chain.joint_names()[joint]}: only a revolute or prismatic joint of two links is driven"
+                "{joint}: only a revolute or prismatic joint of two links is driven",
+                joint=chain.joint_names()[joint],
             )
     now, out = np.array([joint_value(closing, pose, joint) for joint in joints]), []
     for row in values:
@@ -88,8 +94,12 @@ def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals
         system = np.vstack([by_twist, *(row(pose) for row in drivers)])
         pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=1e-9)[0])
     names = ", ".join(chain.joint_names()[joint] for joint in joints)
-    values = ", ".join(f"{value:.6g}" for value in target)
-    raise LinkageError(f"{names} {'does' if len(joints) == 1 else 'do'} not reach {values}")
+    values = joined(message("{value:.6g}", value=float(value)) for value in target)
+    raise LinkageError(
+        "{joints} does not reach {values}" if len(joints) == 1 else "{joints} do not reach {values}",
+        joints=names,
+        values=values,
+    )
 
 
 def _driving_row(closing: Closing, joint: int) -> Callable[[Reals], Reals]:

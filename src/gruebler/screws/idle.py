@@ -11,15 +11,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.mobility.idle import IdleCondition, IdleFreedom, between_balls
 from gruebler.screws.instant_mobility import InstantMobility
 from gruebler.screws.motion_groups import screws_of
 
 __all__ = ["idle_parts"]
 
-Reals = NDArray[np.float64]
 
 _SAME = 1e-7  # lines and directions that differ by less, in sizes, coincide: ten times what a pose may be open by
 

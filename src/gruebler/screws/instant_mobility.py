@@ -6,14 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.notebook import Brief
 from gruebler.screws.closing import Closing
 
 __all__ = ["InstantMobility", "instant_mobility"]
-
-Reals = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -6,13 +6,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.screws.instant_mobility import InstantMobility
 
 __all__ = ["SAME", "JointGeometry", "Reason"]
 
-Reals = NDArray[np.float64]
 
 SAME = 1e-8
 """Points and directions that differ by less, in sizes, are the same."""
@@ -22,7 +21,7 @@ class Reason(NamedTuple):
     """Why a linkage moves that should not, or more than it should."""
 
     kind: str
-    """The key of its sentence in `gruebler.screws.messages`."""
+    """The key of its sentence in `gruebler.screws.mobility_report`."""
     links: tuple[str, ...]
     """The links it speaks of, in the order of the sentence."""
     joints: tuple[int, ...] = ()

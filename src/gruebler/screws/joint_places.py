@@ -7,14 +7,14 @@ from dataclasses import dataclass, fields
 from math import hypot, inf, isfinite
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Pair, Space
 from gruebler.errors import LinkageError
+from gruebler.text import joined_by_and, joined_by_or
 
 __all__ = ["JointPlace", "Vector", "joint_axes", "read_place"]
 
-Reals = NDArray[np.float64]
 Vector = tuple[float, float, float]
 
 _SQUARE = 1e-9  # axes that should be at right angles may miss it by so much
@@ -78,7 +78,9 @@ def read_place(raw: object, pair: Pair, space: Space, where: str) -> JointPlace:
     known = [f.name for f in fields(JointPlace)]
     for key in given:
         if key not in known:
-            raise LinkageError(f"{where}: unknown key {key!r}; the keys are {', '.join(known)}")
+            raise LinkageError(
+                "{where}: unknown key {key!r}; the keys are {known}", where=where, key=key, known=", ".join(known)
+            )
     given = {key: value for key, value in given.items() if value is not None}
     joint_place = JointPlace(
         _vector(given.get("at", (0.0, 0.0, 0.0)), space, f"{where}, at"),
@@ -99,18 +101,29 @@ def _fitting(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
     turned = space is Space.PLANAR and bool(set(present) & set("xy"))
     enough = needed in present or turned if len(needed) < 2 else len(present) >= 2
     if not enough:
-        raise LinkageError(f"{where}: a {pair.name} joint needs its {' and '.join(needed)} axis")
+        raise LinkageError(
+            "{where}: a {pair} joint needs its {needed} axis",
+            where=where,
+            pair=pair.title,
+            needed=joined_by_and(needed),
+        )
     joint_axes(place, space, where)
     if space is Space.SPHERICAL and any(place.at):
-        raise LinkageError(f"{where}: on a sphere every joint is at its centre, the origin")
+        raise LinkageError("{where}: on a sphere every joint is at its centre, the origin", where=where)
     if place.pitch and pair.name != "helical":
-        raise LinkageError(f"{where}: a {pair.name} joint has no pitch")
+        raise LinkageError("{where}: a {pair} joint has no pitch", where=where, pair=pair.title)
     if pair.name not in _ROUND:
         if place.radii is not None or place.pressure is not None:
-            raise LinkageError(f"{where}: a {pair.name} joint has no radii and no pressure angle")
+            raise LinkageError(
+                "{where}: a {pair} joint has no radii and no pressure angle", where=where, pair=pair.title
+            )
         return
     if place.radii is None:
-        raise LinkageError(f"{where}: a {pair.name} joint needs the two radii of its contact, inf for a flat one")
+        raise LinkageError(
+            "{where}: a {pair} joint needs the two radii of its contact, inf for a flat one",
+            where=where,
+            pair=pair.title,
+        )
     _check_contact(place, pair, space, where)
 
 
@@ -118,14 +131,26 @@ def _check_contact(place: JointPlace, pair: Pair, space: Space, where: str) -> N
     assert place.radii is not None
     first, second = place.radii
     if first + second == 0 or first == second == inf:
-        raise LinkageError(f"{where}: contours with the radii {first:g} and {second:g} touch all along, not in a point")
+        raise LinkageError(
+            "{where}: contours with the radii {first:g} and {second:g} touch all along, not in a point",
+            where=where,
+            first=first,
+            second=second,
+        )
     toothed = pair.name == "rolling" or place.pressure is not None
     if toothed and not isfinite(first + second):
-        raise LinkageError(f"{where}: wheels that roll on each other need finite radii, not {first:g} and {second:g}")
+        raise LinkageError(
+            "{where}: wheels that roll on each other need finite radii, not {first:g} and {second:g}",
+            where=where,
+            first=first,
+            second=second,
+        )
     if place.pressure is not None and (pair.name == "rolling" or not abs(place.pressure) < 1.5):
-        raise LinkageError(f"{where}: a pressure angle, below 1.5 radians, is for the teeth of a roll_slide joint")
+        raise LinkageError(
+            "{where}: a pressure angle, below 1.5 radians, is for the teeth of a roll_slide joint", where=where
+        )
     if space is Space.SPHERICAL and not all(0 < abs(r) < np.pi for r in place.radii):
-        raise LinkageError(f"{where}: on a sphere the radii are angles of cones between 0 and pi")
+        raise LinkageError("{where}: on a sphere the radii are angles of cones between 0 and pi", where=where)
 
 
 def joint_axes(place: JointPlace, space: Space, where: str = "joint") -> Reals:
@@ -149,21 +174,29 @@ def joint_axes(place: JointPlace, space: Space, where: str = "joint") -> Reals:
         given[missing] = np.cross(given[(missing + 1) % 3], given[(missing + 2) % 3])
     out = np.stack([given[k] for k in range(3)], axis=1)
     if abs(out.T @ out - np.eye(3)).max() > _SQUARE or np.linalg.det(out) < 0:
-        raise LinkageError(f"{where}: the axes x, y, z of a joint are at right angles, in right-handed order")
+        raise LinkageError(
+            "{where}: the axes x, y, z of a joint are at right angles, in right-handed order", where=where
+        )
     return out
 
 
 def _numbers(raw: object, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    wanted = " or ".join(map(str, counts))
     if isinstance(raw, str) or not isinstance(raw, Sequence | np.ndarray) or len(raw) not in counts:
-        raise LinkageError(f"{where}: expected {wanted} numbers, but found {str(raw)[:40]!r}")
+        raise LinkageError(
+            "{where}: expected {counts} numbers, but found {found!r}",
+            where=where,
+            counts=joined_by_or(counts),
+            found=str(raw)[:40],
+        )
     return tuple(_number(value, where) for value in raw)
 
 
 def _number(value: object, where: str, greatest: float = 1e100) -> float:
     fits = isinstance(value, int | float | np.number) and not isinstance(value, bool)
     if not fits or not abs(float(value)) <= greatest:  # type: ignore[arg-type]
-        raise LinkageError(f"{where}: expected a number below 1e100, but found {str(value)[:40]!r}")
+        raise LinkageError(
+            "{where}: expected a number below 1e100, but found {found!r}", where=where, found=str(value)[:40]
+        )
     return float(value)  # type: ignore[arg-type]
 
 
@@ -171,7 +204,7 @@ def _vector(raw: object, space: Space, where: str) -> Vector:
     counts = (2, 3) if space is Space.PLANAR else (3,)
     x, y, *rest = _numbers(raw, where, counts)
     if space is Space.PLANAR and any(rest):
-        raise LinkageError(f"{where}: a plane has two coordinates; the third is 0")
+        raise LinkageError("{where}: a plane has two coordinates; the third is 0", where=where)
     return x, y, rest[0] if rest else 0.0
 
 
@@ -180,7 +213,7 @@ def _direction(raw: object, space: Space, where: str) -> Vector | None:
         return None
     made = _vector(raw, space, where)
     if not hypot(*made) > 0:
-        raise LinkageError(f"{where}: a direction is not zero")
+        raise LinkageError("{where}: a direction is not zero", where=where)
     return made
 
 
@@ -188,6 +221,6 @@ def _radii(raw: object, where: str) -> tuple[float, float] | None:
     if raw is None:
         return None
     if isinstance(raw, str) or not isinstance(raw, Sequence | np.ndarray) or len(raw) != 2:
-        raise LinkageError(f"{where}: expected two numbers, but found {str(raw)[:40]!r}")
+        raise LinkageError("{where}: expected two numbers, but found {found!r}", where=where, found=str(raw)[:40])
     first, second = (_number(value, where, inf) for value in raw)
     return first, second

@@ -7,14 +7,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
 from gruebler.screws.joint_geometry import SAME, JointGeometry, Reason
 
 __all__ = ["bennett", "bricard", "cardan", "sarrus"]
-
-Reals = NDArray[np.float64]
 
 
 def bennett(s: JointGeometry) -> Iterator[Reason]:

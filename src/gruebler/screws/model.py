@@ -7,16 +7,15 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
 from gruebler.errors import LinkageError, nearest
 from gruebler.mechanism import Mechanism
 from gruebler.screws.joint_places import JointPlace, Vector, joint_axes, read_place
 
 __all__ = ["SpatialLinkage"]
-
-Reals = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=True)
@@ -54,12 +53,16 @@ class SpatialLinkage:
         for key, value in given.items():
             number = key if isinstance(key, int) else chain.find_joint(key)
             if number is None or not 0 <= number < len(names):
-                hint = nearest(str(key), names)
-                raise LinkageError(f"{key!r} is not one of the joints{hint}; they are {', '.join(names)}")
+                raise LinkageError(
+                    "{key!r} is not one of the joints{suggestion}; they are {joints}",
+                    key=key,
+                    suggestion=nearest(str(key), names),
+                    joints=", ".join(names),
+                )
             raw[number] = value
         for number, name in enumerate(names):
             if number not in raw:
-                raise LinkageError(f"{name} has no place")
+                raise LinkageError("{name} has no place", name=name)
         joint_places = tuple(
             read_place(raw[number], joint.pair, chain.space, names[number]) for number, joint in enumerate(chain.joints)
         )
@@ -110,7 +113,7 @@ class SpatialLinkage:
     def scaled(self, factor: float) -> SpatialLinkage:
         """Every length times a positive factor."""
         if not 0 < factor < 1e100:
-            raise LinkageError(f"a scale is a positive number, not {factor!r}")
+            raise LinkageError("a scale is a positive number, not {factor!r}", factor=factor)
         angles = self.mechanism.chain.space is Space.SPHERICAL
 
         def radii(p: JointPlace) -> tuple[float, float] | None:

@@ -11,15 +11,14 @@ from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
 from gruebler.screws.closing import Closing
 from gruebler.screws.rigid_motions import adjoint, lie_bracket
 
 __all__ = ["MotionGroup", "MotionGroupKind", "common_group", "screws_of", "smallest_algebra"]
 
-Reals = NDArray[np.float64]
 
 _SAME = 1e-9
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.screws.instant_mobility import InstantMobility
 
 __all__ = ["NearbyPose", "ObstructionMap"]
-
-Reals = NDArray[np.float64]
 
 
 class NearbyPose(NamedTuple):

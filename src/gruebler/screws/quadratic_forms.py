@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gruebler.arrays import Reals
 
 __all__ = ["directions", "is_definite"]
 
-Reals = NDArray[np.float64]
 
 _CLEAR = 1e-3  # an eigenvalue smaller than that times the largest is none
 

@@ -9,8 +9,8 @@ import itertools
 from collections.abc import Callable, Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.chain.pairs import Space
 from gruebler.mobility import counted
 from gruebler.screws.instant_mobility import InstantMobility
@@ -21,7 +21,6 @@ from gruebler.screws.rigid_motions import adjoint
 
 __all__ = ["Reason", "reasons"]
 
-Reals = NDArray[np.float64]
 
 _ROUNDING = 1e-14  # of a point, in sizes
 

@@ -7,11 +7,12 @@ the twist is written (v, ω).
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from gruebler.arrays import Reals
 
 __all__ = ["adjoint", "exponential", "exponential_rate", "inverse_motion", "lie_bracket", "twist_matrix"]
 
-Reals = NDArray[np.float64]
 
 _TERMS = 16  # of the series of the rate of an exponential; twists below 1 leave an error below 1e-16
 

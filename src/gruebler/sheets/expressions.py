@@ -61,7 +61,9 @@ class Expression:
     def __post_init__(self) -> None:
         if not isinstance(self.text, str) or len(self.text) > _LONGEST:
             found = f"one of {len(self.text)}" if isinstance(self.text, str) else repr(self.text)[:40]
-            raise LinkageError(f"an expression is a text of at most {_LONGEST} characters, not {found}")
+            raise LinkageError(
+                "an expression is a text of at most {longest} characters, not {found}", longest=_LONGEST, found=found
+            )
         object.__setattr__(self, "steps", tuple(_Reader(self.text).whole()))
         object.__setattr__(self, "value", _nearest(self.text, self.steps))
         object.__setattr__(self, "exact", _exactly(self.steps))
@@ -98,7 +100,7 @@ class Expression:
 
 def _wrong(text: str, at: int, what: str) -> LinkageError:
     shown = text if len(text) <= 60 else f"{text[:57]}..."
-    return LinkageError(f"{shown!r}, column {at}: {what}")
+    return LinkageError("{shown!r}, column {at}: {what}", shown=shown, at=at, what=what)
 
 
 # --- values -----------------------------------------------------------------------------------------

@@ -40,7 +40,12 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
     'Crank-rocker as a replacement for a Meyer zur Capellen linkage'
     """
     for told in sheet.wrong:
-        raise CatalogError(f"sheet {sheet.id}: {told.symbol} is {told.derived:.9g}, not what the record tells of it")
+        raise CatalogError(
+            "sheet {id}: {symbol} is {derived:.9g}, not what the record tells of it",
+            id=sheet.id,
+            symbol=told.symbol,
+            derived=told.derived,
+        )
     words, items = messages(lang), list[Item]()
     items.append(TextLine(_LEFT, 50, words["collection"], 10, role="faint"))
     items.append(TextLine(_RIGHT, 50, words["sheet"].format(id=sheet.id), 10, role="faint", anchor="end"))

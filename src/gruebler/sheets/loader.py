@@ -23,7 +23,9 @@ def sheets() -> dict[str, Sheet]:
     for path in sorted((catalog_folder() / "sheets").glob("*.toml")):
         record = read_sheet(path)
         if record.id != path.stem:
-            raise CatalogError(f"{path}: id: {record.id!r} should be the name of the file, {path.stem!r}")
+            raise CatalogError(
+                "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
+            )
         out[record.id] = Sheet(record)
     return out
 
@@ -31,5 +33,10 @@ def sheets() -> dict[str, Sheet]:
 def sheet(id: str) -> Sheet:
     """The sheet of this id; `CatalogError` with the nearest one for any other word."""
     if id not in sheets():
-        raise CatalogError(f"there is no sheet {id!r}{nearest(id, sheets())}; known are {', '.join(sheets())}")
+        raise CatalogError(
+            "there is no sheet {id!r}{suggestion}; known are {sheets}",
+            id=id,
+            suggestion=nearest(id, sheets()),
+            sheets=", ".join(sheets()),
+        )
     return sheets()[id]

@@ -143,7 +143,7 @@ class Sheet(Brief):
         """Where one of the sheet's points is."""
         if name not in self.record.names:
             known = ", ".join(self.record.names)
-            raise CatalogError(f"sheet {self.id}: {name!r} is none of the names {known}")
+            raise CatalogError("sheet {id}: {name!r} is none of the names {known}", id=self.id, name=name, known=known)
         return complex(motion.complex_point(self.record.names[name])[row])
 
     @cached_property
@@ -270,7 +270,7 @@ def _contact(sheet: Sheet, at: float, _: float) -> float:
 def _cognate(sheet: Sheet, wanted: CognateLength, at: float) -> float:
     size, u, v, phi, branch = lever_pose(sheet.linkage, sheet.record.names[sheet.record.point], math.radians(at))
     if not isinstance(size, FourBar):
-        raise CatalogError(f"sheet {sheet.id}: cognates are those of four-bars")
+        raise CatalogError("sheet {id}: cognates are those of four-bars", id=sheet.id)
     length = getattr(cognates(size, u, v, branch=branch, phi=phi)[wanted.number - 1].size, wanted.length)
     return float(length) / sheet.unit_length
 

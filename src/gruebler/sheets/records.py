@@ -130,7 +130,7 @@ def read_sheet(path: Path) -> SheetRecord:
     """The sheet in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
 
     def fail(message: str) -> CatalogError:
-        return CatalogError(f"{path}: {message}")
+        return CatalogError("{path}: {message}", path=path, message=message)
 
     record = convert_document(load_document(path, fail), SheetRecord, fail)
     for wrong in _faults(record):

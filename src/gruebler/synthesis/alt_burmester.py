@@ -19,14 +19,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Integers
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.discs import certified
 
 __all__ = ["PROBLEMS", "Problem", "Solutions", "load_generic_solutions", "parameters", "solutions"]
 
-Complexes = NDArray[np.complex128]
-Reals = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 QUICK, CAREFUL = 1e-3, 1e-6
 """How far the corrector may change a prediction: at first, and when paths are followed again."""
@@ -120,7 +118,7 @@ def load_generic_solutions(problem: Problem) -> GenericSolutions:
     steps = np.empty(len(z))
     for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
     if not (steps < 1e-10).all():
-        raise SynthesisError(f"the stored solutions of {problem.name} are damaged")
+        raise SynthesisError("the stored solutions of {name} are damaged", name=problem.name)
     return GenericSolutions(p, z)
 
 
@@ -156,7 +154,7 @@ def follow_from_generic(
     *,
     threads: int | None = None,
     progress: Progress | None = None,
-) -> tuple[Complexes, Ints]:
+) -> tuple[Complexes, Integers]:
     """Ends and statuses of all paths; threads share them, the answer does not depend on how many there are."""
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.homotopy import track
@@ -240,7 +238,7 @@ def _levelled(marks: Complexes) -> Complexes:
         return np.asarray(np.where(size > 0, marks / size * np.log1p(size), 0))
 
 
-def _pairs(problem: Problem, z: Complexes) -> Ints:
+def _pairs(problem: Problem, z: Complexes) -> Integers:
     """Pairs of solutions of one class: (pairs, 2)."""
     from scipy.spatial import cKDTree
 

@@ -14,14 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.dyads import Displacements, GuidingDyad, circle_point_cubics, misfit, sliding_dyads
 from gruebler.synthesis.tasks import PositionTask
 
 __all__ = ["BurmesterCurves", "CurvePiece", "burmester_curves"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _NOTHING = 1e-13  # a cubic whose coefficients are all smaller is no condition
 
@@ -73,7 +72,7 @@ def burmester_curves(task: PositionTask, points: int = 400) -> BurmesterCurves:
     Raises `SynthesisError` for another number of positions, and where every point of the body is a pivot.
     """
     if len(task) != 4:
-        raise SynthesisError(f"Burmester's curves belong to four positions, not to {len(task)}")
+        raise SynthesisError("Burmester's curves belong to four positions, not to {count}", count=len(task))
     displacements, origin, size = Displacements.of(task.origins, task.turns)
     cubic = circle_point_cubics(displacements)[0]
     if np.abs(cubic).max() < _NOTHING:

@@ -11,15 +11,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 from gruebler.kinematics import Poses
 from gruebler.linkages import Line, Linkage, with_lower_pairs
 from gruebler.linkages.elements import Element, Pin, Pose2D
 
 __all__ = ["ClosureSlopes", "DesignClosure"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 class ClosureSlopes(NamedTuple):
@@ -47,7 +45,9 @@ class DesignClosure:
         chain, frame = lower.mechanism.chain, lower.mechanism.frame
         wrong = [joint.pair.name for joint in chain.joints if joint.pair.name not in ("revolute", "prismatic")]
         if wrong:
-            raise SynthesisError(f"linkages of turning and sliding joints are fitted, not those with {wrong[0]} joints")
+            raise SynthesisError(
+                "linkages of turning and sliding joints are fitted, not those with {wrong} joints", wrong=wrong[0]
+            )
         self.linkage = lower
         self.links = tuple(link for link in chain.links if link != frame)
         self.column = {link: 3 * k for k, link in enumerate(self.links)}

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.dyads import GuidingDyad
@@ -25,9 +26,6 @@ from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Ints = NDArray[np.int64]
 Progress = Callable[[int, int], None]
 
 _ARCS = 64  # places on each curve of the atlas, evenly along it
@@ -411,7 +409,7 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
     Raises `SynthesisError` for fewer than five points.
     """
     if len(task) < 5:
-        raise SynthesisError(f"a whole curve needs at least five points, not {len(task)}")
+        raise SynthesisError("a whole curve needs at least five points, not {count}", count=len(task))
     timing = np.array(task.crank_angles) if task.crank_angles else None
     fits = fit_curve(task.z, closed=task.closed, timing=timing, number=4 * number)
     limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED

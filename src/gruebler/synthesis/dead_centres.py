@@ -10,8 +10,8 @@ from math import cos, degrees, pi, sin, sqrt
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.synthesis.judging import Demands, pivots_inside, size_ratio
@@ -20,7 +20,6 @@ from gruebler.synthesis.tasks import DeadCentreTask
 
 __all__ = ["DeadCentreFamily", "FamilyMember", "dead_centre_family", "synthesise_dead_centres"]
 
-Reals = NDArray[np.float64]
 
 _SAMPLES = 720
 _SAME = 1e-9  # dead centres of a member agree with the task to this
@@ -68,14 +67,18 @@ def dead_centre_family(task: DeadCentreTask) -> DeadCentreFamily:
         low, high = pi / 2 + task.swing / 2, 3 * pi / 2 + task.swing / 2
         if not low < task.angle < high:
             raise SynthesisError(
-                f"no crank-rocker swings by {degrees(task.swing):g} degrees with the dead centres "
-                f"{degrees(task.angle):g} degrees apart: the crank angle lies between {degrees(low):g} and "
-                f"{degrees(high):g} degrees"
+                "no crank-rocker swings by {swing:g} degrees with the dead centres {angle:g} degrees apart: the "
+                "crank angle lies between {low:g} and {high:g} degrees",
+                swing=degrees(task.swing),
+                angle=degrees(task.angle),
+                low=degrees(low),
+                high=degrees(high),
             )
     elif not pi / 2 < task.angle < 3 * pi / 2:
         raise SynthesisError(
-            f"no slider-crank has its dead centres {degrees(task.angle):g} degrees apart: the crank angle lies between "
-            "90 and 270 degrees"
+            "no slider-crank has its dead centres {angle:g} degrees apart: the crank angle lies between 90 "
+            "and 270 degrees",
+            angle=degrees(task.angle),
         )
     grid = _parameters(task)
     members = tuple(member for value in grid if (member := _member(task, float(value))) is not None)

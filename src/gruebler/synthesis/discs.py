@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
+
 __all__ = ["Disc", "certified"]
 
-Complexes = NDArray[np.complex128]
-Reals = NDArray[np.float64]
 
 _ROUNDING = 8 * float(np.finfo(float).eps)
 """More than the relative error of any complex product, quotient or sum of doubles."""

@@ -10,8 +10,8 @@ from itertools import combinations, product
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 
 __all__ = [
@@ -24,8 +24,6 @@ __all__ = [
     "sliding_dyads",
 ]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _REAL = 1e-7
 """Two conjugate numbers nearer to real than this are looked at as real: a double root has half the digits of 1e-16."""

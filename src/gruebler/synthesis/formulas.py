@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import SynthesisError, nearest
 
 __all__ = ["Formula", "FunctionLaw", "chebyshev_spacing"]
 
-Reals = NDArray[np.float64]
 
 _LONGEST = 300  # characters
 _DEEPEST = 40  # operations within one another
@@ -54,17 +54,19 @@ class Formula:
 
     def __post_init__(self) -> None:
         if not isinstance(self.text, str) or len(self.text) > _LONGEST:
-            raise SynthesisError(f"a function is a text of at most {_LONGEST} characters")
+            raise SynthesisError("a function is a text of at most {longest} characters", longest=_LONGEST)
         try:
             tree = ast.parse(self.text.strip().replace("^", "**"), mode="eval").body
         except (SyntaxError, ValueError, RecursionError, MemoryError):
-            raise SynthesisError(f"the function {self.text!r} cannot be read; write for example log10(x)") from None
+            raise SynthesisError(
+                "the function {text_!r} cannot be read; write for example log10(x)", text_=self.text
+            ) from None
         self._check(tree, 0)
         object.__setattr__(self, "tree", tree)
 
     def _check(self, node: ast.AST, depth: int) -> None:
         if depth > _DEEPEST:
-            raise SynthesisError(f"the function {self.text[:40]!r} is nested too deeply")
+            raise SynthesisError("the function {text_!r} is nested too deeply", text_=self.text[:40])
         match node:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool) and abs(value) < 1e100:
                 return
@@ -82,12 +84,22 @@ class Formula:
                 self._check(operand, depth + 1)
             case _:
                 part = ast.unparse(node)[:40]
-                raise SynthesisError(f"the function {self.text!r}: {part!r} is none of numbers, x, + - * / ^ and calls")
+                raise SynthesisError(
+                    "the function {text_!r}: {part!r} is none of numbers, x, + - * / ^ and calls",
+                    text_=self.text,
+                    part=part,
+                )
 
     def _unknown(self, name: str) -> None:
         known = ["x", *_CONSTANTS, *_FUNCTIONS]
         close = nearest(name, known)
-        raise SynthesisError(f"the function {self.text!r}: unknown name {name!r}{close}; known are {', '.join(known)}")
+        raise SynthesisError(
+            "the function {text_!r}: unknown name {name!r}{close}; known are {known}",
+            text_=self.text,
+            name=name,
+            close=close,
+            known=", ".join(known),
+        )
 
     def __str__(self) -> str:
         return self.text
@@ -150,15 +162,31 @@ class FunctionLaw:
         formula = Formula(self.function)
         low, high = self.interval
         if not (np.isfinite([low, high]).all() and low < high):
-            raise SynthesisError(f"interval: expected its begin before its end, but found {low:g} and {high:g}")
+            raise SynthesisError(
+                "interval: expected its begin before its end, but found {low:g} and {high:g}", low=low, high=high
+            )
         for name in ("input_swing", "output_swing"):
             if not np.isfinite(getattr(self, name)) or getattr(self, name) == 0:
-                raise SynthesisError(f"{name}: expected a number that is not 0, but found {getattr(self, name)!r}")
+                raise SynthesisError(
+                    "{name}: expected a number that is not 0, but found {getattr!r}",
+                    name=name,
+                    getattr=getattr(self, name),
+                )
         values = formula(np.linspace(low, high, 1001))
         if not np.isfinite(values).all():
-            raise SynthesisError(f"the function {self.function!r} has no value somewhere from {low:g} to {high:g}")
+            raise SynthesisError(
+                "the function {function!r} has no value somewhere from {low:g} to {high:g}",
+                function=self.function,
+                low=low,
+                high=high,
+            )
         if abs(values[-1] - values[0]) <= 1e-12 * np.abs(values).max():
-            raise SynthesisError(f"the function {self.function!r} has the same value at {low:g} and {high:g}")
+            raise SynthesisError(
+                "the function {function!r} has the same value at {low:g} and {high:g}",
+                function=self.function,
+                low=low,
+                high=high,
+            )
 
     def inputs(self, x: ArrayLike) -> Reals:
         """The input at x, from its start, or from 0."""

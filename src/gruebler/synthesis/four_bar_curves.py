@@ -9,12 +9,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gruebler.arrays import Complexes, Reals
 
 __all__ = ["FOUR_BAR", "SLIDER_CRANK", "CurvePoints", "FourBarKind", "curve_points"]
-
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 
 class FourBarKind(NamedTuple):

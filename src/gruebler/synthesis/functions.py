@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage
@@ -27,7 +28,6 @@ from gruebler.synthesis.tasks import FunctionTask, PositionTask
 
 __all__ = ["Coordination", "coordination_of", "function_task", "minimax", "structural_error", "synthesise_function"]
 
-Reals = NDArray[np.float64]
 
 _SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
 
@@ -114,7 +114,7 @@ def function_task(law: FunctionLaw, count: int, *, output: str = "angle", unit: 
     (0.866987..., 1.3, 1.733012...)
     """
     if count < 2:
-        raise SynthesisError(f"a function needs at least two precision points, not {count}")
+        raise SynthesisError("a function needs at least two precision points, not {count}", count=count)
     x = chebyshev_spacing(*law.interval, count)
     return FunctionTask(
         tuple(law.inputs(x).tolist()),
@@ -169,8 +169,12 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
         most = 3 + free
         if len(task) > most:
             raise SynthesisError(
-                f"{len(task)} pairs cannot be met exactly with {free} free start{'s' if free != 1 else ''}: at most "
-                f"{most}; free a start (start_input or start_output = false) or ask for the minimax optimum"
+                "{count} pairs cannot be met exactly with {free} free start{value}: at most {most}; free a start "
+                "(start_input or start_output = false) or ask for the minimax optimum",
+                count=len(task),
+                free=free,
+                value="s" if free != 1 else "",
+                most=most,
             )
         notes.append("There are infinitely many solutions: give more pairs.")
         theorem = None

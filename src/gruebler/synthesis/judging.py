@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.analysis import transmission_angle
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Circuit, Poses, circuit, move
 from gruebler.kinematics.motion import Motion
@@ -24,8 +25,6 @@ from gruebler.synthesis.results import Design, DesignVerdict
 
 __all__ = ["Demands", "Probe", "Targets", "best_of", "judge_design", "point_targets", "position_targets"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 EXACT = 1e-9
 """A target is met if it is missed by less than this part of the task's size."""
@@ -341,7 +340,7 @@ def _nearest(course: Circuit, met: list[Reals], start: float, limits: Reals) -> 
 
 def _turns_fully(course: Circuit) -> bool:
     drives = course.linkage.mechanism.drives
-    if not drives or not drives[0].direction.startswith("R") or course.drive_limits or not course.closed:
+    if not drives or not drives[0].turning or course.drive_limits or not course.closed:
         return False
     ends = course.drive[[0, -1]]
     return round(float(ends[1] - ends[0]) / (2 * np.pi)) != 0

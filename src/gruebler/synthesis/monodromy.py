@@ -11,13 +11,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.synthesis.alt_burmester import QUICK, GenericSolutions, Problem, _distinct, follow_from_generic
 
 __all__ = ["find_generic", "known_solution", "write_generic"]
 
-Complexes = NDArray[np.complex128]
 
 _IDLE = 4  # so many ways without anything new: enough
 _SHARP = 1e-8  # a last Newton step above it: no solution, or a nearly singular one

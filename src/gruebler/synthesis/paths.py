@@ -10,8 +10,8 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
 from gruebler.synthesis.alt_burmester import PROBLEMS, Problem, Solutions, parameters, solutions
@@ -23,7 +23,6 @@ from gruebler.synthesis.tasks import PathTask, PositionTask
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
-Complexes = NDArray[np.complex128]
 Progress = Callable[[int, int], None]
 
 

@@ -35,7 +35,6 @@ from gruebler.synthesis.tasks import PositionTask
 
 __all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "synthesise_positions"]
 
-Complexes = NDArray[np.complex128]
 
 _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("block", "second block")}
 """What the link between frame and coupler is called: the first of its kind, the second."""

@@ -57,7 +57,7 @@ class Design:
         """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage."""
         from gruebler.formats import linkage_to_json
 
-        turning = bool(self.linkage.mechanism.drives) and self.linkage.mechanism.drives[0].direction.startswith("R")
+        turning = bool(self.linkage.mechanism.drives) and self.linkage.mechanism.drives[0].turning
         verdict = self.verdict
         return {
             "accepted": verdict.accepted,

@@ -13,8 +13,8 @@ from functools import partial
 from math import isnan, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.kinematics import circuit
 from gruebler.mechanism import Mechanism
@@ -27,8 +27,6 @@ from gruebler.synthesis.tasks import PathTask
 
 __all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _SAMPLES = 48  # places along a target and along a circuit
 _POINTS = 60  # points of a link that are tried for the first likeness
@@ -86,7 +84,9 @@ def synthesise_structures(
     for mechanism, _ in jobs:
         if len(mechanism.drives) > 1:
             raise SynthesisError(
-                f"a path is fitted with one drive, but {mechanism.text()!r} has {len(mechanism.drives)}"
+                "a path is fitted with one drive, but {text_!r} has {count}",
+                text_=mechanism.text(),
+                count=len(mechanism.drives),
             )
     work = partial(_fitted, task, wanted, link)
     found = list(map(work, jobs) if executor is None else executor.map(work, jobs))
@@ -143,7 +143,9 @@ def fit_structure(
         return None
     closure = DesignClosure(first.linkage)
     if link and link not in closure.column:
-        raise SynthesisError(f"the link that carries the point is one of {', '.join(closure.links)}, not {link!r}")
+        raise SynthesisError(
+            "the link that carries the point is one of {links}, not {link!r}", links=", ".join(closure.links), link=link
+        )
     z = task.z
     size = float(np.abs(z - z.mean()).max())
     arcs = np.linspace(0, course.length, 2 * _SAMPLES + 1)[:-1]

@@ -70,7 +70,9 @@ def _radians(value: Any, where: str) -> float:
     try:
         return in_radians(value)
     except ValueError:
-        raise SynthesisError(f"{where}: expected an angle in degrees, but found {str(value)[:40]!r}") from None
+        raise SynthesisError(
+            "{where}: expected an angle in degrees, but found {value!r}", where=where, value=str(value)[:40]
+        ) from None
 
 
 def task_from_json(document: Mapping[str, Any]) -> Task:
@@ -98,7 +100,9 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
         case _Positions():
             for k, row in enumerate(record.positions):
                 if len(row) != 3:
-                    raise SynthesisError(f"positions {k + 1}: expected [x, y, degrees], but found {len(row)} values")
+                    raise SynthesisError(
+                        "positions {k}: expected [x, y, degrees], but found {count} values", k=k + 1, count=len(row)
+                    )
             rows = [(row[0], row[1], _radians(row[2], f"positions {k + 1}")) for k, row in enumerate(record.positions)]
             return PositionTask(**{**data, "positions": rows})
         case _Path():
@@ -161,21 +165,21 @@ def read_task(path: Path | str) -> Task:
     """
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json", ".csv"):
-        raise SynthesisError(f"{path}: a task is in a .toml, .json or .csv file")
+        raise SynthesisError("{path}: a task is in a .toml, .json or .csv file", path=path)
     try:
         if path.suffix.lower() == ".csv":
             return _from_csv(_text(path))
         data = load_document(path, SynthesisError)
         return task_from_json(data)
     except SynthesisError as error:
-        raise SynthesisError(f"{path}: {error}") from None
+        raise SynthesisError("{path}: {error}", path=path, error=error) from None
 
 
 def _text(path: Path) -> str:
     try:
         return path.read_bytes()[:1_000_001].decode("utf-8-sig")
     except OSError as error:
-        raise SynthesisError(f"cannot be read ({error.strerror or error})") from None
+        raise SynthesisError("cannot be read ({value})", value=error.strerror or error) from None
     except UnicodeDecodeError:
         raise SynthesisError("is not UTF-8 text") from None
 
@@ -187,7 +191,9 @@ def _from_csv(text: str) -> Task:
     header = [cell.strip().lower() for cell in lines[0]]
     for k, row in enumerate(lines[1:]):
         if len(row) != len(header):
-            raise SynthesisError(f"line {k + 2}: expected {len(header)} columns, but found {len(row)}")
+            raise SynthesisError(
+                "line {k}: expected {count} columns, but found {count_2}", k=k + 2, count=len(header), count_2=len(row)
+            )
     columns = {name: [row[c].strip() for row in lines[1:]] for c, name in enumerate(header)}
 
     def numbers(name: str) -> list[float]:
@@ -196,7 +202,9 @@ def _from_csv(text: str) -> Task:
             try:
                 out.append(float(cell))
             except ValueError:
-                raise SynthesisError(f"line {k + 2}, {name}: expected a number, but found {cell[:40]!r}") from None
+                raise SynthesisError(
+                    "line {k}, {name}: expected a number, but found {cell!r}", k=k + 2, name=name, cell=cell[:40]
+                ) from None
         return out
 
     def angles(name: str) -> list[Any]:
@@ -221,8 +229,9 @@ def _from_csv(text: str) -> Task:
                 {name: angles(name)[0] if name in ("swing", "crank_angle") else numbers(name)[0] for name in header}
             )
     raise SynthesisError(
-        "line 1: expected the columns x,y,angle or x,y or x,y,crank or input,output or input,travel, "
-        f"but found {','.join(header)[:60]}"
+        "line 1: expected the columns x,y,angle or x,y or x,y,crank or input,output or input,travel, but "
+        "found {header}",
+        header=",".join(header)[:60],
     )
 
 
@@ -251,9 +260,9 @@ def write_task(path: Path | str, task: Task) -> None:
         case ".csv":
             text = _to_csv(document)
         case _:
-            raise SynthesisError(f"{path}: end the name with .toml, .json or .csv")
+            raise SynthesisError("{path}: end the name with .toml, .json or .csv", path=path)
     if not path.parent.is_dir():
-        raise SynthesisError(f"{path}: there is no folder {str(path.parent)!r}")
+        raise SynthesisError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
     with atomic_file(path, durable=False) as file:
         file.write(text.encode("utf-8"))
 
@@ -289,9 +298,13 @@ def _to_csv(document: Mapping[str, Any]) -> str:
             header = sorted(keys)
             rows = [[document[key] for key in header]]
         case _:
-            raise SynthesisError(f"a CSV file has no columns for {', '.join(sorted(keys))}: write .toml or .json")
+            raise SynthesisError(
+                "a CSV file has no columns for {keys}: write .toml or .json", keys=", ".join(sorted(keys))
+            )
     if document["unit"] != "mm":
-        raise SynthesisError(f"a CSV file does not name the unit {document['unit']!r}: write .toml or .json")
+        raise SynthesisError(
+            "a CSV file does not name the unit {document!r}: write .toml or .json", document=document["unit"]
+        )
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(
         [header, *([f"{v}°" if isinstance(v, str) and v else v for v in row] for row in rows)]

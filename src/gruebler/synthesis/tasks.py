@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from math import isfinite, pi
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
 
 __all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 Pair = tuple[float, float]
 
 SAME = 1e-9
@@ -29,16 +27,18 @@ MOST_POINTS = 9
 
 def _number(value: object, where: str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):
-        raise SynthesisError(f"{where}: expected a number, but found {str(value)[:40]!r}")
+        raise SynthesisError("{where}: expected a number, but found {value!r}", where=where, value=str(value)[:40])
     number = float(value)
     if not (isfinite(number) and abs(number) < LARGEST):
-        raise SynthesisError(f"{where}: expected a number below 1e100, but found {value!r}")
+        raise SynthesisError("{where}: expected a number below 1e100, but found {value!r}", where=where, value=value)
     return number
 
 
 def _row(row: object, where: str, count: int) -> tuple[float, ...]:
     if isinstance(row, str) or not isinstance(row, Sequence | np.ndarray) or len(row) != count:
-        raise SynthesisError(f"{where}: expected {count} numbers, but found {str(row)[:40]!r}")
+        raise SynthesisError(
+            "{where}: expected {count} numbers, but found {row!r}", where=where, count=count, row=str(row)[:40]
+        )
     return tuple(_number(value, where) for value in row)
 
 
@@ -73,14 +73,14 @@ class PositionTask:
             pairs = tuple(_row(row, f"{name} {k + 1}", 2) for k, row in enumerate(getattr(self, name)))
             object.__setattr__(self, name, pairs)
         if len(rows) < 2:
-            raise SynthesisError(f"positions: expected at least two, but found {len(rows)}")
+            raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
         if (self.moving_pivots or self.fixed_pivots) and len(rows) > 3:
-            raise SynthesisError(f"pivots can be chosen for two or three positions, not for {len(rows)}")
+            raise SynthesisError("pivots can be chosen for two or three positions, not for {count}", count=len(rows))
         size = self.size
         for k, (z, turn) in enumerate(zip(self.origins, self.turns, strict=True)):
             for m in range(k):
                 if abs(z - self.origins[m]) <= SAME * size and abs(turn - self.turns[m]) <= SAME:
-                    raise SynthesisError(f"positions {m + 1} and {k + 1} are equal")
+                    raise SynthesisError("positions {m} and {k} are equal", m=m + 1, k=k + 1)
 
     def __len__(self) -> int:
         return len(self.positions)
@@ -137,12 +137,17 @@ class PathTask:
         timing = tuple(_number(a, f"crank_angle {k + 1}") for k, a in enumerate(self.crank_angles))
         object.__setattr__(self, "crank_angles", timing)
         if len(rows) < 2:
-            raise SynthesisError(f"points: expected at least two, but found {len(rows)}")
+            raise SynthesisError("points: expected at least two, but found {count}", count=len(rows))
         for name, given in (("angles", angles), ("crank_angles", timing)):
             if given and len(given) != len(rows):
-                raise SynthesisError(f"{name}: expected one for each of the {len(rows)} points, but found {len(given)}")
+                raise SynthesisError(
+                    "{name}: expected one for each of the {count} points, but found {count_2}",
+                    name=name,
+                    count=len(rows),
+                    count_2=len(given),
+                )
         if len(pivots) not in (0, 2):
-            raise SynthesisError(f"fixed_pivots: expected two, but found {len(pivots)}")
+            raise SynthesisError("fixed_pivots: expected two, but found {count}", count=len(pivots))
         if pivots and abs(complex(*pivots[0]) - complex(*pivots[1])) <= SAME * self.size:
             raise SynthesisError("fixed_pivots: the two pivots coincide")
         self._check_distinct()
@@ -157,7 +162,7 @@ class PathTask:
             for m in others:
                 if abs(z[m] - z[k]) <= limit and not self._turned(m, k):
                     first, second = sorted((m % len(z), k))
-                    raise SynthesisError(f"points {first + 1} and {second + 1} are equal")
+                    raise SynthesisError("points {first} and {second} are equal", first=first + 1, second=second + 1)
 
     def _turned(self, m: int, k: int) -> bool:
         """Whether the coupler has different angles at two points, so that these may coincide."""
@@ -213,15 +218,15 @@ class FunctionTask:
             object.__setattr__(self, name, values)
         if len(self.inputs) != len(self.outputs):
             found = f"{len(self.inputs)} inputs and {len(self.outputs)} outputs"
-            raise SynthesisError(f"a function task needs as many inputs as outputs, but found {found}")
+            raise SynthesisError("a function task needs as many inputs as outputs, but found {found}", found=found)
         if len(self.inputs) < 2:
-            raise SynthesisError(f"inputs: expected at least two, but found {len(self.inputs)}")
+            raise SynthesisError("inputs: expected at least two, but found {count}", count=len(self.inputs))
         if self.output not in ("angle", "travel"):
-            raise SynthesisError(f"output: expected 'angle' or 'travel', but found {self.output!r}")
+            raise SynthesisError("output: expected 'angle' or 'travel', but found {output!r}", output=self.output)
         for k, value in enumerate(self.inputs):
             for m in range(k):
                 if abs(value - self.inputs[m]) <= SAME:
-                    raise SynthesisError(f"inputs {m + 1} and {k + 1} are equal")
+                    raise SynthesisError("inputs {m} and {k} are equal", m=m + 1, k=k + 1)
 
     def __len__(self) -> int:
         return len(self.inputs)
@@ -250,18 +255,24 @@ class DeadCentreTask:
             given = [name for name in names if getattr(self, name) is not None]
             if len(given) != 1:
                 raise SynthesisError(
-                    f"expected one of {' and '.join(names)}, but found {' and '.join(given) or 'none'}"
+                    "expected one of {names}, but found {value}",
+                    names=" and ".join(names),
+                    value=" and ".join(given) or "none",
                 )
             object.__setattr__(self, given[0], _number(getattr(self, given[0]), given[0]))
         if self.swing is not None and not 0 < self.swing < pi:
-            raise SynthesisError(f"swing: expected an angle between 0 and 180 degrees, but found {_deg(self.swing)}")
+            raise SynthesisError(
+                "swing: expected an angle between 0 and 180 degrees, but found {deg}", deg=_deg(self.swing)
+            )
         if self.stroke is not None and not self.stroke > 0:
-            raise SynthesisError(f"stroke: expected a positive length, but found {self.stroke!r}")
+            raise SynthesisError("stroke: expected a positive length, but found {stroke!r}", stroke=self.stroke)
         if self.time_ratio is not None and not self.time_ratio >= 1:
-            raise SynthesisError(f"time_ratio: expected slow to quick, at least 1, but found {self.time_ratio!r}")
+            raise SynthesisError(
+                "time_ratio: expected slow to quick, at least 1, but found {time_ratio!r}", time_ratio=self.time_ratio
+            )
         if self.crank_angle is not None and not 0 < self.crank_angle < 2 * pi:
             raise SynthesisError(
-                f"crank_angle: expected an angle between 0 and 360 degrees, but found {_deg(self.crank_angle)}"
+                "crank_angle: expected an angle between 0 and 360 degrees, but found {deg}", deg=_deg(self.crank_angle)
             )
 
     @property

@@ -9,6 +9,7 @@ from __future__ import annotations
 from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
 from gruebler.errors import ChainError, TransformationError
+from gruebler.text import message
 from gruebler.transformations.places import (
     ChainBuilder,
     check_counting,
@@ -37,13 +38,13 @@ def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | 
     R(frame-cam) R(cam-contact) P(contact-valve) P(valve-frame)
     """
     check_counting(chain)
-    one, other = pairs_from_letters(pairs, 2, "contact")
+    one, other = pairs_from_letters(pairs, 2, message("pair of joints"))
     word = letters_of_pairs((one, other))
     if word not in _EQUIVALENTS:
-        raise TransformationError(f"a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}")
+        raise TransformationError("a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}", pairs=pairs)
     a, *rest = links_at(chain, joint)
     if chain.joints[joint].pair.name != "roll_slide":
-        raise TransformationError(f"{chain.joints[joint]} is not a roll-slide joint")
+        raise TransformationError("{joints} is not a roll-slide joint", joints=chain.joints[joint])
     (name,) = new_link_names(chain, 1, None if link is None else [link])
     builder = ChainBuilder(chain)
     builder.joints[joint : joint + 1] = [(one, [a, name]), (other, [name, *rest])]
@@ -67,11 +68,16 @@ def restore_roll_slide(chain: Chain, link: str) -> Step:
         or letters_of_pairs(j.pair for j in joints) not in _EQUIVALENTS
     ):
         raise TransformationError(
-            f"{link} does not stand for a roll-slide joint: it must be a binary link with two simple revolutes, or one "
-            "revolute and one prismatic joint"
+            "{link} does not stand for a roll-slide joint: it must be a binary link with two simple "
+            "revolutes, or one revolute and one prismatic joint",
+            link=link,
         )
     if others[0] == others[1]:
-        raise TransformationError(f"{link} does not stand for a roll-slide joint: both its joints are on {others[0]!r}")
+        raise TransformationError(
+            "{link} does not stand for a roll-slide joint: both its joints are on {others!r}",
+            link=link,
+            others=others[0],
+        )
     contact = (pair("roll_slide"), others)
     kept = [(j.pair, list(j.links)) for j in chain.joints]
     kept[mine[0]] = contact
@@ -79,5 +85,5 @@ def restore_roll_slide(chain: Chain, link: str) -> Step:
     try:
         new = Chain(kept, links=[a for a in chain.links if a != link], space=chain.space)
     except ChainError as error:
-        raise TransformationError(f"without {link} there is no chain left: {error}") from None
+        raise TransformationError("without {link} there is no chain left: {error}", link=link, error=error) from None
     return Step("restore_roll_slide", {"link": link}, chain, new)

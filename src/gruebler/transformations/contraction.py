@@ -29,11 +29,13 @@ def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> St
     carriers = links_at(chain, joint)
     chosen = list(carriers if links is None else links)
     if len(chosen) != 2 or len(set(chosen)) != 2 or not set(chosen) <= set(carriers):
-        raise TransformationError(f"say which two links of {chain.joints[joint]} become one")
+        raise TransformationError("say which two links of {joints} become one", joints=chain.joints[joint])
     kept, gone = chosen
     again = next((j for k, j in enumerate(chain.joints) if k != joint and kept in j.links and gone in j.links), None)
     if again is not None:
-        raise TransformationError(f"{kept} and {gone} cannot become one: they meet in {again} too")
+        raise TransformationError(
+            "{kept} and {gone} cannot become one: they meet in {again} too", kept=kept, gone=gone, again=again
+        )
     joints = []
     for number, old in enumerate(chain.joints):
         left = [kept if link == gone else link for link in old.links if number != joint or link != gone]
@@ -42,7 +44,9 @@ def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> St
     try:
         new = Chain(joints, links=[link for link in chain.links if link != gone], space=chain.space)
     except ChainError as error:
-        raise TransformationError(f"with {kept} and {gone} as one link there is no chain left: {error}") from None
+        raise TransformationError(
+            "with {kept} and {gone} as one link there is no chain left: {error}", kept=kept, gone=gone, error=error
+        ) from None
     return Step("contract", {"joint": joint, "links": [kept, gone]}, chain, new)
 
 
@@ -72,7 +76,9 @@ def expand(
     strange = next((k for k in joints if link not in links_at(chain, k)), None)
     if strange is not None:
         raise TransformationError(
-            f"the joint {chain.joints[strange]} is not one of {link}'s and cannot go to the new link"
+            "the joint {joints} is not one of {link}'s and cannot go to the new link",
+            joints=chain.joints[strange],
+            link=link,
         )
     if at is not None and (pair is not None or at in joints or link not in links_at(chain, at)):
         raise TransformationError(

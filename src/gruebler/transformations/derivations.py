@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import NotationError, TransformationError
+from gruebler.text import translate
 from gruebler.transformations.contacts import replace_roll_slide, restore_roll_slide
 from gruebler.transformations.contraction import contract, expand
 from gruebler.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
@@ -46,11 +48,13 @@ def replay(chain: Chain, kind: str, where: Mapping[str, Any]) -> Step:
     True
     """
     if kind not in OPERATIONS:
-        raise TransformationError(f"there is no transformation {kind!r}; there are {', '.join(OPERATIONS)}")
+        raise TransformationError(
+            "there is no transformation {kind!r}; there are {operations}", kind=kind, operations=", ".join(OPERATIONS)
+        )
     try:
         return OPERATIONS[kind](chain, **where)
     except TypeError as error:
-        raise TransformationError(f"{kind}: the record does not fit: {error}") from None
+        raise TransformationError("{kind}: the record does not fit: {error}", kind=kind, error=error) from None
 
 
 @dataclass(frozen=True)
@@ -71,7 +75,11 @@ class Derivation:
         for number, step in enumerate(self.steps, 1):
             if step.before != before:
                 raise TransformationError(
-                    f"step {number} starts from {step.before}, but step {number - 1} leaves {before}"
+                    "step {number} starts from {chain}, but step {previous} leaves {result}",
+                    number=number,
+                    chain=step.before,
+                    previous=number - 1,
+                    result=before,
                 )
             before = step.chain
 
@@ -106,7 +114,7 @@ class Derivation:
             try:
                 document = json.loads(document)
             except json.JSONDecodeError as error:
-                raise NotationError(f"not a JSON document: {error}") from None
+                raise NotationError("not a JSON document: {error}", error=error) from None
         match document:
             case {"start": start, "steps": [*steps], **rest} if not rest:
                 out = cls(Chain.from_json(start))
@@ -117,13 +125,23 @@ class Derivation:
                 case {"kind": str(kind), "where": Mapping() as where, **rest} if rest.keys() <= {"result"}:
                     out = out.then(kind, **where)
                 case _:
-                    raise NotationError(f'step {number} must be an object with "kind", "where" and perhaps "result"')
+                    raise NotationError(
+                        'step {number} must be an object with "kind", "where" and perhaps "result"', number=number
+                    )
             if "result" in step and str(out.chain) != step["result"]:
-                raise TransformationError(f"step {number} gives {out.chain}, but the document says {step['result']}")
+                raise TransformationError(
+                    "step {number} gives {chain}, but the document says {step}",
+                    number=number,
+                    chain=out.chain,
+                    step=step["result"],
+                )
         return out
 
     def explain(self, lang: str = "en") -> str:
         """A line for the start and for each step, in English (``en``) or German (``de``)."""
-        from gruebler.transformations.messages import explain_derivation
-
-        return explain_derivation(self, lang)
+        alphabet = Alphabet.of_language(lang)
+        lines = [translate("Start: {chain}.", lang, chain=self.start.text(alphabet))]
+        lines += [f"{number}. {step.explain(lang)}" for number, step in enumerate(self.steps, 1)]
+        if self.steps:
+            lines.append(translate("The chain: {chain}.", lang, chain=self.chain.text(alphabet)))
+        return "\n".join(lines)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from gruebler.assur import AssurGroup
 from gruebler.chain import Chain
 from gruebler.errors import ChainError, TransformationError
+from gruebler.text import message
 from gruebler.transformations.places import (
     Attachment,
     ChainBuilder,
@@ -40,8 +41,10 @@ def insert_group(
     if isinstance(group, str):
         group = AssurGroup.parse(group)
     if len(at) != len(group.places):
-        raise TransformationError(f"the group has {len(group.places)} places outside; {len(at)} were given")
-    check_not_on_one_link(chain, at, "group")
+        raise TransformationError(
+            "the group has {count} places outside; {given} were given", count=len(group.places), given=len(at)
+        )
+    check_not_on_one_link(chain, at, message("group"))
     names = new_link_names(chain, len(group.links), links)
     new = dict(zip(group.links, names, strict=True))
     outside = dict(zip(group.places, at, strict=True))
@@ -82,13 +85,15 @@ def remove_group(chain: Chain, links: Sequence[str]) -> Step:
         if len(inner) > 1:
             joints.append((joint.pair, inner))
     if not outside:
-        raise TransformationError(f"{', '.join(links)} are all the links of the chain")
+        raise TransformationError("{links} are all the links of the chain", links=", ".join(links))
     try:
         alone = Chain(joints, space=chain.space)
     except ChainError as error:
-        raise TransformationError(f"{', '.join(links)} are no Assur group: {error}") from None
+        raise TransformationError("{links} are no Assur group: {error}", links=", ".join(links), error=error) from None
     AssurGroup(alone)
     shared = set.intersection(*outside)
     if shared:
-        raise TransformationError(f"the group is attached to the link {min(shared)!r} alone: it is rigid against it")
+        raise TransformationError(
+            "the group is attached to the link {shared!r} alone: it is rigid against it", shared=min(shared)
+        )
     return Step("remove_group", {"links": list(links)}, chain, without_links(chain, links)[0])

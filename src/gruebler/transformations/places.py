@@ -12,6 +12,7 @@ from itertools import count
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Pair, pair
 from gruebler.errors import ChainError, TransformationError
+from gruebler.text import Message, message
 
 __all__ = [
     "Attachment",
@@ -35,16 +36,20 @@ def check_counting(chain: Chain) -> None:
     """Refuse spatial chains: there a dyad or a coupler of joints with one freedom changes F by other numbers."""
     if chain.space.b != 3:
         raise TransformationError(
-            f"dyads, couplers and groups keep F by a count with three freedoms a link; this chain is {chain.space}"
+            "dyads, couplers and groups keep F by a count with three freedoms a link; this chain is {space}",
+            space=chain.space.adjective,
         )
 
 
-def pairs_from_letters(letters: str, number: int, thing: str) -> tuple[Pair, ...]:
+def pairs_from_letters(letters: str, number: int, thing: Message) -> tuple[Pair, ...]:
     """The pairs of a word such as RRP (German DDS), all with one freedom."""
     word = "".join(_GERMAN.get(letter, letter) for letter in letters.strip().upper())
     if len(word) != number or not set(word) <= set(_PAIRS):
         raise TransformationError(
-            f"{letters!r} is not the form of a {thing}: expected {number} letters, each R, P or W (German D, S or W)"
+            "{letters!r} is not the form of a {thing}: expected {number} letters, each R, P or W (German D, S or W)",
+            letters=letters,
+            thing=thing,
+            number=number,
         )
     return tuple(pair(_PAIRS[letter]) for letter in word)
 
@@ -63,21 +68,27 @@ def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:
         return (place,)
     if not 0 <= place < len(chain.joints):
         raise TransformationError(
-            f"there is no joint number {place}; the chain has joints 0 to {len(chain.joints) - 1}"
+            "there is no joint number {place}; the chain has joints 0 to {count}",
+            place=place,
+            count=len(chain.joints) - 1,
         )
     return chain.joints[place].links
 
 
-def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], thing: str) -> None:
+def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], thing: Message) -> None:
     """Refuse places that all lie on one link: what is attached there cannot move against it."""
     joints = [place for place in places if not isinstance(place, str)]
     if len(set(joints)) < len(joints):
-        raise TransformationError(f"two places of the {thing} are the same joint; attach them to links or other joints")
+        raise TransformationError(
+            "two places of the {thing} are the same joint; attach them to links or other joints", thing=thing
+        )
     shared = set.intersection(*(set(links_at(chain, place)) for place in places))
     if shared:
         link = next(link for link in chain.links if link in shared)
         raise TransformationError(
-            f"the places of the {thing} all lie on the link {link!r}: it would be rigid against it"
+            "the places of the {thing} all lie on the link {link!r}: it would be rigid against it",
+            thing=thing,
+            link=link,
         )
 
 
@@ -89,11 +100,13 @@ def new_link_names(chain: Chain, number: int, wished: Sequence[str] | None) -> l
     names = list(wished)
     if len(names) != number or len(set(names)) != number:
         raise TransformationError(
-            f"expected {number} different names for the new links, found {', '.join(names) or 'none'}"
+            "expected {number} different names for the new links, found {names}",
+            number=number,
+            names=", ".join(names) or message("none"),
         )
     taken = next((name for name in names if name in chain.links), None)
     if taken is not None:
-        raise TransformationError(f"the chain has a link {taken!r} already; name the new link otherwise")
+        raise TransformationError("the chain has a link {taken!r} already; name the new link otherwise", taken=taken)
     return names
 
 
@@ -117,7 +130,9 @@ class ChainBuilder:
         joint = self.chain.joints[place]
         if joint.pair != kind or not kind.is_group:
             raise TransformationError(
-                f"a {kind.name} joint is to be attached, but no further link can join {joint} with it"
+                "a {pair} joint is to be attached, but no further link can join {joint} with it",
+                pair=kind.title,
+                joint=joint,
             )
         self.joints[place][1].extend(links)
 
@@ -142,5 +157,7 @@ def without_links(chain: Chain, links: Sequence[str]) -> tuple[Chain, dict[int, 
     try:
         rest = Chain(joints, links=[link for link in chain.links if link not in gone], space=chain.space)
     except ChainError as error:
-        raise TransformationError(f"without {', '.join(links)} there is no chain left: {error}") from None
+        raise TransformationError(
+            "without {links} there is no chain left: {error}", links=", ".join(links), error=error
+        ) from None
     return rest, number

@@ -40,7 +40,9 @@ def joint_types(
     for kind in kinds:
         if kind.f(chain.space) != 1:
             raise ChainError(
-                f"a {kind.name} joint has f = {kind.f(chain.space)}; joint types exchange pairs with f = 1"
+                "a {pair} joint has f = {f}; joint types exchange pairs with f = 1",
+                pair=kind.title,
+                f=kind.f(chain.space),
             )
     wanted = generic(chain).mobility if mobility is None else mobility
     for typed in assignments(chain, kinds):
@@ -53,10 +55,12 @@ def assignments(chain: Chain, kinds: Mapping[Pair, int]) -> Iterator[Chain]:
     places = [k for k, joint in enumerate(chain.joints) if joint.pair.name == "revolute" and joint.count == 1]
     for kind, number in kinds.items():
         if number < 0:
-            raise ChainError(f"the number of {kind.name} joints is 0 or more, not {number}")
+            raise ChainError("the number of {name} joints is 0 or more, not {number}", name=kind.name, number=number)
     if sum(kinds.values()) > len(places):
         raise ChainError(
-            f"{sum(kinds.values())} joints cannot be exchanged: the chain has {len(places)} simple revolutes"
+            "{wanted} joints cannot be exchanged: the chain has {count} simple revolutes",
+            wanted=sum(kinds.values()),
+            count=len(places),
         )
     plain = tuple(joint.pair for joint in chain.joints)
     choices = [tuple(choice) for choice in _choices(list(plain), places, list(kinds.items()))]

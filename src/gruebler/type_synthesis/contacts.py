@@ -27,7 +27,7 @@ def with_contacts(chain: Chain, number: int) -> Iterator[Chain]:
     ['R(1-2) R(2-3) G(1-3)']
     """
     if number < 0:
-        raise ChainError(f"the number of roll_slide joints is 0 or more, not {number}")
+        raise ChainError("the number of roll_slide joints is 0 or more, not {number}", number=number)
     ends = {link: _neighbours(chain, link) for link in chain.links}
     bars = [link for link in chain.links if len(set(ends[link])) == 2 == chain.degrees[link]]
     choices = [

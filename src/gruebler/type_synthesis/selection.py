@@ -26,7 +26,7 @@ def typed_chains(requirements: Requirements) -> Iterator[Chain]:
     from gruebler.enumeration import chains
 
     if requirements.links < 3:
-        raise GrueblerError(f"a chain has at least three links, not {requirements.links}")
+        raise GrueblerError("a chain has at least three links, not {links}", links=requirements.links)
     kinds = {pair("prismatic"): requirements.prismatic, pair("rolling"): requirements.rolling}
     base = chains(
         requirements.links + requirements.roll_slide,
@@ -61,7 +61,11 @@ def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
 
 def _driven(chain: Chain, requirements: Requirements) -> Iterator[DrivenMechanism]:
     if requirements.drives and len(requirements.drives) != requirements.mobility:
-        raise GrueblerError(f"mobility {requirements.mobility} takes as many drives, not {len(requirements.drives)}")
+        raise GrueblerError(
+            "mobility {mobility} takes as many drives, not {count}",
+            mobility=requirements.mobility,
+            count=len(requirements.drives),
+        )
     at_frame = all(d.place is JointLocation.FRAME for d in requirements.drives)
     with_output = requirements.output is not None or requirements.output_at_drive is not None
     fixed: dict[Mechanism, bool] = {}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.errors import GrueblerError
+from gruebler.text import joined_by_or
 
 __all__ = ["SUFFIXES", "picture_bytes", "suffix_of"]
 
@@ -17,10 +18,10 @@ def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
     """The kind of file that a name asks for; `GrueblerError` if it is none of those known."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in known:
-        endings = " or ".join(filter(None, (", ".join(f".{one}" for one in known[:-1]), f".{known[-1]}")))
         raise GrueblerError(
-            f"{str(path)!r} does not say what kind of picture it is: end it with {endings}",
-            f"{str(path)!r} sagt nicht, was für ein Bild es ist: die Endung sei {endings.replace(' or ', ' oder ')}",
+            "{path!r} does not say what kind of picture it is: end it with {endings}",
+            path=str(path),
+            endings=joined_by_or([f".{ending}" for ending in known]),
         )
     return suffix
 

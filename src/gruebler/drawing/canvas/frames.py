@@ -33,7 +33,9 @@ _TICK = {"gif": 10}  # milliseconds: the times of a GIF are multiples of it
 def check_kind(kind: str) -> None:
     """`GrueblerError` for a kind of file that is none of `FRAMES`."""
     if kind not in FRAMES:
-        raise GrueblerError(f"expected a kind of file among {', '.join(FRAMES)}, but found {kind!r}")
+        raise GrueblerError(
+            "expected a kind of file among {frames}, but found {kind!r}", frames=", ".join(FRAMES), kind=kind
+        )
 
 
 def frames_file(

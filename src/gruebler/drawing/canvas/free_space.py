@@ -7,16 +7,13 @@ from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.styles import STYLES
 
 __all__ = ["HALF", "Obstacles", "complexes", "distance_between", "from_segment", "is_inside"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
-Flags = NDArray[np.bool_]
 
 HALF = 7.0
 """Half the height of a text."""

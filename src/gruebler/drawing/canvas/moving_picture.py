@@ -107,8 +107,7 @@ def always(seconds: float) -> float:
     """The time, if it is a positive number of seconds up to an hour; else `gruebler.GrueblerError`."""
     if not 0 < seconds <= _LONGEST:
         raise GrueblerError(
-            f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}",
-            f"die Zeit ist eine Anzahl von Sekunden bis {_LONGEST:g}, nicht {seconds!r}",
+            "the time is a number of seconds up to {longest:g}, not {seconds!r}", longest=_LONGEST, seconds=seconds
         )
     return seconds
 

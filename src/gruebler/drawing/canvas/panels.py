@@ -8,8 +8,8 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, Scale, angles, decades, decimals
 from gruebler.drawing.canvas.figure import Figure, figure_of
 from gruebler.drawing.canvas.free_space import Obstacles, complexes
@@ -21,7 +21,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["AxisMarker", "Band", "Curve", "Panel", "PointMarker", "Rest", "draw_panels", "ratio_diagram"]
 
-Reals = NDArray[np.float64]
 
 _SIZE = Point(520.0, 300.0)
 _TICK = 5.0
@@ -322,7 +321,10 @@ def ratio_diagram(
     phi, q, way = (np.array(list(values), np.float64) for values in (angle, ratio, length))
     if not len(phi) == len(q) == len(way) >= 2:
         raise GrueblerError(
-            f"expected three lists of the same length, but found {len(phi)}, {len(q)}, {len(way)} values"
+            "expected three lists of the same length, but found {count}, {count_2}, {count_3} values",
+            count=len(phi),
+            count_2=len(q),
+            count_3=len(way),
         )
     if not (np.isfinite([phi, q, way]).all() and (q > 0).all()):
         raise GrueblerError("expected finite values with ratios above 0")

@@ -93,7 +93,9 @@ def scene(
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
     """
     if not 0 < seconds <= _LONGEST:
-        raise LinkageError(f"the time is a number of seconds up to {_LONGEST:g}, not {seconds!r}")
+        raise LinkageError(
+            "the time is a number of seconds up to {longest:g}, not {seconds!r}", longest=_LONGEST, seconds=seconds
+        )
     posed = posed_linkage(linkage, branch=branch, between=between, drives=drives)
     turns = posed.driven().span.turns
     pieces = (*body_parts(posed), *drive_parts(posed))

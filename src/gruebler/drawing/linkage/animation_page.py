@@ -40,7 +40,7 @@ def _settings(shown: Scene) -> PageSettings:
     rising = np.flatnonzero(ends[1] > ends[0])
     if not len(rising):  # a path on which no drive grows: the part of it
         return PageSettings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
-    turning = posed.linkage.mechanism.drives[rising[0]].direction.startswith("R")
+    turning = posed.linkage.mechanism.drives[rising[0]].turning
     low, high = (math.degrees(q) if turning else float(q) for q in ends[:, rising[0]])
     return PageSettings(
         low=round(low, 6),

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.axes import Axis, Scale, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.panels import Curve, Panel, PointMarker, draw_panels
@@ -23,7 +23,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 
-Complexes = NDArray[np.complex128]
 
 _SQUARE = 460.0  # pixels of the longer side
 _NEAR = 0.03  # of the field: drive values nearer to each other are left out
@@ -77,8 +76,7 @@ def hodograph(
     chosen, words = _few(points), _WORDS[lang]
     if speed is not None and not (math.isfinite(speed) and speed):
         raise LinkageError(
-            f"a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}",
-            f"ein Hodograph braucht einen Antrieb, der sich bewegt: erwartet wird ein Wert ungleich 0, nicht {speed}",
+            "a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}", speed=speed
         )
     run = plot_run(linkage, 1, branch, between, lang, name)
     places = [linkage.points_named(point)[-1] for point in chosen]
@@ -173,24 +171,26 @@ def family_of(
 ) -> dict[str, LinkPoint]:
     """The points of a family, named by their coordinates in the link."""
     if not 2 <= count <= _MOST:
-        raise LinkageError(
-            f"a family has 2 to {_MOST} points, not {count!r}", f"eine Schar hat 2 bis {_MOST} Punkte, nicht {count!r}"
-        )
+        raise LinkageError("a family has 2 to {most} points, not {count!r}", most=_MOST, count=count)
     chosen = floating_link(linkage) if link is None else link
     if chosen not in linkage.mechanism.chain.links:
-        raise LinkageError(f"there is no link {chosen!r}; the links are {', '.join(linkage.mechanism.chain.links)}")
-    if chosen == linkage.mechanism.frame:
         raise LinkageError(
-            f"{chosen!r} is the frame: its points do not move", f"{chosen!r} ist das Gestell: seine Punkte ruhen"
+            "there is no link {chosen!r}; the links are {links}",
+            chosen=chosen,
+            links=", ".join(linkage.mechanism.chain.links),
         )
+    if chosen == linkage.mechanism.frame:
+        raise LinkageError("{chosen!r} is the frame: its points do not move", chosen=chosen)
     places = link_nodes(linkage, chosen)
     if start is None or end is None:
         if len(places) < 2:
-            raise LinkageError(f"{chosen!r} has one joint and no point: say between which points the family lies")
+            raise LinkageError(
+                "{chosen!r} has one joint and no point: say between which points the family lies", chosen=chosen
+            )
         first, second = places[:2]
         start, end = (first - (second - first) / 2, second + (second - first) / 2)
     if not np.isfinite([start, end]).all() or start == end:
-        raise LinkageError(f"expected two different finite points, but found {start} and {end}")
+        raise LinkageError("expected two different finite points, but found {start} and {end}", start=start, end=end)
     points = [start + k / (count - 1) * (end - start) for k in range(count)]
     return {f"{p.real:.4g}, {p.imag + 0.0:.4g}".replace("-", "−"): LinkPoint(chosen, p.real, p.imag) for p in points}
 
@@ -260,5 +260,5 @@ def _even(low: float, high: float, longest: float) -> Scale:
 def _few(points: Sequence[str]) -> list[str]:
     chosen = list(dict.fromkeys(points))
     if not 1 <= len(chosen) <= _MOST:
-        raise LinkageError(f"expected 1 to {_MOST} points or joints, but found {len(chosen)}")
+        raise LinkageError("expected 1 to {most} points or joints, but found {count}", most=_MOST, count=len(chosen))
     return chosen

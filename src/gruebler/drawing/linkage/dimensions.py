@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.axes import as_text
-from gruebler.drawing.canvas.free_space import HALF, Complexes, Obstacles, Reals, complexes
+from gruebler.drawing.canvas.free_space import HALF, Obstacles, complexes
 from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.styles import STYLES

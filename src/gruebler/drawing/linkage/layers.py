@@ -10,12 +10,12 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import PathCycle
 from gruebler.analysis.events import stops
 from gruebler.analysis.outputs import find_output
 from gruebler.analysis.transmission import PushingLink, pushing_links
+from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import ArcShape, CircleShape, Point, Polylines, Shape, TextShape
 from gruebler.drawing.canvas.simplification import FINE, simplified
@@ -45,7 +45,6 @@ __all__ = [
     "point_names",
 ]
 
-Complexes = NDArray[np.complex128]
 
 _SAMPLES = 720  # poses of a curve
 _STEP = 0.03  # between samples of a circuit, in sizes
@@ -254,5 +253,10 @@ BELOW = ("dead-centres", "centrodes", "inflection")
 def layer(name: str) -> Layer:
     """A layer by name; `LinkageError` names those there are."""
     if name not in LAYERS:
-        raise LinkageError(f"there is no {name!r} to be shown{nearest(name, LAYERS)}; there are {', '.join(LAYERS)}")
+        raise LinkageError(
+            "there is no {name!r} to be shown{suggestion}; there are {layers}",
+            name=name,
+            suggestion=nearest(name, LAYERS),
+            layers=", ".join(LAYERS),
+        )
     return LAYERS[name]

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis import transmission_angle
 from gruebler.analysis.events import natural_speed, stops
@@ -24,7 +23,6 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["transfer_plot", "transmission_plot"]
 
-Reals = NDArray[np.float64]
 
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three
@@ -115,16 +113,13 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
     still = {link: np.ptp(seen[link].values(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
     others = ", ".join(link for link in moving if not still[link])
     if output.link == frame:
-        raise LinkageError(
-            f"the frame does not move: name another output, such as {others}",
-            f"das Gestell bewegt sich nicht: nenne einen anderen Abtrieb, etwa {others}",
-        )
+        raise LinkageError("the frame does not move: name another output, such as {others}", others=others)
     if asked is None and output.turning and still[output.link]:
         raise LinkageError(
-            f"the output {output.name} moves without turning, so it has no transfer function of an angle; name "
-            f"another output: {others}",
-            f"der Abtrieb {output.name} bewegt sich, ohne sich zu drehen, und hat keine Übertragungsfunktion eines "
-            f"Winkels; nenne einen anderen Abtrieb: {others}",
+            "the output {name} moves without turning, so it has no transfer function of an angle; name "
+            "another output: {others}",
+            name=output.name,
+            others=others,
         )
 
 

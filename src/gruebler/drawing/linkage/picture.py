@@ -227,8 +227,7 @@ def _perimeter(corners: Sequence[Point]) -> float:
 def _count(number: int) -> int:
     if not 0 < number <= _MOST_GHOSTS:
         raise LinkageError(
-            f"expected 1 to {_MOST_GHOSTS} thin positions, but found {number!r}",
-            f"erwartet werden 1 bis {_MOST_GHOSTS} dünne Stellungen, nicht {number!r}",
+            "expected 1 to {most_ghosts} thin positions, but found {number!r}", most_ghosts=_MOST_GHOSTS, number=number
         )
     return number
 
@@ -240,7 +239,7 @@ def picture_notes(
     words, drives = _WORDS[lang], posed.linkage.mechanism.drives
     values = [
         decimal_sign_in(f"{round(degrees(value), 2) + 0.0:g}°", lang)
-        if drive.direction.startswith("R")
+        if drive.turning
         else as_text(float(value), posed.linkage.unit, lang)
         for value, drive in zip(posed.pose.drives[0], drives, strict=bool(drives))
     ]

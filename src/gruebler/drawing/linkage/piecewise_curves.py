@@ -8,20 +8,19 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle
+from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, angles, as_text, decimals
 from gruebler.drawing.linkage.posed_linkage import drive_rows
 from gruebler.drawing.structure.messages import title
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.text import decimal_sign_in
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
 
-Reals = NDArray[np.float64]
 Between = tuple[float, float] | None
 Branch = str | Iterable[str] | None
 
@@ -112,18 +111,14 @@ class PlotRun:
         return _RANGE[self.lang].format(low=self.value(self.drives[0]), high=self.value(self.drives[-1]))
 
 
-def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
+def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
     """Full turns from 0 on, else the range, or the part of it between two values; rates for a drive of speed 1.
 
     Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    linkage = as_linkage(linkage)
     if not linkage.mechanism.drives:
-        raise LinkageError(
-            "no joint is driven, so there is nothing to be plotted; name a drive",
-            "kein Gelenk ist angetrieben, also ist nichts aufzutragen; nenne einen Antrieb",
-        )
+        raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
     cycle = drive_cycle(linkage, branch)
     drives = drive_rows(cycle, between, ROWS)
     if between is None and cycle.span.full:

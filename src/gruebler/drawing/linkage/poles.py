@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape
 from gruebler.drawing.canvas.simplification import FINE, simplified
@@ -17,7 +17,6 @@ from gruebler.kinematics import Motion
 
 __all__ = ["centrode_lines", "cross", "inflection_lines"]
 
-Complexes = NDArray[np.complex128]
 
 _WIDE = 0.3  # of the figure's longer side: how far around it centrodes and inflection circles are seen
 _SAMPLES = 1440  # points of a centrode or circle
@@ -55,9 +54,10 @@ def _number(context: LayerContext) -> int:
         known = context.posed.linkage.mechanism.chain.links
         there = ", ".join(known)
         raise LinkageError(
-            f"centrodes and inflection circles are those of a link{nearest(output, known)}; {output!r} is none of "
-            f"{there}",
-            f"Polbahnen und Wendekreis gehören zu einem Glied; {output!r} ist keines von {there}",
+            "centrodes and inflection circles are those of a link{suggestion}; {output!r} is none of {there}",
+            suggestion=nearest(output, known),
+            output=output,
+            there=there,
         )
     return links.index(floating_link(context.posed.linkage) if output is None else output)
 

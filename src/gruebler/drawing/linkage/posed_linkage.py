@@ -8,22 +8,22 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import DriveCycle, drive_cycle, path_cycle
+from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint, Pin
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanism import Mechanism
-from gruebler.text import decimal_sign_in
+from gruebler.text import Message, message
 
 __all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_along_motion", "posed_linkage"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _PIXELS = 380.0  # for the longer side of all that the pins reach
 _SHORTEST = 34.0  # pixels between two pins of one link, as long as the picture does not become huge
@@ -79,15 +79,11 @@ class PosedLinkage:
         if self.cycle is None:
             count = len(self.linkage.mechanism.drives)
             if count == 1:
-                raise LinkageError(
-                    "all that can be assembled is one position, so there is no motion to be drawn",
-                    "zusammenbauen lässt sich nur eine Lage, eine Bewegung ist nicht zu zeichnen",
-                )
+                raise LinkageError("all that can be assembled is one position, so there is no motion to be drawn")
             raise LinkageError(
-                f"this is drawn for linkages with one drive only; this one has {count}: leave one of them driven, or "
-                "draw a path of all drives with draw_motion(move(linkage, path))",
-                f"das wird nur für Getriebe mit einem Antrieb gezeichnet, dieses hat {count}: nur einen davon "
-                "antreiben oder einen Weg aller Antriebe mit draw_motion(move(linkage, path)) zeichnen",
+                "this is drawn for linkages with one drive only; this one has {count}: leave one of them driven, "
+                "or draw a path of all drives with draw_motion(move(linkage, path))",
+                count=count,
             )
         return self.cycle
 
@@ -114,7 +110,7 @@ def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
 
 
 def posed_linkage(
-    linkage: Linkage,
+    linkage: LinkageLike,
     drive: float | Sequence[float] | None = None,
     *,
     branch: str | Iterable[str] | None = None,
@@ -129,14 +125,11 @@ def posed_linkage(
 
     Raises `LinkageError` for a pose that it cannot reach, and without a drive if there is no home.
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError(f"expected a linkage, but found {linkage!r}")
+    linkage = as_linkage(linkage)
     try:
         given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
     except (TypeError, ValueError):
-        raise LinkageError(
-            f"drive values are numbers, but found {drive!r}", f"Antriebswerte sind Zahlen, nicht {drive!r}"
-        ) from None
+        raise LinkageError("drive values are numbers, but found {drive!r}", drive=drive) from None
     if not linkage.mechanism.drives:
         return _at_rest(linkage)
     plan = cached_plan(linkage)
@@ -157,7 +150,7 @@ def posed_linkage(
         given = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
     pose = move(linkage, given.reshape(1, -1), branch=branch)
     if not len(pose):
-        raise LinkageError(pose.message(), pose.message("de"))
+        raise LinkageError("{reason}", reason=pose.reason)
     return _posed(pose)
 
 
@@ -171,7 +164,7 @@ def _one_position(
 ) -> PosedLinkage:
     """The pose of a linkage that cannot be followed, at the value given or where there is one; else its error."""
     tried = given.reshape(1, -1) if given is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
-    turning = linkage.mechanism.drives[0].direction.startswith("R")
+    turning = linkage.mechanism.drives[0].turning
     for values in tried if given is not None or turning else ():
         try:
             pose = move(linkage, values.reshape(1, -1), branch=branch)
@@ -195,10 +188,7 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
         if len(pose):
             return _posed(replace(pose, linkage=linkage))
     name = mechanism.chain.joint_names()[0]
-    raise LinkageError(
-        f"no joint is driven, so there is no pose; name a drive, such as {name}",
-        f"kein Gelenk ist angetrieben, also gibt es keine Lage; ein Antrieb wäre zum Beispiel {name}",
-    )
+    raise LinkageError("no joint is driven, so there is no pose; name a drive, such as {name}", name=name)
 
 
 def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
@@ -221,10 +211,7 @@ def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, co
         asked = between[0] + shift, between[1] + shift
         low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
     if not high > low:
-        raise LinkageError(
-            f"{_range(cycle, 'en')}; nothing of it lies between the two values asked for",
-            f"{_range(cycle, 'de')}; nichts davon liegt zwischen den beiden verlangten Werten",
-        )
+        raise LinkageError("{range}; nothing of it lies between the two values asked for", range=_range(cycle))
     return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
@@ -236,32 +223,26 @@ def _value(cycle: DriveCycle, given: Reals | None, rows: Reals) -> float:
             return start
         return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
     if given.shape != (1,) or not np.isfinite(given).all():
-        raise LinkageError(
-            f"expected one finite drive value, but found {given.tolist()}",
-            f"erwartet wird ein endlicher Antriebswert, nicht {given.tolist()}",
-        )
+        raise LinkageError("expected one finite drive value, but found {tolist}", tolist=given.tolist())
     value, span = float(given[0]), cycle.span
     if cycle.turning_drive and not span.full:
         value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
     if not span.full and not span.low <= value <= span.high:
         raise LinkageError(
-            f"{_range(cycle, 'en')}; there is no pose at {_said(cycle, float(given[0]), 'en')}",
-            f"{_range(cycle, 'de')}; bei {_said(cycle, float(given[0]), 'de')} gibt es keine Lage",
+            "{range}; there is no pose at {value}", range=_range(cycle), value=_drive_value(cycle, float(given[0]))
         )
     return value
 
 
-def _range(cycle: DriveCycle, lang: str) -> str:
-    low, high = (_said(cycle, value, lang) for value in (cycle.span.low, cycle.span.high))
-    if lang == "de":
-        return f"der Antrieb geht in dieser Einbaulage von {low} bis {high}"
-    return f"the drive goes from {low} to {high} on this branch"
+def _range(cycle: DriveCycle) -> Message:
+    low, high = (_drive_value(cycle, value) for value in (cycle.span.low, cycle.span.high))
+    return message("the drive goes from {low} to {high} on this branch", low=low, high=high)
 
 
-def _said(cycle: DriveCycle, value: float, lang: str) -> str:
-    degrees = "Grad" if lang == "de" else "degrees"
-    words = f"{math.degrees(value):.6g} {degrees}" if cycle.turning_drive else f"{value:.6g} {cycle.linkage.unit}"
-    return decimal_sign_in(words, lang)
+def _drive_value(cycle: DriveCycle, value: float) -> Message:
+    if cycle.turning_drive:
+        return message("{value:.6g} degrees", value=math.degrees(value))
+    return message("{value:.6g} {unit}", value=value, unit=cycle.linkage.unit)
 
 
 def floating_link(linkage: Linkage) -> str:

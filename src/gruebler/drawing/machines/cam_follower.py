@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
+from gruebler.arrays import Reals
 from gruebler.cams import Cam, Flat, Roller
 from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape
@@ -14,7 +12,6 @@ from gruebler.drawing.canvas.symbols import ticks
 
 __all__ = ["follower_body", "ground"]
 
-Reals = NDArray[np.float64]
 
 _ROD = 7.0  # half the width of a rod, pixels
 _BEYOND = 12.0  # pixels by which a face goes beyond its contacts

@@ -7,8 +7,8 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.cams import Cam, CamError, Roller
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import (
@@ -29,8 +29,6 @@ from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagra
 
 __all__ = ["animate_cam", "draw_cam", "lift_diagram"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _PIXELS = 150.0  # from the axis to the farthest point of the cam
 _ROWS = 720  # points of the contour
@@ -93,9 +91,7 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
     if at is None:
         at = max(report.pressure, key=lambda one: abs(one.value)).at
     if isinstance(at, bool) or not isinstance(at, int | float) or not math.isfinite(at):
-        raise CamError(
-            f"the cam's angle is a finite number, not {at!r}", f"der Kurvenwinkel ist eine endliche Zahl, nicht {at!r}"
-        )
+        raise CamError("the cam's angle is a finite number, not {at!r}", at=at)
     scale = _scale(cam)
     shown = [*_machine(cam, scale, np.array([at]), lang), Body(tuple(_pressure(cam, scale, at)))]
     if plot:

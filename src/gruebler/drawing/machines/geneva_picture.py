@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import (
     Body,
@@ -28,8 +28,6 @@ from gruebler.geneva import Geneva, GenevaError
 
 __all__ = ["animate_geneva", "draw_geneva", "ratio_panels"]
 
-Reals = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _PIXELS = 360.0  # the greater extent, about
 _KEYS = 240  # of a turn of the driver
@@ -72,7 +70,7 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
     'Driver at 28.6479°, wheel at -41.78°, ratio -0.4656.'
     """
     if isinstance(at, bool) or not isinstance(at, int | float):
-        raise GenevaError(f"the driver's angle is a finite number, not {at!r}")
+        raise GenevaError("the driver's angle is a finite number, not {at!r}", at=at)
     moved, words = geneva.move(at), _WORDS[lang]
     bodies = _machine(geneva, np.array([at], np.float64))
     if plot:

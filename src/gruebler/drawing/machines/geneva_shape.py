@@ -6,13 +6,12 @@ import cmath
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.geneva import Geneva
 
 __all__ = ["GenevaShape"]
 
-Complexes = NDArray[np.complex128]
 
 _RIM = 0.16  # around the slots of an internal wheel
 _PIN = 0.13  # of the crank: the radius of a pin, if there is room for it between the slots

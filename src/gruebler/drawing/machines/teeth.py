@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from gruebler.arrays import Complexes
 
 __all__ = ["toothed_outline"]
 
-Complexes = NDArray[np.complex128]
 
 PRESSURE = math.radians(20)
 _PLAY = 0.03  # of half a tooth at the pitch circle: flanks do not touch in the picture

@@ -8,14 +8,15 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from gruebler.gears import GearError, Train, Unit, speeds
+from gruebler.text import message
 
 __all__ = ["TrainMotion", "train_motion"]
 
 _MOST = 100  # turns of the fastest link
 _TRAVEL = 2  # radii that a rack or a load goes at most
 _WHY = {
-    False: ("do not determine all speeds", "legen nicht alle Drehzahlen fest"),
-    True: ("contradict each other", "widersprechen einander"),
+    False: message("do not determine all speeds"),
+    True: message("contradict each other"),
 }
 _THREADS = 4  # turns of a screw
 
@@ -67,18 +68,14 @@ def train_motion(train: Train, drives: Mapping[str, object], seconds: float, mos
     if not found.complete:
         wrong = [contradiction.link for contradiction in found.contradictions]
         links = ", ".join(wrong or found.free)
-        why, warum = _WHY[bool(wrong)]
-        raise GearError(
-            f"the drives {why}, so nothing can be shown: {links}",
-            f"die Antriebe {warum}, nichts ist zu zeigen: {links}",
-        )
+        raise GearError("the drives {why}, so nothing can be shown: {links}", why=_WHY[bool(wrong)], links=links)
     rates = {link: value or Fraction(0) for link, value in found.values.items()}
     units = train.units()
     turning = {link: rate for link, rate in rates.items() if units[link] == Unit.TURNING}
     slides = frozenset(link for link in rates if link not in turning and rates[link])
     fastest = max((abs(rate) for rate in turning.values()), default=Fraction(0))
     if not fastest:
-        raise GearError("nothing turns with these drives", "mit diesen Antrieben dreht sich nichts")
+        raise GearError("nothing turns with these drives")
     drive = next((link for link in given if turning.get(link)), None) or max(turning, key=lambda k: abs(turning[k]))
     moving = [abs(rate) for rate in turning.values() if rate]
     cycle = Fraction(math.lcm(*(rate.denominator for rate in moving)), math.gcd(*(rate.numerator for rate in moving)))
@@ -116,7 +113,7 @@ def _chosen(train: Train) -> dict[str, int]:
     ends = [link for mesh in train.meshes if mesh.carrier != "frame" for link in (mesh.a, mesh.b)]
     first = next((link for link in order if not speeds(train, {link: 1}).contradictions), None)
     if first is None:
-        raise GearError("nothing can turn in this train", "in diesem Getriebe kann sich nichts drehen")
+        raise GearError("nothing can turn in this train")
     given: dict[str, int] = {first: 1}
     rest = sorted(
         (link for link in reversed(order) if link != first),

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Complexes
 from gruebler.drawing.canvas.moving_picture import Body, Shift, Turn
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, text_width
 from gruebler.drawing.canvas.symbols import ticks
@@ -19,7 +19,6 @@ from gruebler.drawing.machines.train_motion import TrainMotion
 
 __all__ = ["PaintOptions", "stage_bodies"]
 
-Complexes = NDArray[np.complex128]
 Steps = tuple[Shift | Turn, ...]
 
 _RIM = 15.0  # pixels around an internal wheel

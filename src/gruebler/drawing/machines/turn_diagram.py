@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from gruebler.arrays import Reals
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import Body, Shift, at_time
@@ -17,7 +17,6 @@ from gruebler.drawing.canvas.styles import LINES
 
 __all__ = ["beneath", "running", "turn_diagram"]
 
-Reals = NDArray[np.float64]
 
 _PANEL = Point(460.0, 120.0)
 _GAP = 22.0  # pixels between a machine and its diagram

@@ -6,9 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from gruebler.arrays import Reals
+from gruebler.forces.loads import Rows
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import branch_of
-from gruebler.statics.loads import Reals, Rows
 
 __all__ = ["drive_speed", "with_velocities"]
 
@@ -35,7 +36,7 @@ def with_velocities(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion
 def drive_speed(motion: Motion) -> Reals:
     """The speed of the only drive in a motion with velocities; (rows,)."""
     drive = motion.plan.lower.mechanism.drives[0]
-    if not drive.direction.startswith("R"):
+    if not drive.turning:
         return motion.displacement(drive.joint, 1)
     one, other = motion.plan.lower.reference(0)
     out: Reals = motion.angular(other) - motion.angular(one)

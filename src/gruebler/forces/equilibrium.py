@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.loads import Wrench
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line
-from gruebler.statics.loads import Complexes, Flags, Reals, Wrench
 
 __all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
 
@@ -48,7 +49,8 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError(
-                f"joint forces are those of turning and sliding joints, but {chain.joint_names()[number]} is none"
+                "joint forces are those of turning and sliding joints, but {joint} is none",
+                joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             one = chain.links.index(joint.links[0])
@@ -74,7 +76,9 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
     matrix = columns[:, bodies]
     if matrix.shape[1] != matrix.shape[2]:
         raise LinkageError(
-            f"joint forces are not determined by statics: {matrix.shape[2]} unknowns in {matrix.shape[1]} equations"
+            "joint forces are not determined by statics: {unknowns} unknowns in {equations} equations",
+            unknowns=matrix.shape[2],
+            equations=matrix.shape[1],
         )
     load = _loads(motion, wrenches, rows)[:, bodies]
     probe = np.random.default_rng(0).uniform(0.5, 1.0, load.shape)
@@ -85,7 +89,7 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
     first, second = found[:, 0 : 2 * len(held) : 2], found[:, 1 : 2 * len(held) : 2]
     slides = np.array([contact.slides for contact in held], bool)
     forces = np.where(slides, directions * first, first + 1j * second)
-    turning = np.array([drive.direction.startswith("R") for drive in lower.mechanism.drives], bool)
+    turning = np.array([drive.turning for drive in lower.mechanism.drives], bool)
     drives = found[:, 2 * len(held) :] * np.where(turning, lower.size, 1.0)
     return Reactions(forces, np.where(slides, second * lower.size, 0.0), drives, singular)
 
@@ -112,7 +116,7 @@ def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> 
     for k, drive in enumerate(lower.mechanism.drives):
         one, other = lower.reference(k)
         pair = JointConnection(drive.joint, links.index(one), links.index(other), False)
-        if drive.direction.startswith("R"):
+        if drive.turning:
             acts.couple(pair, 2 * len(held) + k)
         else:
             at, line = _meeting(motion, drive.joint, one, other, rows)

@@ -7,13 +7,13 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.motion_rates import with_velocities
+from gruebler.forces.solution import Statics
 from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
-from gruebler.statics.loads import Reals
-from gruebler.statics.motion_rates import with_velocities
-from gruebler.statics.solution import Statics
 
 __all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]
 
@@ -66,7 +66,8 @@ def slider_friction(size: SliderCrank, phi: npt.ArrayLike, load: float, coeffici
     if not (np.abs(sine) < 1).all():
         raise LinkageError(
             "the slider-crank transmits no force, or cannot be assembled, at some of the crank angles: "
-            f"sin(alpha) = {float(np.abs(sine).max()):.6g}"
+            "sin(alpha) = {sine:.6g}",
+            sine=float(np.abs(sine).max()),
         )
     alpha = np.arcsin(sine)
     coupler = force / np.cos(alpha)
@@ -81,9 +82,11 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     linkage = statics.motion.linkage
     number, mu = joint_number(linkage.mechanism, joint), _coefficient(coefficient)
     if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
-        raise LinkageError(f"{linkage.mechanism.chain.joint_names()[number]} does not slide along one line")
+        raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_names()[number])
     if len(linkage.mechanism.drives) != 1:
-        raise LinkageError(f"friction is told for one drive; this linkage has {len(linkage.mechanism.drives)}")
+        raise LinkageError(
+            "friction is computed for one drive; this linkage has {count}", count=len(linkage.mechanism.drives)
+        )
     side: Reals = np.hypot(*statics.force(number).T)
     rate = np.full(len(side), np.nan)
     for rows, moved in with_velocities(statics.motion, np.ones(1)):
@@ -94,5 +97,5 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
 def _coefficient(value: float) -> float:
     mu = as_finite("coefficient", value)
     if mu < 0:
-        raise LinkageError(f"a coefficient of friction is not negative, but {value!r} is")
+        raise LinkageError("a coefficient of friction is not negative, but found {found!r}", found=value)
     return mu
