@@ -242,7 +242,7 @@ def test_dwells_of_geneva_drives(slots, pins, internal):
     assert found.moving_span == pytest.approx(found.span.period * drive.motion_fraction)
     assert found.motion_ratio == pytest.approx(drive.motion_ratio)
     assert f"{in_degrees(found.moving_span):.9g}°" in found.explain()
-    assert f"{found.motion_ratio:.9g}" in found.explain("de")
+    assert f"Bewegung durch Rast {found.motion_ratio:.9g}".replace(".", ",") in found.explain("de")
     for k, (begin, end, kind, side) in enumerate(rests):
         pitch = 360 / pins
         assert begin == pytest.approx(np.degrees(drive.engaged) + k * pitch, abs=1e-9)
