@@ -24,8 +24,10 @@ _ROWS = {
     "most_pins": ("pins that have room", "mögliche Treiberzahl", ""),
     "step_deg": ("step of the wheel", "Schrittwinkel des Rades", "°"),
     "engaged_deg": ("driver's angle for a step", "Treiberwinkel je Schritt", "°"),
+    "moving_deg": ("driver's angle in motion, in a turn", "Treiberwinkel in Bewegung je Umdrehung", "°"),
     "motion_fraction": ("part of a turn in motion", "Bewegungsanteil einer Umdrehung", ""),
     "dwell_fraction": ("part of a turn in dwell", "Rastanteil einer Umdrehung", ""),
+    "motion_ratio": ("time in motion by time in dwell", "Bewegungszeit durch Rastzeit", ""),
     "dwell_begin_deg": ("dwell from the driver's angle", "Rast vom Treiberwinkel", "°"),
     "dwell_end_deg": ("... to", "... bis", "°"),
     "greatest_ratio": ("greatest speed by driver's speed", "größte Drehzahl durch Antriebsdrehzahl", ""),
@@ -85,7 +87,7 @@ def run(arguments: argparse.Namespace) -> int:
         print_json(document)
         return 0
     german = arguments.lang == "de"
-    rows = [(_ROWS[key][german], f"{value:.10g}{_ROWS[key][2]}") for key, value in figures.items()]
+    rows = [(_ROWS[key][german], f"{value:.10g}{_ROWS[key][2]}") for key, value in figures.items() if value < math.inf]
     print_table(("Größe", "Wert") if german else ("quantity", "value"), rows, numbers=(1,))
     if table is not None:
         print()
@@ -112,8 +114,10 @@ def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict
         "most_pins": drive.most_pins,
         "step_deg": math.degrees(drive.step),
         "engaged_deg": math.degrees(2 * drive.engaged),
+        "moving_deg": math.degrees(drive.motion_fraction * math.tau),
         "motion_fraction": drive.motion_fraction,
         "dwell_fraction": drive.dwell_fraction,
+        "motion_ratio": drive.motion_ratio,
         "dwell_begin_deg": math.degrees(drive.engaged),
         "dwell_end_deg": math.degrees(math.tau / drive.pins - drive.engaged),
         "greatest_ratio": drive.greatest_ratio,
