@@ -33,7 +33,9 @@ class Parser(argparse.ArgumentParser):
         self.lang = lang
         self._commands: Any = None
         self._replaced: dict[str, tuple[str, str]] = {}
-        self.add_argument("--lang", choices=LANGUAGES, default=lang, help="language of the output (default: en)")
+        self.add_argument(
+            "--lang", choices=LANGUAGES, default=lang, help="language of the output (default: GRUEBLER_LANG, else en)"
+        )
 
     def describe(self, *, description: str, epilog: str = "") -> None:
         """The texts before and after the list of options."""
@@ -51,6 +53,12 @@ class Parser(argparse.ArgumentParser):
         """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before."""
         self.add_argument("-o", "--out", type=Path, metavar="FILE", required=required, help=help)
         self.replaced("--output", "--out", like=_FILE)
+
+    def add_printed(self, *, help: str) -> None:
+        """`--json`, and `-o FILE` for what the command prints otherwise (`output.printed_to_file`)."""
+        self.add_argument("--json", action="store_true", help=help)
+        self.add_out(help="write into a file instead: .txt, or .json as with --json")
+        self.set_defaults(printed=True)
 
     def replaced(self, old: str, new: str, like: str = ".*") -> None:
         """Answer an option that has another name now by the new name.
