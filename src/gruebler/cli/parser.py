@@ -6,6 +6,7 @@ import argparse
 import gettext
 import os
 import re
+import textwrap
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -52,7 +53,7 @@ class Parser(argparse.ArgumentParser):
     def add_out(self, *, help: str, required: bool = False) -> None:
         """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before."""
         self.add_argument("-o", "--out", type=Path, metavar="FILE", required=required, help=help)
-        self.replaced("--output", "--out", like=_FILE)
+        self._replaced.setdefault("--output", ("--out", _FILE))
 
     def add_printed(self, *, help: str) -> None:
         """`--json`, and `-o FILE` for what the command prints otherwise (`output.printed_to_file`)."""
@@ -135,6 +136,13 @@ class _HelpFormatter(argparse.HelpFormatter):
     def add_text(self, text: str | None) -> None:
         """A paragraph."""
         super().add_text(text and translate(text, self._lang))
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "\n".join(indent + line for line in self._split_lines(text, width))
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        """Lines that keep options and commands with hyphens in one piece."""
+        return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
     def _get_help_string(self, action: argparse.Action) -> str | None:
         return action.help and translate(action.help, self._lang)
