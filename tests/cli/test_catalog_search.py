@@ -74,7 +74,7 @@ def test_every_structure(capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("--links four", "invalid int value"),
+        ("--links four", "expected a whole number"),
         ("--pairs D", "expected joints with their numbers"),
         ("--pairs D:1,P:1", "mix two alphabets"),
         ("--pair revolut", "did you mean 'revolute'"),

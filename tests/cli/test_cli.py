@@ -148,7 +148,7 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "missing.json"], "missing.json: cannot be read"),
         (["check", "vcomp", "--frame", "wall"], "no link 'wall'"),
         (["check", "vcomp", "--b", "9"], "1 to 6"),
-        (["check", "vcomp", "--b", "x"], "invalid int value"),
+        (["check", "vcomp", "--b", "x"], "expected a whole number"),
         (["check", "--lang", "fr"], "invalid choice"),
         (["check", "--nonsense"], "unknown arguments: --nonsense"),
         (["check", "--explian", "vcomp"], "did you mean '--explain'?"),

@@ -52,7 +52,7 @@ def _run(words: list[str], lang: str) -> int:
 
         print(f"gruebler {__version__}")
         return 0
-    chosen = command(words[0])
+    chosen = command(words[0], words[1:])
     with argparse_in_language(lang):
         arguments = chosen.parser(lang).parse_args(words[1:])
     from gruebler.cli.compiling_progress import show_compiling

@@ -5,16 +5,21 @@ from __future__ import annotations
 import argparse
 import gettext
 import os
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, NoReturn
 
 from gruebler.errors import GrueblerError, nearest, shortened
-from gruebler.text import LANGUAGES, LOCALE, translate
+from gruebler.text import LANGUAGES, LOCALE, message, translate
 
 __all__ = ["Parser", "argparse_in_language", "wanted_language"]
+
+_FILE = r".+\.[A-Za-z]\w{1,4}"
+_KINDS = {int: message("a whole number"), float: message("a number")}
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,6 +32,7 @@ class Parser(argparse.ArgumentParser):
         super().__init__(formatter_class=partial(_HelpFormatter, lang=lang), **settings)
         self.lang = lang
         self._commands: Any = None
+        self._replaced: dict[str, tuple[str, str]] = {}
         self.add_argument("--lang", choices=LANGUAGES, default=lang, help="language of the output (default: en)")
 
     def describe(self, *, description: str, epilog: str = "") -> None:
@@ -40,6 +46,49 @@ class Parser(argparse.ArgumentParser):
             self._commands = self.add_subparsers(dest="action", metavar="ACTION", required=True, parser_class=kind)
         command: Parser = self._commands.add_parser(name, help=help, description=description or help, epilog=epilog)
         return command
+
+    def add_out(self, *, help: str, required: bool = False) -> None:
+        """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before."""
+        self.add_argument("-o", "--out", type=Path, metavar="FILE", required=required, help=help)
+        self.replaced("--output", "--out", like=_FILE)
+
+    def replaced(self, old: str, new: str, like: str = ".*") -> None:
+        """Answer an option that has another name now by the new name.
+
+        Args:
+            old: Its former name. If an option has this name today, only values of the former kind are answered.
+            new: What to write instead.
+            like: A regular expression for the former values.
+        """
+        self._replaced[old] = (new, like)
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As argparse; a former spelling is answered by the present one."""
+        for word, following in pairwise([*(args or ()), ""]):
+            if word == "--":
+                break
+            option, equals, value = word.partition("=")
+            if option not in self._replaced:
+                continue
+            new, like = self._replaced[option]
+            value = value if equals else "" if following.startswith("--") else following
+            if option not in self._option_string_actions or re.fullmatch(like, value):
+                sign = "=" if equals else " " * bool(value)
+                self.error(
+                    translate("{old} is now {new}", self.lang, old=f"{option}{sign}{value}", new=f"{new}{sign}{value}")
+                )
+        return super().parse_known_args(args, namespace)
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        """As argparse; numbers are called so, not int and float."""
+        try:
+            return super()._get_value(action, arg_string)
+        except argparse.ArgumentError:
+            kind = _KINDS.get(action.type)  # type: ignore[call-overload]  # whatever the type is
+            if kind is None:
+                raise
+            text = translate("expected {kind}, but found {found!r}", self.lang, kind=kind, found=arg_string)
+            raise argparse.ArgumentError(action, text) from None
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As argparse; an unknown option is answered by the nearest known one."""
