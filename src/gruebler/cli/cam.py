@@ -65,7 +65,12 @@ def add(parser: Parser) -> None:
     parser.add_argument("--roller", type=float, metavar="R", help="roller follower with this radius")
     parser.add_argument("--knife", action="store_true", help="knife-edge follower")
     parser.add_argument(
-        "--flat", type=float, nargs="?", const=0.0, metavar="E", help="flat-faced follower; E: its distance from the pivot"
+        "--flat",
+        type=float,
+        nargs="?",
+        const=0.0,
+        metavar="E",
+        help="flat-faced follower; E: its distance from the pivot",
     )
     parser.add_argument(
         "--offset", type=float, default=0.0, metavar="E", help="distance of the guide to the right of the cam's axis"

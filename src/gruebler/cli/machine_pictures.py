@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
-from pathlib import Path
 
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
@@ -24,7 +23,7 @@ _FEW = ("gif", "webp", "png")
 
 def add_picture_options(machine: Parser, *, help: str) -> None:
     """Options for the picture of a machine, besides its table; ``help`` explains ``--seconds``."""
-    machine.add_argument("-o", "--out", type=Path, metavar="FILE", help="also a picture: .svg, .png or .pdf")
+    machine.add_out(help="also a picture: .svg, .png or .pdf")
     machine.add_argument(
         "--animate", action="store_true", help="with -o: a moving picture: .svg, .html, .gif, .webp or .png (APNG)"
     )

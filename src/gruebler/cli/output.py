@@ -14,6 +14,7 @@ from gruebler.text import translate
 
 __all__ = ["print_json", "print_svg", "say_written", "write_file"]
 
+
 def print_json(document: Any, indent: int | None = 2) -> None:
     """Print plain data as JSON, valid on any output: null for what is not finite, escapes where it is not UTF-8.
 
