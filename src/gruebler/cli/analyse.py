@@ -15,13 +15,14 @@ from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import transmission_angle
 from gruebler.arrays import Reals
-from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, shown
+from gruebler.cli.analysis_table import check_csv, columns
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
+from gruebler.columns import Column, as_csv, shown
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.linkages import linkage_to_json
 from gruebler.kinematics import Motion, move

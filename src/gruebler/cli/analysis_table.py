@@ -2,48 +2,23 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from math import pi
 from pathlib import Path
-from typing import NamedTuple
-
-import numpy as np
 
 from gruebler.analysis.outputs import Output
 from gruebler.arrays import Reals
+from gruebler.columns import Column
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage
 
-__all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]
+__all__ = ["check_csv", "columns"]
 
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
-
-
-class Column(NamedTuple):
-    """A quantity over the rows."""
-
-    name: str
-    unit: str
-    values: Reals
-    """(rows,); NaN where it is not defined."""
-    natural: float = 0.0
-    """What such a quantity usually is: a value 12 digits below is rounding noise."""
-
-    @property
-    def header(self) -> str:
-        """Name and unit."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
-
-    def without(self, rows: int) -> Column:
-        """The column without its first rows."""
-        return self._replace(values=self.values[rows:])
 
 
 def columns(
@@ -132,38 +107,7 @@ def _by(own: str, per: str, order: int) -> str:
     return f"{own}/{per}{'' if order == 1 else '²'}"
 
 
-def shown(made: Sequence[Column]) -> list[list[str]]:
-    """The rows as texts of six digits, rounding noise as 0, a radius without end as ∞."""
-    cells = []
-    for column in made:
-        finite = np.abs(column.values[np.isfinite(column.values)])
-        noise = 1e-12 * max(finite.max(initial=0.0), column.natural)
-        values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
-        cells.append([_cell(value) for value in values])
-    return [list(row) for row in zip(*cells, strict=True)]
-
-
-def _cell(value: float) -> str:
-    if np.isfinite(value):
-        return f"{value + 0.0:.6g}"
-    return "∞" if np.isinf(value) else "–"
-
-
 def check_csv(path: Path | None) -> None:
     """`GrueblerError` if the name of the file promises something else than a table."""
     if path is not None and path.suffix.lower() not in ("", ".csv", ".txt"):
         raise GrueblerError("{path}: a table is written as CSV; end the name with .csv", path=path)
-
-
-def as_csv(made: Sequence[Column]) -> str:
-    """A table with the units in its header; an empty cell where a quantity is not defined.
-
-    Headers that begin with = + - @, a tab or a line end get an apostrophe in front, so that no spreadsheet takes the
-    name of a point for a formula. Numbers stay as they are.
-    """
-    text = io.StringIO()
-    writer = csv.writer(text)
-    writer.writerow(["'" + one if one.startswith(_FORMULA) else one for one in (column.header for column in made)])
-    for row in zip(*(column.values for column in made), strict=True):
-        writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
-    return text.getvalue()

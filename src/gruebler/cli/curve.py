@@ -11,13 +11,14 @@ import numpy as np
 
 from gruebler.analysis.drive_cycle import PathCycle
 from gruebler.arrays import Reals
-from gruebler.cli.analysis_table import Column, as_csv, check_csv
+from gruebler.cli.analysis_table import check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
+from gruebler.columns import Column, as_csv
 from gruebler.errors import GrueblerError
 from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
 

@@ -9,8 +9,8 @@ from math import pi
 import numpy as np
 
 from gruebler.arrays import Complexes, Reals
-from gruebler.cli.analysis_table import Column
 from gruebler.cli.point_inputs import point_name
+from gruebler.columns import Column
 from gruebler.geometry import inflection_circle, path_curvature, poles
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
