@@ -8,68 +8,47 @@ from math import pi
 
 import numpy as np
 
-from gruebler.arrays import Complexes, Reals
+from gruebler.arrays import Complexes
 from gruebler.cli.point_inputs import point_name
 from gruebler.columns import Column
 from gruebler.geometry import inflection_circle, path_curvature, poles
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.text import number, translate
 
 __all__ = ["curvature_columns", "pole_columns", "pole_list"]
-
-_WORDS = {
-    "en": {
-        "pole": "pole",
-        "far": "at infinity, direction {angle:.6g}°",
-        "none": "none: at rest against one another",
-        "towards": "direction",
-        "radius": "radius of curvature",
-        "centre": "centre of curvature",
-        "diameter": "inflection circle",
-        "pair": "links",
-    },
-    "de": {
-        "pole": "Pol",
-        "far": "im Unendlichen, Richtung {angle:.6g}°",
-        "none": "keiner: gegeneinander in Ruhe",
-        "towards": "Richtung",
-        "radius": "Krümmungsradius",
-        "centre": "Krümmungsmittelpunkt",
-        "diameter": "Wendekreisdurchmesser",
-        "pair": "Glieder",
-    },
-}
 
 
 def pole_columns(motion: Motion, lang: str = "en") -> list[Column]:
     """The pole of each pair of links (x, y), and its direction if it lies at infinity in some row."""
-    found, words, unit = poles(motion, motion.linkage.mechanism.chain.links), _WORDS[lang], motion.linkage.unit
-    out = []
-    for one, other in combinations(found.links, 2):
-        name, at, towards = f"{words['pole']} {one}/{other}", found.of(one, other), found.towards(one, other)
-        known = np.isfinite(at)
-        out += [
-            Column(f"{name} {axis}", unit, np.where(known, v, np.nan)) for axis, v in zip("xy", _parts(at), strict=True)
-        ]
+    found, unit = poles(motion, motion.linkage.mechanism.chain.links), motion.linkage.unit
+    columns = []
+    for first, second in combinations(found.links, 2):
+        name = translate("pole {links}", lang, links=f"{first}/{second}")
+        at, towards = found.of(first, second), found.towards(first, second)
+        columns += _place_columns(name, unit, at)
         if np.isfinite(towards).any():
-            out.append(Column(f"{name} {words['towards']}", "°", np.degrees(np.angle(towards)) % 180))
-    return out
+            direction = translate("{name} direction", lang, name=name)
+            columns.append(Column(direction, "°", np.degrees(np.angle(towards)) % 180))
+    return columns
 
 
 def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], list[list[str]]]:
     """Headers and rows of a table of all poles at one row."""
-    found, words, unit = poles(motion, motion.linkage.mechanism.chain.links), _WORDS[lang], motion.linkage.unit
+    found, unit = poles(motion, motion.linkage.mechanism.chain.links), motion.linkage.unit
     rows = []
-    for one, other in combinations(found.links, 2):
-        at, towards = found.of(one, other)[row], found.towards(one, other)[row]
+    for first, second in combinations(found.links, 2):
+        at, towards = found.of(first, second)[row], found.towards(first, second)[row]
         if np.isfinite(at):
-            said = ", ".join(f"{value:.6f}" for value in (at.real + 0.0, at.imag + 0.0))
+            separator = "; " if number(0.5, lang) == "0,5" else ", "
+            place = separator.join(number(value, lang, "z.6f") for value in (at.real, at.imag))
         elif np.isfinite(towards):
-            said = words["far"].format(angle=round(np.angle(towards) * 180 / pi % 180, 9) % 180)
+            angle = round(np.angle(towards) * 180 / pi % 180, 9) % 180
+            place = translate("at infinity, direction {angle:.6g}°", lang, angle=angle)
         else:
-            said = words["none"]
-        rows.append([f"{one}/{other}", said])
-    return [words["pair"], f"{words['pole']} [{unit}]"], rows
+            place = translate("none: no relative motion", lang)
+        rows.append([f"{first}/{second}", place])
+    return [translate("links", lang), translate("pole [{unit}]", lang, unit=unit)], rows
 
 
 def curvature_columns(
@@ -86,23 +65,27 @@ def curvature_columns(
         links: further links whose inflection circle is asked for.
         lang: of the names of columns.
     """
-    linkage, words = motion.linkage, _WORDS[lang]
-    out = []
+    linkage, columns = motion.linkage, list[Column]()
     frame, moving = linkage.mechanism.frame, list[str]()
     for point in points:
         path, name = path_curvature(motion, point), point_name(point)
-        out.append(Column(f"{name} {words['radius']}", linkage.unit, path.radius))
-        for axis, values in zip("xy", _parts(path.centre), strict=True):
-            known = np.isfinite(path.radius)
-            out.append(Column(f"{name} {words['centre']} {axis}", linkage.unit, np.where(known, values, np.nan)))
+        columns.append(Column(translate("{point} radius of curvature", lang, point=name), linkage.unit, path.radius))
+        centre = np.where(np.isfinite(path.radius), path.centre, np.nan)
+        columns += _place_columns(translate("{point} centre of curvature", lang, point=name), linkage.unit, centre)
         places = [point] if isinstance(point, LinkPoint) else reversed(linkage.points_named(point))
         moving.append(next(place.link for place in places if place.link != frame))
     moving += [link for link in links if not _pivoted(linkage, link)]
     for link in dict.fromkeys([*moving, *_floating(linkage)]):
         diameter = inflection_circle(motion, link).diameter
         if np.isfinite(diameter).any():
-            out.append(Column(f"{words['diameter']} {link}", linkage.unit, diameter))
-    return out
+            columns.append(Column(translate("inflection circle {link}", lang, link=link), linkage.unit, diameter))
+    return columns
+
+
+def _place_columns(name: str, unit: str, places: Complexes) -> list[Column]:
+    known = np.isfinite(places)
+    parts = (("x", places.real), ("y", places.imag))
+    return [Column(f"{name} {axis}", unit, np.where(known, values, np.nan)) for axis, values in parts]
 
 
 def _floating(linkage: Linkage) -> list[str]:
@@ -116,7 +99,3 @@ def _pivoted(linkage: Linkage, link: str) -> bool:
     """Whether a link is the frame, or turns about a point of it."""
     frame, joints = linkage.mechanism.frame, linkage.mechanism.chain.joints
     return link == frame or any(j.pair.name == "revolute" and {link, frame} <= set(j.links) for j in joints)
-
-
-def _parts(values: Complexes) -> tuple[Reals, Reals]:
-    return values.real, values.imag

@@ -59,11 +59,19 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
         self.replaced("--output", "--out", like=_FILE)
 
-    def add_printed(self, *, help: str) -> None:
-        """`--json`, and `-o FILE` for what the command prints otherwise (`output.printed_to_file`)."""
+    def add_printed(self, *, help: str, table: bool = False) -> None:
+        """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
+
+        Args:
+            help: What is printed with `--json`.
+            table: Whether the command itself writes a table to a .csv file.
+        """
         self.add_argument("--json", action="store_true", help=help)
-        self.add_out(help="write into a file instead: .txt, or .json as with --json")
-        self.set_defaults(printed=True)
+        if table:
+            self.add_out(help="write into a file instead: .txt, .json as with --json, or .csv with the columns")
+        else:
+            self.add_out(help="write into a file instead: .txt, or .json as with --json")
+        self.set_defaults(printed=True, table=table)
 
     def replaced(self, old: str, new: str, like: str = ".*") -> None:
         """Answer an option that has another name now by the new name.

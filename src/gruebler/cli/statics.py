@@ -16,6 +16,7 @@ from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
+from gruebler.cli.printed_file import is_csv
 from gruebler.cli.tables import print_table
 from gruebler.columns import Column, as_csv, shown
 from gruebler.errors import GrueblerError
@@ -76,10 +77,7 @@ def add(parser: Parser) -> None:
         help="a row at these drive values, one per drive; repeatable",
     )
     parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as + or +-; write --branch=- for -")
-    parser.add_argument(
-        "--json", action="store_true", help="print an object with columns and rows"
-    )
-    parser.add_out(help="write all columns as CSV, units in the header", endings=("csv",))
+    parser.add_printed(help="print an object with columns and rows", table=True)
     parser.replaced("--drive", "--range", like=".*:.*")
 
 
@@ -96,11 +94,11 @@ def run(arguments: argparse.Namespace) -> int:
         return 1
     held = statics(motion, loads)
     table = held.table(arguments.friction, lang)
-    if arguments.out is not None:
+    if is_csv(arguments.out):
         write_file(arguments.out, as_csv([*table, *held.components(lang)]).encode("utf-8"), lang)
-    if arguments.json:
+    elif arguments.json:
         print_json(_document(held, [*table, *held.components(lang)], lang))
-    elif arguments.out is None:
+    else:
         _print(held, table, lang)
     return 0 if motion.complete and not held.singular.any() else 1
 
