@@ -1,113 +1,16 @@
-"""The table of `gruebler analyse`: columns of numbers over the rows of a motion."""
+"""Columns of numbers as commands print and write them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
-from functools import partial
-from math import pi
 from pathlib import Path
 
-from gruebler.analysis.outputs import Output
-from gruebler.arrays import Reals
-from gruebler.columns import Column
+from gruebler.columns import Column, as_csv, shown
 from gruebler.errors import GrueblerError
-from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage
 
-__all__ = ["check_csv", "columns"]
-
-_POSE = ("x", "y")
-_RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
-_DEGREES = 180 / pi
-
-
-def columns(
-    motion: Motion,
-    outputs: Sequence[Output],
-    points: Iterable[str],
-    rates: Sequence[float] | None = None,
-    transmission: Reals | None = None,
-    word: str = "",
-) -> list[Column]:
-    """Drives, outputs with derivatives by the drive and in time, transmission angle, points.
-
-    Args:
-        motion: of one drive solved for speed 1, of several for their rates, to the second or third order; or to
-            order 0.
-        outputs: what is looked at.
-        points: names of points or joints.
-        rates: velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
-            the drive only.
-        transmission: (rows,) angle in radians, if there is one.
-        word: the name of that column.
-    """
-    linkage, mechanism = motion.linkage, motion.linkage.mechanism
-    out = []
-    for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
-        turning = drive.turning
-        out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
-    turning = mechanism.drives[0].turning
-    per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
-    timed = len(mechanism.drives) > 1 or rates is not None
-    v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
-    orders = range(1, motion.order + 1) if motion.order >= 2 else ()
-
-    def in_time(order: int, track: Callable[[int], Reals]) -> Reals:
-        """A derivative in time from those by the drive; of several drives they are in time already."""
-        if order == 1:
-            return track(1) * v
-        if order == 2:
-            return track(2) * v**2 + track(1) * a
-        return track(3) * v**3 + 3 * track(2) * v * a + track(1) * j
-
-    usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
-    for output in outputs:
-        own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
-        out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
-        for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
-            by_drive = output.values(motion, order)
-            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), by_drive, natural / unit**order))
-        for order in orders if timed else ():
-            name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
-            values = in_time(order, partial(output.values, motion))
-            out.append(Column(name, f"{own}/{_seconds(order)}", values, natural * usual[order - 1] / unit**order))
-    if transmission is not None:
-        out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))
-    for name in points:
-        at = motion.point(name)
-        out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
-        for order in orders:
-            values = in_time(order, partial(motion.point, name))
-            written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
-            natural = linkage.size * usual[order - 1] / unit**order
-            out += [
-                Column(f"{name} {axis}", written, values[:, k], natural) for k, axis in enumerate(_RATES[order - 1])
-            ]
-    return out
-
-
-def _seconds(order: int) -> str:
-    return ("s", "s²", "s³")[order - 1]
-
-
-def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column:
-    if turning:
-        return Column(name, "°", values * _DEGREES, _DEGREES)
-    return Column(name, linkage.unit, values, linkage.size)
-
-
-def _by(own: str, per: str, order: int) -> str:
-    """The unit of a derivative by the drive.
-
-    >>> _by("mm", "rad", 2), _by("rad", "rad", 1), _by("mm", "mm", 2)
-    ('mm/rad²', '', '1/mm')
-    """
-    if own == per:
-        return "" if order == 1 else f"1/{per}"
-    return f"{own}/{per}{'' if order == 1 else '²'}"
+__all__ = ["Column", "as_csv", "check_csv", "shown"]
 
 
 def check_csv(path: Path | None) -> None:
-    """`GrueblerError` if the name of the file promises something else than a table."""
+    """`GrueblerError` if the ending of the file is not that of a table."""
     if path is not None and path.suffix.lower() not in ("", ".csv", ".txt"):
-        raise GrueblerError("{path}: a table is written as CSV; end the name with .csv", path=path)
+        raise GrueblerError("-o {path}: a table is written as CSV; end the name with .csv", path=path)

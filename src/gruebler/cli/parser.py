@@ -33,7 +33,9 @@ class Parser(argparse.ArgumentParser):
         self.lang = lang
         self._commands: Any = None
         self._replaced: dict[str, tuple[str, str]] = {}
-        self.add_argument("--lang", choices=LANGUAGES, default=lang, help="language of the output (default: en)")
+        self.add_argument(
+            "--lang", choices=LANGUAGES, default=lang, help="language of the output (default: GRUEBLER_LANG, else en)"
+        )
 
     def describe(self, *, description: str, epilog: str = "") -> None:
         """The texts before and after the list of options."""

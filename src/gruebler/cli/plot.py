@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, told_picture
+from gruebler.cli.linkage_inputs import add_branch, add_linkage, with_points
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
@@ -39,9 +40,7 @@ def add(parser: Parser) -> None:
         "--kind family --count 7; gruebler plot mzc --kind ratio --ratio 0.005. Without -o the SVG goes to standard "
         "output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
     )
-    parser.add_argument(
-        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
-    )
+    add_linkage(parser)
     parser.add_argument(
         "--kind",
         choices=("transfer", "transmission", "hodograph", "curves", "family", "ratio"),
@@ -68,7 +67,7 @@ def add(parser: Parser) -> None:
         "--centre", type=float, default=180.0, metavar="DEG", help="ratio: the middle of the windows (default: 180)"
     )
     parser.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
-    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
+    add_branch(parser)
     parser.add_argument("--dark", action="store_true", help="dark background for PNG and PDF; SVG follows the reader")
     parser.add_out(help="a file: .svg, .png or .pdf", endings=("svg", "png", "pdf"))
 
@@ -78,6 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
     suffix = picture_suffix(arguments.out, arguments.dark)
     _check(arguments)
     linkage, between = linkage_and_range(arguments.linkage)
+    linkage = with_points(linkage, arguments.point)
     record = entry_of(arguments.linkage)
     name = "" if record is None else record.name.in_language(arguments.lang)
     figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))

@@ -8,7 +8,7 @@ import re
 from gruebler.errors import GrueblerError
 from gruebler.linkages import LinkPoint
 
-__all__ = ["point_name", "point_of"]
+__all__ = ["point_of"]
 
 _NUMBERS = re.compile(r"[-+.\deE]+,[-+.\deE]+")
 
@@ -33,8 +33,3 @@ def point_of(text: str) -> str | LinkPoint:
     if not (math.isfinite(x) and math.isfinite(y)):
         raise GrueblerError("a point has finite coordinates, but found {found!r}", found=text)
     return LinkPoint(link, x, y)
-
-
-def point_name(point: str | LinkPoint) -> str:
-    """What a table calls it."""
-    return point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}"

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
-from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
@@ -40,9 +40,7 @@ def add(parser: Parser) -> None:
         "Exit status: 0 success, 1 the linkage cannot move through all rows, or its forces are undetermined in some, "
         "2 wrong usage or unreadable input.",
     )
-    parser.add_argument(
-        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
-    )
+    add_linkage(parser)
     parser.add_argument(
         "--load",
         action="append",
@@ -76,7 +74,7 @@ def add(parser: Parser) -> None:
         metavar="VALUE[,VALUE]",
         help="a row at these drive values, one per drive; repeatable",
     )
-    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as + or +-; write --branch=- for -")
+    add_branch(parser)
     parser.add_printed(help="print an object with columns and rows", table=True)
     parser.replaced("--drive", "--range", like=".*:.*")
 
@@ -99,7 +97,7 @@ def run(arguments: argparse.Namespace) -> int:
     elif arguments.json:
         print_json(_document(held, [*table, *held.components(lang)], lang))
     else:
-        _print(held, table, lang)
+        _print(held, table.columns, lang)
     return 0 if motion.complete and not held.singular.any() else 1
 
 

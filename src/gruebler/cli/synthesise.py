@@ -31,7 +31,7 @@ from gruebler.synthesis import (
     synthesise_positions,
 )
 from gruebler.synthesis.functions import Coordination, Minimax
-from gruebler.text import message, number, translate
+from gruebler.text import message, number, numbers, translate
 
 __all__ = ["add", "run"]
 
@@ -365,7 +365,6 @@ def _print_optimum(optimum: Minimax, lang: str) -> None:
         turns = solution.kind == "four-bar"
         return number(degrees(value), lang, ".5g") + "°" if turns else number(value, lang, ".5g")
 
-    separator = "; " if number(0.5, lang) == "0,5" else ", "
     print(
         translate(
             "Minimax optimum: largest error {error} (before: {start}); lengths {lengths}; input from {phi:.6g}°, "
@@ -373,7 +372,7 @@ def _print_optimum(optimum: Minimax, lang: str) -> None:
             lang,
             error=output(optimum.error),
             start=output(optimum.start_error),
-            lengths=separator.join(number(length, lang) for length in solution.lengths),
+            lengths=numbers(solution.lengths, lang),
             phi=degrees(solution.input_start),
             psi=output(solution.output_start),
         )

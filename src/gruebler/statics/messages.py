@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from gruebler.columns import Column
+from gruebler.columns import Column, Table
 from gruebler.statics.friction import slide_friction
 from gruebler.statics.solution import Statics
 from gruebler.text import translate
@@ -16,7 +16,7 @@ __all__ = ["component_columns", "table"]
 _NOISE = 1e-13  # of the loads: a smaller effort is none
 
 
-def table(statics: Statics, friction: float | None = None, lang: str = "en") -> tuple[Column, ...]:
+def table(statics: Statics, friction: float | None = None, lang: str = "en") -> Table:
     """Drive values, their efforts, the sizes of joint forces, friction of slides; see `Statics.table`."""
     linkage, motion = statics.motion.linkage, statics.motion
     mechanism = linkage.mechanism
@@ -43,10 +43,10 @@ def table(statics: Statics, friction: float | None = None, lang: str = "en") -> 
             with_friction = translate("with friction {effort}", lang, effort=effort.name)
             forces.append(Column(rubbing, "N", slide.friction, largest))
             forces.append(Column(with_friction, effort.unit, effort.values + slide.effort))
-    return (*drives, *efforts, *forces)
+    return Table((*drives, *efforts, *forces))
 
 
-def component_columns(statics: Statics, lang: str = "en", *, reactions: bool = True) -> tuple[Column, ...]:
+def component_columns(statics: Statics, lang: str = "en", *, reactions: bool = True) -> Table:
     """The forces of all joints by components, and the moments of slides.
 
     Args:
@@ -67,7 +67,7 @@ def component_columns(statics: Statics, lang: str = "en", *, reactions: bool = T
                 header = translate("moment of {joint} on {link}", lang, joint=name, link=link)
                 moment = statics.couple(number, link)
                 columns.append(Column(header, f"N·{linkage.unit}", moment, largest * linkage.size))
-    return tuple(columns)
+    return Table(tuple(columns))
 
 
 def _largest_force(statics: Statics) -> float:

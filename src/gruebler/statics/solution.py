@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from gruebler.arrays import Flags, Reals
-from gruebler.columns import Column
+from gruebler.columns import Table
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.kinematics.messages import stop_message
@@ -114,7 +114,7 @@ class Statics(Brief):
             out = out + sign * self.reactions.couples[:, k]
         return out
 
-    def table(self, friction: float | None = None, lang: str = "en") -> tuple[Column, ...]:
+    def table(self, friction: float | None = None, lang: str = "en") -> Table:
         """Columns of drive values, drive efforts and the sizes of joint forces, over the rows.
 
         Args:
@@ -124,15 +124,15 @@ class Statics(Brief):
         >>> from gruebler.fourbar import SliderCrank
         >>> from gruebler.kinematics import move
         >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0]))
-        >>> columns = statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)})).table()
-        >>> columns[1].header, columns[1].values.round(9).tolist()
-        ('torque R(frame-crank) [N·mm]', [-300.0])
+        >>> table = statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)})).table()
+        >>> table["torque R(frame-crank)"].round(9).tolist(), table.columns[1].unit
+        ([-300.0], 'N·mm')
         """
         from gruebler.statics.messages import table
 
         return table(self, friction, lang)
 
-    def components(self, lang: str = "en", *, reactions: bool = True) -> tuple[Column, ...]:
+    def components(self, lang: str = "en", *, reactions: bool = True) -> Table:
         """Columns of the components of all joint forces and the moments of slides, over the rows.
 
         Args:

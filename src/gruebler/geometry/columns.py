@@ -1,4 +1,4 @@
-"""Columns of `gruebler analyse --poles --curvature`: instant centres, curvature of paths, inflection circles."""
+"""Columns of a table of a motion: instant centres, curvature of paths, inflection circles."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from math import pi
 import numpy as np
 
 from gruebler.arrays import Complexes
-from gruebler.cli.point_inputs import point_name
 from gruebler.columns import Column
-from gruebler.geometry import inflection_circle, path_curvature, poles
+from gruebler.geometry.curvature import inflection_circle, path_curvature
+from gruebler.geometry.instant_centres import poles
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
-from gruebler.text import number, translate
+from gruebler.text import numbers, translate
 
 __all__ = ["curvature_columns", "pole_columns", "pole_list"]
 
@@ -40,8 +40,7 @@ def pole_list(motion: Motion, row: int, lang: str = "en") -> tuple[list[str], li
     for first, second in combinations(found.links, 2):
         at, towards = found.of(first, second)[row], found.towards(first, second)[row]
         if np.isfinite(at):
-            separator = "; " if number(0.5, lang) == "0,5" else ", "
-            place = separator.join(number(value, lang, "z.6f") for value in (at.real, at.imag))
+            place = numbers((at.real, at.imag), lang, "z.6f")
         elif np.isfinite(towards):
             angle = round(np.angle(towards) * 180 / pi % 180, 9) % 180
             place = translate("at infinity, direction {angle:.6g}°", lang, angle=angle)
@@ -68,7 +67,7 @@ def curvature_columns(
     linkage, columns = motion.linkage, list[Column]()
     frame, moving = linkage.mechanism.frame, list[str]()
     for point in points:
-        path, name = path_curvature(motion, point), point_name(point)
+        path, name = path_curvature(motion, point), _point_name(point)
         columns.append(Column(translate("{point} radius of curvature", lang, point=name), linkage.unit, path.radius))
         centre = np.where(np.isfinite(path.radius), path.centre, np.nan)
         columns += _place_columns(translate("{point} centre of curvature", lang, point=name), linkage.unit, centre)
@@ -86,6 +85,10 @@ def _place_columns(name: str, unit: str, places: Complexes) -> list[Column]:
     known = np.isfinite(places)
     parts = (("x", places.real), ("y", places.imag))
     return [Column(f"{name} {axis}", unit, np.where(known, values, np.nan)) for axis, values in parts]
+
+
+def _point_name(point: str | LinkPoint) -> str:
+    return point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}"
 
 
 def _floating(linkage: Linkage) -> list[str]:

@@ -1,0 +1,157 @@
+"""The table of a motion: drives, outputs and points with their derivatives, columns of numbers with units."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import ceil, floor, log10, pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.transmission import transmission_angle
+from gruebler.arrays import Reals
+from gruebler.columns import Column, Table, as_csv
+from gruebler.kinematics.drive_rows import degrees
+from gruebler.kinematics.motion import Motion
+from gruebler.linkages import Linkage
+from gruebler.text import translate
+
+if TYPE_CHECKING:
+    from gruebler.analysis.drive_cycle import CycleSpan
+
+__all__ = ["Column", "Table", "as_csv", "default_rows", "motion_table"]
+
+_POSE = ("x", "y")
+_RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
+_DEGREES = 180 / pi
+_ROW_STEP = 15.0  # degrees between the rows of a full turn
+
+
+def motion_table(
+    motion: Motion,
+    outputs: Sequence[str | Output] | None = None,
+    points: Sequence[str] = (),
+    *,
+    rates: Sequence[float] | None = None,
+    transmission: str | None = None,
+    lang: str = "en",
+) -> Table:
+    """What a motion shows row by row: drives, outputs with derivatives by the drive and in time, points.
+
+    Angles are in degrees, their derivatives in radians, lengths in the linkage's unit, times in seconds. The name of
+    a derivative by the drive has a prime for each order; rates in time are ω, α, j of angles and v, a, j of lengths.
+
+    Args:
+        motion: Of one drive solved for speed 1, of several for their rates, to the second or third order; or to
+            order 0, for positions only.
+        outputs: Links or sliding joints; without them the linkage's outputs.
+        points: Names of points or joints.
+        rates: Velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
+            the drive only.
+        transmission: The output whose transmission angle gets a column.
+        lang: Language of the column names.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> from gruebler.kinematics import degrees, move
+    >>> table = motion_table(move(FourBar(25, 70, 40, 70).linkage(), degrees(0, 180, 90), speed=1.0), ["rocker"])
+    >>> [column.header for column in table]
+    ['R(frame-crank) [°]', 'rocker [°]', 'rocker′', 'rocker′′ [1/rad]']
+    >>> table["rocker"].round(3).tolist()
+    [121.946, 134.927, 131.753]
+    """
+    linkage, mechanism = motion.linkage, motion.linkage.mechanism
+    asked: Sequence[str | Output | None] = outputs or linkage.outputs or [None]
+    seen = [each if isinstance(each, Output) else find_output(linkage, each) for each in asked]
+    out = []
+    for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
+        turning = drive.turning
+        out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
+    turning = mechanism.drives[0].turning
+    per, unit = ("rad", 1.0) if turning else (linkage.unit, linkage.size)
+    timed = len(mechanism.drives) > 1 or rates is not None
+    v, a, j = (1.0, 0.0, 0.0) if rates is None else rates
+    orders = range(1, motion.order + 1) if motion.order >= 2 else ()
+
+    def in_time(order: int, track: Callable[[int], Reals]) -> Reals:
+        """A derivative in time from those by the drive; of several drives they are in time already."""
+        if order == 1:
+            return track(1) * v
+        if order == 2:
+            return track(2) * v**2 + track(1) * a
+        return track(3) * v**3 + 3 * track(2) * v * a + track(1) * j
+
+    usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
+    for output in seen:
+        own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
+        out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
+        for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
+            by_drive = output.values(motion, order)
+            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), by_drive, natural / unit**order))
+        for order in orders if timed else ():
+            name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
+            values = in_time(order, partial(output.values, motion))
+            out.append(Column(name, f"{own}/{_seconds(order)}", values, natural * usual[order - 1] / unit**order))
+    if transmission is not None:
+        angle = transmission_angle(motion, transmission)
+        out.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
+    for name in points:
+        at = motion.point(name)
+        out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
+        for order in orders:
+            values = in_time(order, partial(motion.point, name))
+            written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
+            natural = linkage.size * usual[order - 1] / unit**order
+            out += [
+                Column(f"{name} {axis}", written, values[:, k], natural) for k, axis in enumerate(_RATES[order - 1])
+            ]
+    return Table(tuple(out))
+
+
+def _seconds(order: int) -> str:
+    return ("s", "s²", "s³")[order - 1]
+
+
+def _scaled(name: str, turning: bool, linkage: Linkage, values: Reals) -> Column:
+    if turning:
+        return Column(name, "°", values * _DEGREES, _DEGREES)
+    return Column(name, linkage.unit, values, linkage.size)
+
+
+def _by(own: str, per: str, order: int) -> str:
+    """The unit of a derivative by the drive.
+
+    >>> _by("mm", "rad", 2), _by("rad", "rad", 1), _by("mm", "mm", 2)
+    ('mm/rad²', '', '1/mm')
+    """
+    if own == per:
+        return "" if order == 1 else f"1/{per}"
+    return f"{own}/{per}{'' if order == 1 else '²'}"
+
+
+def default_rows(span: CycleSpan, between: tuple[float, float] | None, turning: bool) -> Reals:
+    """Drive values for a table: a full turn by 15 degrees, or about 20 round numbers in the range; (rows, 1).
+
+    Args:
+        span: The range of the drive.
+        between: A smaller range, in degrees or the unit.
+        turning: Whether the drive turns.
+    """
+    if between is None and span.full:
+        return degrees(0, 360 * span.turns, _ROW_STEP).reshape(-1, 1)
+    scale = 180 / pi if turning else 1.0
+    low, high = between or (span.low * scale, span.high * scale)
+    step = _round_step((high - low) / 20)
+    first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    return np.array([[k * step / scale] for k in range(first, last + 1)])
+
+
+def _round_step(step: float) -> float:
+    """The next number of 1, 2, 5 times a power of ten.
+
+    >>> _round_step(0.03), _round_step(3.4)
+    (0.05, 5.0)
+    """
+    power = floor(log10(step))
+    return next(float(f"{k}e{power}") for k in (1, 2, 5, 10) if k * 10.0**power >= step * (1 - 1e-9))

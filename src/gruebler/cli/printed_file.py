@@ -1,0 +1,52 @@
+"""What a command prints, written into the file that -o names."""
+
+from __future__ import annotations
+
+import argparse
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
+
+from gruebler.errors import GrueblerError
+
+__all__ = ["is_csv", "printed_to_file"]
+
+_ENDINGS = (".txt", ".json")
+
+
+def is_csv(path: Path | None) -> bool:
+    """Whether a file is named for a table."""
+    return path is not None and path.suffix.lower() == ".csv"
+
+
+@contextmanager
+def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
+    """Within this, standard output goes into the file ``out`` of a command with `Parser.add_printed`, if one is given.
+
+    The file appears when the command has ended, whole or not at all. `GrueblerError` for another ending than .txt and
+    .json, and if ``--json`` does not agree with it.
+    """
+    path = arguments.out if getattr(arguments, "printed", False) else None
+    if path is None or (getattr(arguments, "table", False) and is_csv(path)):
+        yield
+        return
+    ending = path.suffix.lower()
+    if ending not in _ENDINGS or (arguments.json and ending != ".json"):
+        raise GrueblerError(
+            "-o {path}: expected a name that ends with {endings}",
+            path=path,
+            endings=".json" if arguments.json else " or ".join(_ENDINGS),
+        )
+    arguments.json = ending == ".json"
+    from gruebler.atomic_files import atomic_file
+    from gruebler.cli.output import say_written
+
+    with atomic_file(path, durable=False) as file:
+        printed = io.TextIOWrapper(file, encoding="utf-8", write_through=True)
+        try:
+            with redirect_stdout(printed):
+                yield
+        finally:
+            printed.detach()
+    say_written(path, arguments.lang)
