@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from gruebler.cli.geometry_columns import curvature_columns
+from gruebler.geometry.columns import curvature_columns
 from gruebler.formats.linkages import write_linkage
 from gruebler.fourbar import FourBar
 from gruebler.kinematics import move

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from gruebler.cli import main
-from gruebler.cli.analysis_table import Column, as_csv
+from gruebler.columns import Column, as_csv
 
 CHAIN = "R(Kürbel-b) R(b-c) R(c-d) R(d-Kürbel)"
 FOUR_BAR = "four-bar:25,70,40,70"

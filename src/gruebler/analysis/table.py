@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
 from functools import partial
 from math import ceil, floor, log10, pi
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import transmission_angle
 from gruebler.arrays import Reals
-from gruebler.errors import GrueblerError, nearest
+from gruebler.columns import Column, Table, as_csv
 from gruebler.kinematics.drive_rows import degrees
 from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage
@@ -30,67 +27,6 @@ _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
 _ROW_STEP = 15.0  # degrees between the rows of a full turn
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
-
-
-class Column(NamedTuple):
-    """A quantity over the rows."""
-
-    name: str
-    unit: str
-    values: Reals
-    """(rows,); NaN where it is not defined."""
-    natural: float = 0.0
-    """What such a quantity usually is: a value 12 digits below is rounding noise."""
-
-    @property
-    def header(self) -> str:
-        """Name and unit."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
-
-    def without(self, rows: int) -> Column:
-        """The column without its first rows."""
-        return self._replace(values=self.values[rows:])
-
-
-@dataclass(frozen=True)
-class Table:
-    """Columns over the same rows."""
-
-    columns: tuple[Column, ...]
-
-    def __iter__(self) -> Iterator[Column]:
-        return iter(self.columns)
-
-    def __len__(self) -> int:
-        """How many rows there are."""
-        return len(self.columns[0].values) if self.columns else 0
-
-    def __getitem__(self, name: str) -> Reals:
-        """The values of a column, (rows,); `GrueblerError` with the nearest name if there is none."""
-        for column in self.columns:
-            if column.name == name:
-                return column.values
-        names = [column.name for column in self.columns]
-        raise GrueblerError(
-            "the table has no column {name!r}{suggestion}; it has {names}",
-            name=name,
-            suggestion=nearest(name, names),
-            names=", ".join(names),
-        )
-
-    @property
-    def rows(self) -> Reals:
-        """All values; (rows, columns)."""
-        return np.column_stack([column.values for column in self.columns])
-
-    def without(self, rows: int) -> Table:
-        """The table without its first rows."""
-        return Table(tuple(column.without(rows) for column in self.columns))
-
-    def csv(self) -> str:
-        """The table as CSV, with units in its header."""
-        return as_csv(self.columns)
 
 
 def motion_table(
@@ -192,21 +128,6 @@ def _by(own: str, per: str, order: int) -> str:
     if own == per:
         return "" if order == 1 else f"1/{per}"
     return f"{own}/{per}{'' if order == 1 else '²'}"
-
-
-def as_csv(columns: Sequence[Column]) -> str:
-    """A table with the units in its header; an empty cell where a quantity is not defined.
-
-    Headers that begin with = + - @, a tab or a line end get an apostrophe in front, so that no spreadsheet takes the
-    name of a point for a formula. Numbers stay as they are.
-    """
-    text = io.StringIO()
-    writer = csv.writer(text)
-    headers = [column.header for column in columns]
-    writer.writerow(["'" + header if header.startswith(_FORMULA) else header for header in headers])
-    for row in zip(*(column.values for column in columns), strict=True):
-        writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
-    return text.getvalue()
 
 
 def default_rows(span: CycleSpan, between: tuple[float, float] | None, turning: bool) -> Reals:

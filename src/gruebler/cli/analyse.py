@@ -230,7 +230,7 @@ def _moved(linkage: Linkage, measures: Measures, rows: Reals, branch: str | None
 
 def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Namespace) -> list[Column]:
     """The columns of --poles and --curvature."""
-    from gruebler.cli.geometry_columns import curvature_columns, pole_columns
+    from gruebler.geometry.columns import curvature_columns, pole_columns
 
     columns = pole_columns(motion, arguments.lang) if arguments.poles and not _listed(arguments) else []
     if arguments.curvature:
@@ -274,7 +274,7 @@ def _report(
             rows = shown(columns, arguments.lang)
             print_table([column.header for column in columns], rows, numbers=range(len(columns)))
         if columns and _listed(arguments):
-            from gruebler.cli.geometry_columns import pole_list
+            from gruebler.geometry.columns import pole_list
 
             headers, rows = pole_list(motion, len(motion) - 1, arguments.lang)
             print()

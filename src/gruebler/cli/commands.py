@@ -58,12 +58,7 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
                 "grashof", message("type and rotatability of a four-bar or slider-crank, and the limits of its lengths")
             ),
             Command("statics", message("drive torque and joint forces under loads")),
-            Command("curve", message("the path of a point: length, area, cusps, inflections, double points")),
-            Command("cognates", message("the other linkages that trace the same coupler curve (Roberts, Chebyshev)")),
-            Command(
-                "straight", message("how straight a coupler curve is: relative deviation, longest piece in a band")
-            ),
-            Command("guidance", message("straight-line linkages by name, and their size for a task")),
+            Command("curve", message("the path of a point and its special points, straight parts, cognates")),
         ),
     ),
     (

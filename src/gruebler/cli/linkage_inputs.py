@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 
@@ -11,7 +12,9 @@ from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage, LinkPoint
 
-__all__ = ["add_branch", "add_curves", "add_linkage", "is_lengths", "linkage_of", "with_points"]
+__all__ = ["add_branch", "add_curves", "add_linkage", "is_lengths", "linkage_of", "size_of", "with_points"]
+
+_BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
 
 _KINDS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
     "four-bar": ("a,b,c,d", 4, FourBar),
@@ -56,8 +59,21 @@ def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
 
 
 def is_lengths(word: str) -> bool:
-    """Whether a word gives a kind of linkage and its lengths."""
-    return word.partition(":")[0] in _KINDS and ":" in word
+    """Whether a word gives a kind of linkage and its lengths, or only the lengths of a four-bar."""
+    kind, colon, _ = word.partition(":")
+    return kind in _KINDS if colon else _BARE.fullmatch(word) is not None
+
+
+def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
+    """The linkage of a kind and its lengths, or of the four lengths of a four-bar; None for any other word.
+
+    >>> size_of("slider-crank:25,70"), size_of("25,70,40,70"), size_of("lambda")
+    (SliderCrank(a=25.0, b=70.0, e=0.0), FourBar(a=25.0, b=70.0, c=40.0, d=70.0), None)
+    """
+    if not is_lengths(word):
+        return None
+    kind, _, lengths = word.rpartition(":")
+    return _of_lengths(kind or "four-bar", lengths)
 
 
 def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
@@ -66,9 +82,9 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
-    kind, colon, lengths = word.partition(":")
-    if is_lengths(word):
-        return _of_lengths(kind, lengths), None
+    if (size := size_of(word)) is not None:
+        return size.linkage(), None
+    kind, colon, _ = word.partition(":")
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
         from gruebler.formats.linkages import read_linkage
@@ -101,7 +117,7 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     return record.linkage(), record.dimensions.range
 
 
-def _of_lengths(kind: str, text: str) -> Linkage:
+def _of_lengths(kind: str, text: str) -> FourBar | SliderCrank | InvertedSliderCrank:
     names, least, make = _KINDS[kind]
     most = names.replace("[", "").replace("]", "").count(",") + 1
     try:
@@ -114,7 +130,7 @@ def _of_lengths(kind: str, text: str) -> Linkage:
         raise GrueblerError(
             "{kind}: expected {names}, but found {count} numbers", kind=kind, names=names, count=len(lengths)
         )
-    return make(*lengths).linkage()
+    return make(*lengths)
 
 
 def _forms() -> str:

@@ -7,7 +7,7 @@ import re
 
 from gruebler.errors import GrueblerError
 
-__all__ = ["length_of", "numbers_in_language", "same_unit"]
+__all__ = ["length_of", "same_unit"]
 
 _METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
 _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")
@@ -45,14 +45,3 @@ def same_unit(value: float, unit: str, wanted: str) -> float:
     if not wanted:
         raise GrueblerError("one length is in {unit}, the other has no unit: give both, or none", unit=unit)
     return float(f"{value * _METRES[unit] / _METRES[wanted]:.15g}")
-
-
-def numbers_in_language(text: str, lang: str) -> str:
-    """Numbers with a decimal comma in German; in lists of numbers a semicolon stands between them then.
-
-    >>> numbers_in_language("a = 1.5, 2.5", "de")
-    'a = 1,5; 2,5'
-    """
-    if lang != "de":
-        return text
-    return re.sub(r"(?<=\d)\.(?=\d)", ",", re.sub(r"(?<=\d), (?=[-−\d])", "; ", text))

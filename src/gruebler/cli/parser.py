@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from gruebler.errors import GrueblerError, nearest, shortened
-from gruebler.text import LANGUAGES, LOCALE, message, translate
+from gruebler.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 
 __all__ = ["Parser", "argparse_in_language", "wanted_language"]
 
@@ -50,16 +50,31 @@ class Parser(argparse.ArgumentParser):
         command: Parser = self._commands.add_parser(name, help=help, description=description or help, epilog=epilog)
         return command
 
-    def add_out(self, *, help: str, required: bool = False) -> None:
-        """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before."""
-        self.add_argument("-o", "--out", type=Path, metavar="FILE", required=required, help=help)
+    def add_out(self, *, help: str, required: bool = False, endings: Sequence[str] = ()) -> None:
+        """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before.
+
+        Args:
+            help: What is written.
+            required: Whether it must be given.
+            endings: The endings that the name may have, without the dot; others are refused. Empty: any.
+        """
+        kind = partial(_path_with_ending, endings=endings, lang=self.lang) if endings else Path
+        self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
         self._replaced.setdefault("--output", ("--out", _FILE))
 
-    def add_printed(self, *, help: str) -> None:
-        """`--json`, and `-o FILE` for what the command prints otherwise (`output.printed_to_file`)."""
+    def add_printed(self, *, help: str, table: bool = False) -> None:
+        """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
+
+        Args:
+            help: What is printed with `--json`.
+            table: Whether the command itself writes a table to a .csv file.
+        """
         self.add_argument("--json", action="store_true", help=help)
-        self.add_out(help="write into a file instead: .txt, or .json as with --json")
-        self.set_defaults(printed=True)
+        if table:
+            self.add_out(help="write into a file instead: .txt, .json as with --json, or .csv with the columns")
+        else:
+            self.add_out(help="write into a file instead: .txt, or .json as with --json")
+        self.set_defaults(printed=True, table=table)
 
     def replaced(self, old: str, new: str, like: str = ".*") -> None:
         """Answer an option that has another name now by the new name.
@@ -124,6 +139,18 @@ class Parser(argparse.ArgumentParser):
         yield self
         if self._commands is not None:
             yield from self._commands.choices.values()
+
+
+def _path_with_ending(text: str, endings: Sequence[str], lang: str) -> Path:
+    path = Path(text)
+    if path.suffix.lower().removeprefix(".") not in endings:
+        known = joined_by_or([f".{ending}" for ending in endings])
+        raise argparse.ArgumentTypeError(
+            translate(
+                "expected a file name that ends with {endings}, but found {found!r}", lang, endings=known, found=text
+            )
+        )
+    return path
 
 
 class _HelpFormatter(argparse.HelpFormatter):

@@ -6,12 +6,18 @@ import argparse
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
 
 from gruebler.errors import GrueblerError
 
-__all__ = ["printed_to_file"]
+__all__ = ["is_csv", "printed_to_file"]
 
 _ENDINGS = (".txt", ".json")
+
+
+def is_csv(path: Path | None) -> bool:
+    """Whether a file is named for a table."""
+    return path is not None and path.suffix.lower() == ".csv"
 
 
 @contextmanager
@@ -22,7 +28,7 @@ def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
     .json, and if ``--json`` does not agree with it.
     """
     path = arguments.out if getattr(arguments, "printed", False) else None
-    if path is None:
+    if path is None or (getattr(arguments, "table", False) and is_csv(path)):
         yield
         return
     ending = path.suffix.lower()
