@@ -127,7 +127,10 @@ def test_assortments_are_listed_as_they_come():
         (("enumerate", "--assortments", "--links", "100"), "117,343,357 assortments"),
         (("enumerate", "--assortments", "--links", "100000"), "more than 10^45 assortments"),
         (("enumerate", "--assortments", "--links", "1000000", "--multiple-joints"), "more than 10^65 assortments"),
-        (("enumerate", "--assortments", "--links", "300", "--multiple-joints"), "109,437,677,344,010,375,993,271 assortments"),
+        (
+            ("enumerate", "--assortments", "--links", "300", "--multiple-joints"),
+            "109,437,677,344,010,375,993,271 assortments",
+        ),
         (("enumerate", "--assortments", "--links", "10000000", "--count"), "more than a minute"),
         (("variants", "--links", "10", "--prismatic", "5", "--count"), "this takes about"),
         (("catalog", "search", "--enumerate", "--links", "14"), "this takes about"),
