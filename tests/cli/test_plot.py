@@ -67,7 +67,7 @@ def test_the_speed_is_in_turns_a_minute(capsys):
         (["mzc", "--kind", "family", "--link", "frame"], "'frame' is the frame"),
         (["mzc", "--kind", "hodograph", "--speed", "0"], "a speed that is not 0"),
         (["mzc", "--kind", "ratio", "--point", "K", "--point", "B"], "of one point"),
-        ([FOUR_BAR, "--dark"], "SVG is on the ground of its reader"),
+        ([FOUR_BAR, "--dark"], "--dark does not go with SVG"),
     ],
 )
 def test_one_sentence_for_what_cannot_be_plotted(capsys, arguments, words):
@@ -96,7 +96,7 @@ def test_draw_has_ghosts_and_dimensions(capsys):
 
 @pytest.mark.parametrize("suffix", ["svg", "html"])
 def test_what_is_on_the_ground_of_its_reader_is_not_dark(capsys, tmp_path, suffix):
-    assert "--dark is for" in run(capsys, "animate", FOUR_BAR, "-o", str(tmp_path / f"x.{suffix}"), "--dark")[2]
+    assert "--dark does not go with" in run(capsys, "animate", FOUR_BAR, "-o", str(tmp_path / f"x.{suffix}"), "--dark")[2]
 
 
 def test_german_plots_have_german_links_and_numbers(capsys):
