@@ -222,20 +222,20 @@ def _words() -> list[Case]:
             ("assur", "--list", "2"),
             ("derive", _SIX),
             ("extend", "vcomp", "--dyad"),
-            ("analyse", four_bar, "--drive", "0:90:30"),
+            ("analyse", four_bar, "--range", "0:90:30"),
             ("grashof", "25", "70", "40", "70"),
             ("gears", _GEARS),
             ("cam", _LIFT, "--base", "40", "--roller", "10"),
             ("geneva", "4", "--distance", "100"),
-            ("cognates", "25,70,40,70", "45,40"),
-            ("straight", "25,70,40,70", "45,40", "--band", "1"),
+            ("curve", "25,70,40,70", "45,40", "--cognates"),
+            ("curve", "25,70,40,70", "45,40", "--straight", "--band", "1"),
             ("draw", "vcomp", "-o", "out.svg"),
-            ("draw", four_bar, "--pose", "30", "-o", "out.svg"),
+            ("draw", four_bar, "--at", "30", "-o", "out.svg"),
             ("animate", four_bar, "-o", "out.svg"),
             ("gallery", "--links", "4", "-o", "out.html"),
             ("plot", four_bar, "--kind", "transfer", "-o", "out.svg"),
             ("curve", four_bar, "coupler:45,40"),
-            ("guidance", "lambda"),
+            ("curve", "--guidance", "lambda"),
             ("synthesise", "dead-centres", "--swing", "60", "--time-ratio", "1.2"),
             ("synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60"),
             ("statics", four_bar, "--load", "R(crank-coupler)=0,-10", "--at", "30"),
@@ -387,7 +387,7 @@ def _with_options(case: Case, chance: random.Random) -> Case:
         option, takes = chance.choice(_options(tuple(arguments[:2])))
         arguments.append(option)
         if takes and chance.random() < 0.95:
-            values = _FILES if option in ("-o", "--output") else (*_NUMBERS, *_TOKENS, *_VALUES)
+            values = _FILES if option in ("-o", "--out") else (*_NUMBERS, *_TOKENS, *_VALUES)
             arguments.append(chance.choice(values).replace("\0", "?"))
     return Case(tuple(arguments))
 

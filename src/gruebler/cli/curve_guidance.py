@@ -14,7 +14,7 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
-from gruebler.text import error_in_language, message, number, translate, translate_in_context
+from gruebler.text import LANGUAGES, error_in_language, message, number, translate, translate_in_context
 
 __all__ = ["run"]
 
@@ -150,8 +150,8 @@ def _item(linkage: Guidance) -> dict[str, object]:
     contact = linkage.contact
     return {
         "name": linkage.key,
-        "finder": linkage.name._asdict(),
-        "proportions": linkage.proportions._asdict(),
+        "finder": {lang: linkage.name.in_language(lang) for lang in LANGUAGES},
+        "proportions": {lang: linkage.proportions.in_language(lang) for lang in LANGUAGES},
         "mechanism": str(linkage.linkage.mechanism),
         "exact": linkage.is_exact,
         "length": linkage.piece.length,

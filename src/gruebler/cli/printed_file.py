@@ -35,7 +35,9 @@ def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
     ending = path.suffix.lower()
     if ending not in _ENDINGS or (arguments.json and ending != ".json"):
         known = [".json"] if arguments.json else [*_ENDINGS, *([".csv"] if arguments.table else [])]
-        raise GrueblerError("-o {path}: expected a name that ends with {endings}", path=path, endings=joined_by_or(known))
+        raise GrueblerError(
+            "-o {path}: expected a name that ends with {endings}", path=path, endings=joined_by_or(known)
+        )
     arguments.json = ending == ".json"
     from gruebler.atomic_files import atomic_file
     from gruebler.cli.output import say_written
