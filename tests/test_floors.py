@@ -14,8 +14,8 @@ ROOT = Path(__file__).parents[1]
 
 # From the ground up. A room may import rooms on lower floors and its own files; `errors` lies beneath them all.
 FLOORS = [
-    {"arrays", "errors", "text", "atomic_files", "columns", "documents", "notebook", "_numeric"},
-    {"chain", "cams", "gears", "geneva", "drawing/canvas"},
+    {"arrays", "errors", "text", "atomic_files", "documents", "notebook", "_numeric"},
+    {"chain", "columns", "cams", "gears", "geneva", "drawing/canvas"},
     {"mobility", "isomorphism", "drawing/machines"},
     {"enumeration", "mechanism"},
     {"assur", "linkages", "drawing/structure"},

@@ -14,7 +14,7 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
-from gruebler.text import error_in_language, message, number, translate, translate_in_context
+from gruebler.text import error_in_language, message, number, translate
 
 __all__ = ["run"]
 
@@ -22,6 +22,19 @@ _HEADERS = (
     *(message("name"), message("inventor"), "n", message("kind"), message("contact"), message("length")),
     *(message("band"), "Q_G", message("drive")),
 )
+_LINKS = {
+    "frame": message("frame"),
+    "crank": message("crank"),
+    "coupler": message("coupler"),
+    "rocker": message("rocker"),
+    "slider": message("slider"),
+    "block": message("block"),
+    "arm": message("arm"),
+    "bar": message("bar"),
+    "long": message("long"),
+    "short": message("short"),
+}
+"""The links of the linkages; a number may follow."""
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -129,7 +142,7 @@ def _in_language(key: str, lang: str) -> str:
     """A length's key, links and joints in a language."""
     if lang == "en":
         return key
-    links = re.sub(r"[a-z]+", lambda match: translate_in_context("link", match[0], lang), key)
+    links = re.sub(r"[a-z]+", lambda match: _LINKS[match[0]].in_language(lang) if match[0] in _LINKS else match[0], key)
     return links.replace("R(", "D(") if lang == "de" else links
 
 

@@ -95,7 +95,7 @@ def _read(word: str) -> TrainReading:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise GrueblerError(
-            "{word}: cannot be read: {value}", word=word, value=getattr(error, "strerror", None) or error
+            "{path}: cannot be read: {problem}", path=path, problem=getattr(error, "strerror", None) or error
         ) from None
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 

@@ -179,7 +179,7 @@ def _place(key: str, text: str | None) -> complex | None:
         u, v = (float(part) for part in text.split(","))
     except ValueError:
         raise GrueblerError(
-            "--{written}: expected two numbers U,V, but found {text_!r}", written=_WRITTEN[key], text_=text
+            "--{option}: expected two numbers X,Y, but found {found!r}", option=_WRITTEN[key], found=text
         ) from None
     return complex(u, v)
 
