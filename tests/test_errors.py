@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler import Chain, FourBar, GrueblerError, NotationError, circuit, draw, measures, move
-from gruebler.errors import LONGEST, LinkageError, shortened
+from gruebler import Chain, FourBar, GrueblerError, circuit, draw, measures, move
+from gruebler.errors import LONGEST, LinkageError, NotationError, shortened
 from gruebler.formats import linkage_from_json
 
 

@@ -4,8 +4,8 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from gruebler import PAIRS, Alphabet, PairError, Space, pair
-from gruebler.chain.pairs import Contact, read_symbols
+from gruebler.chain.pairs import PAIRS, Alphabet, Contact, Space, pair, read_symbols
+from gruebler.errors import PairError
 
 # Table 2.2 of the seeds as reconstructed: German symbol -> f in space (f = sum of the indices, W counts 1).
 TABLE_2_2 = {

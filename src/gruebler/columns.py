@@ -17,7 +17,6 @@ from gruebler.text import number
 __all__ = ["Column", "Table", "as_csv", "shown"]
 
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
-_NOISE = 1e-12  # of what is usual: a smaller value is rounding noise
 
 
 class Column(NamedTuple):
@@ -28,7 +27,9 @@ class Column(NamedTuple):
     values: Reals
     """(rows,); NaN where it is not defined."""
     natural: float = 0.0
-    """What such a quantity usually is: a value 12 digits below is rounding noise."""
+    """What such a quantity usually is."""
+    noise: float = 1e-12
+    """The part of the largest or usual value that rounding can make."""
 
     @property
     def header(self) -> str:
@@ -93,7 +94,7 @@ def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
     cells = []
     for column in columns:
         finite = np.abs(column.values[np.isfinite(column.values)])
-        noise = _NOISE * max(finite.max(initial=0.0), column.natural)
+        noise = column.noise * max(finite.max(initial=0.0), column.natural)
         values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
         cells.append([_cell(value, lang) for value in values])
     return [list(row) for row in zip(*cells, strict=True)]

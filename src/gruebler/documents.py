@@ -40,6 +40,8 @@ def load_document(path: Path, fail: Failing) -> Any:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise fail("is not UTF-8 text") from None
+    if not text.strip():
+        raise fail("is empty")
     if form == "TOML" and any(line.count(".") > _DOTS for line in text.splitlines()):
         raise fail(f"is nested too deeply: a line has more than {_DOTS} dots")
     try:
@@ -106,7 +108,7 @@ def _readable(message: str, prefix: str) -> str:
     """Msgspec's message with the path of the key in front: ``claims.n: expected int, got str``."""
     match = re.fullmatch(r"(.*?)(?: - at `\$\.?(.*)`)?", message, re.DOTALL)
     assert match is not None  # the second group is optional
-    text = match[1].replace("`", "")
+    text = re.sub(r"Object missing required field `(.*)`", r"the key '\1' is missing", match[1]).replace("`", "")
     text = text[:1].lower() + text[1:]
     key = (prefix + (match[2] or "")).rstrip(".")
     return f"{key}: {text}" if key else text

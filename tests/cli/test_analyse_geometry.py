@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from gruebler.geometry.columns import curvature_columns
 from gruebler.formats.linkages import write_linkage
 from gruebler.fourbar import FourBar
+from gruebler.geometry.columns import curvature_columns
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Mechanism

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler import CatalogError, LinkageError
 from gruebler.catalog import check_exercise
+from gruebler.errors import CatalogError, LinkageError
 from gruebler.exercises import (
     all_exercises,
     compare,

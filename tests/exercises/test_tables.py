@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from gruebler import PAIRS, FourBar, GrueblerError, rotatability
+from gruebler import FourBar, GrueblerError, rotatability
 from gruebler.catalog import entries
+from gruebler.chain.pairs import PAIRS
 from gruebler.exercises import TABLES, lines_of_table, teaching_table
 from gruebler.fourbar import FOUR_BAR_TYPES
 

@@ -5,11 +5,13 @@ import string
 
 import pytest
 
-from gruebler import Chain, ChainError, GrueblerError
+from gruebler import Chain, GrueblerError
+from gruebler.errors import ChainError
 from gruebler.mobility import mobility_report
 from gruebler.mobility.idle import IdleCondition
 from gruebler.mobility.messages import SENTENCES
 from gruebler.mobility.report import Verdict
+from gruebler.text import error_in_language
 
 VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"
 
@@ -120,5 +122,5 @@ def test_a_chain_of_very_many_links_is_refused_with_its_size_unless_it_is_wanted
     monkeypatch.setattr(rank, "_MOST_ROWS", 39)
     with pytest.raises(TooLargeError, match="40 equations") as refused:
         mobility_report(ring)
-    assert "40 Gleichungen" in refused.value.in_language("de")
+    assert "40 Gleichungen" in error_in_language(refused.value, "de")
     assert mobility_report(ring, large=True).generic == 17

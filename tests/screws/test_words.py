@@ -6,8 +6,9 @@ import string
 
 import pytest
 
-from gruebler import GrueblerError, LinkageError
+from gruebler import GrueblerError
 from gruebler.catalog import entries
+from gruebler.errors import LinkageError
 from gruebler.formats.linkages import write_linkage
 from gruebler.formats.screws import read_any_linkage, screws_to_json, spatial_from_json
 from gruebler.fourbar import FourBar
@@ -121,7 +122,7 @@ unit = "mm"
         ("lead = 5", 'lead = "five"', r"lead: expected float"),
         ("x = [0, 0, 1]", "x = [0, 1]", "expected 3 numbers"),
         ("x = [0, 0, 1]", "z = [0, 0, 1]", "a prismatic joint needs its x axis"),
-        ('unit = "mm"', "", "missing required field unit"),
+        ('unit = "mm"', "", "the key 'unit' is missing"),
         ('"P(frame-nut)" =', '"P(frame-drum)" =', "is not one of the joints"),
         ("spatial: ", "spatial: R(a-b) ", "joints, frame or drives"),
         ("[screws.joints]", "[screws.joints.joints]", "is not one of the joints|unknown key"),

@@ -238,6 +238,18 @@ def test_the_german_page_has_decimal_commas():
     )
 
 
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_indices_stand_lower_on_the_page(lang):
+    """Nothing with an underscore is left; each index is a piece of its own and no space is lost before an equals."""
+    made = drawn("mzc", lang).svg()
+    texts = ElementTree.fromstring(made).iter("{http://www.w3.org/2000/svg}text")
+    words = ["".join(node.itertext()) for node in texts]
+    assert not [text for text in words if "_" in text]
+    assert "QG = 0,075/15 = 0,005" in words if lang == "de" else "QG = 0.075/15 = 0.005" in words
+    assert 'Q<tspan dy="2.8" font-size="8.2">G</tspan> <tspan dy="-2.8">= ' in made
+    assert "B₀KI = 10/3·√6" in " ".join(words)
+
+
 def test_unknown_sheets():
     with pytest.raises(CatalogError, match="did you mean 'mzc'"):
         sheet("mzk")

@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler import Chain, code, counted, generic_mobility, is_isomorphic
+from gruebler import Chain, code, is_isomorphic
 from gruebler.enumeration import chains
+from gruebler.mobility import counted, generic_mobility
 from gruebler.transformations import derive, extend, grow_family
 from gruebler.transformations.growth import is_loop, removable_dyads
 from tests.assur.oracles import closed_chains

@@ -7,15 +7,13 @@ fully: docs/theory/events.md.
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.measures import Measures, measures
 from gruebler.analysis.rotatability import DriveRange, Rotatability, drive_range, motion_roles, rotatability
-from gruebler.analysis.table import Column, Table, motion_table
+from gruebler.analysis.table import motion_table
 from gruebler.analysis.transmission import deviation_angle, transmission_angle
 
 __all__ = [
-    "Column",
     "DriveRange",
     "Measures",
     "Rotatability",
-    "Table",
     "deviation_angle",
     "drive_cycle",
     "drive_range",

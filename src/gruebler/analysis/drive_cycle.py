@@ -14,10 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.change_point_rates import set_change_point_rates
-from gruebler.kinematics.contacts import MESH, POLAR, Condition
+from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
 from gruebler.kinematics.messages import stop_message

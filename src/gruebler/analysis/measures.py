@@ -49,6 +49,7 @@ from gruebler.errors import LinkageError
 from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.kinematics.root_finding import sample_function
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
 from gruebler.text import error_in_language
 
@@ -218,7 +219,7 @@ class Measures(Brief):
 
 
 def measures(
-    linkage: Linkage,
+    linkage: LinkageLike,
     speed_rpm: float | None = None,
     branch: str | Iterable[str] | None = None,
     output: str | None = None,
@@ -226,7 +227,7 @@ def measures(
     """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
 
     Args:
-        linkage: a linkage whose drive fixes the motion.
+        linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
         speed_rpm: the drive's speed in turns a minute, for the times; not zero.
         branch: as for `move`; without it that of the home position, else all ``+`` and 1. It is understood where the
             motion is begun: `gruebler.analysis.drive_cycle.drive_cycle`.
@@ -241,6 +242,7 @@ def measures(
     >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
     (1.357364, 0.115159, 1.205044)
     """
+    linkage = as_linkage(linkage)
     looked_at = find_output(linkage, output)
     speed = _speed(speed_rpm)
     cycle = drive_cycle(linkage, branch)

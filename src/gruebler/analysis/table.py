@@ -12,20 +12,23 @@ import numpy as np
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import transmission_angle
 from gruebler.arrays import Reals
-from gruebler.columns import Column, Table, as_csv
-from gruebler.kinematics.drive_rows import degrees
+from gruebler.columns import Column, Table
+from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion
-from gruebler.linkages import Linkage
+from gruebler.linkages import CamDisc, GenevaDriver, Linkage, NonCircular
 from gruebler.text import translate
 
 if TYPE_CHECKING:
     from gruebler.analysis.drive_cycle import CycleSpan
 
-__all__ = ["Column", "Table", "as_csv", "default_rows", "motion_table"]
+__all__ = ["default_rows", "motion_table"]
 
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
+# Of derivatives of the orders 0 to 3 where polynomials stand for cams and non-circular wheels: each one multiplies
+# rounding. docs/theory/wheels.md has 1e-10, 1e-7, 1e-4 for velocities, accelerations, jerks of up to 24, 45, 310.
+_POLYNOMIAL_NOISE = (1e-12, 1e-10, 1e-8, 1e-6)
 _ROW_STEP = 15.0  # degrees between the rows of a full turn
 
 
@@ -54,8 +57,8 @@ def motion_table(
         lang: Language of the column names.
 
     >>> from gruebler.fourbar import FourBar
-    >>> from gruebler.kinematics import degrees, move
-    >>> table = motion_table(move(FourBar(25, 70, 40, 70).linkage(), degrees(0, 180, 90), speed=1.0), ["rocker"])
+    >>> from gruebler.kinematics import from_degrees, move
+    >>> table = motion_table(move(FourBar(25, 70, 40, 70).linkage(), from_degrees(0, 180, 90), speed=1.0), ["rocker"])
     >>> [column.header for column in table]
     ['R(frame-crank) [°]', 'rocker [°]', 'rocker′', 'rocker′′ [1/rad]']
     >>> table["rocker"].round(3).tolist()
@@ -82,17 +85,21 @@ def motion_table(
             return track(2) * v**2 + track(1) * a
         return track(3) * v**3 + 3 * track(2) * v * a + track(1) * j
 
+    noise = (1e-12,) * 4
+    if any(isinstance(element, CamDisc | GenevaDriver | NonCircular) for element in linkage.elements.values()):
+        noise = _POLYNOMIAL_NOISE
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in seen:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
         for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
-            by_drive = output.values(motion, order)
-            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), by_drive, natural / unit**order))
+            name, usually = f"{output.name}{'′' * order}", natural / unit**order
+            out.append(Column(name, _by(own, per, order), output.values(motion, order), usually, noise[order]))
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
             values = in_time(order, partial(output.values, motion))
-            out.append(Column(name, f"{own}/{_seconds(order)}", values, natural * usual[order - 1] / unit**order))
+            usually = natural * usual[order - 1] / unit**order
+            out.append(Column(name, f"{own}/{_seconds(order)}", values, usually, noise[order]))
     if transmission is not None:
         angle = transmission_angle(motion, transmission)
         out.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
@@ -104,7 +111,8 @@ def motion_table(
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * usual[order - 1] / unit**order
             out += [
-                Column(f"{name} {axis}", written, values[:, k], natural) for k, axis in enumerate(_RATES[order - 1])
+                Column(f"{name} {axis}", written, values[:, k], natural, noise[order])
+                for k, axis in enumerate(_RATES[order - 1])
             ]
     return Table(tuple(out))
 
@@ -139,7 +147,7 @@ def default_rows(span: CycleSpan, between: tuple[float, float] | None, turning: 
         turning: Whether the drive turns.
     """
     if between is None and span.full:
-        return degrees(0, 360 * span.turns, _ROW_STEP).reshape(-1, 1)
+        return from_degrees(0, 360 * span.turns, _ROW_STEP).reshape(-1, 1)
     scale = 180 / pi if turning else 1.0
     low, high = between or (span.low * scale, span.high * scale)
     step = _round_step((high - low) / 20)

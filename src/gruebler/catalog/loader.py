@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -82,6 +83,10 @@ def entry(id: str) -> Entry:
             machines = dict.fromkeys(case.machine for case in exercises()[id].cases)
             raise CatalogError(
                 "{id!r} is an exercise; the machines in it are {machines}", id=id, machines=", ".join(machines)
+            ) from None
+        if os.path.isdir(id):  # noqa: PTH112  Path.is_dir refuses long names
+            raise CatalogError(
+                "{id!r} is a folder; expected a file, a chain or the id of a catalog entry", id=id
             ) from None
         from difflib import get_close_matches
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Pair, Space, pair
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import ChainError, PairError, nearest
 
 __all__ = ["check_connected", "checked_joint", "checked_links"]
@@ -90,21 +91,13 @@ def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
     """Refuse what is too small or in several parts."""
     if len(links) < 3:
         raise ChainError("a kinematic chain has at least three links, this one has {links}", links=_links(len(links)))
-    root = {link: link for link in links}
-
-    def find(link: str) -> str:
-        while root[link] != link:
-            root[link] = link = root[root[link]]
-        return link
-
+    sets = DisjointSets(links)
     for j in joints:
         for other in j.links[1:]:
-            root[find(other)] = find(j.links[0])
-    parts: dict[str, list[str]] = {}
-    for link in links:
-        parts.setdefault(find(link), []).append(link)
+            sets.unite(j.links[0], other)
+    parts = sets.classes()
     if len(parts) > 1:
-        sizes = sorted(parts.values(), key=len)
+        sizes = sorted(parts, key=len)
         raise ChainError(
             "the chain falls into {count} parts: no joint connects {some} with the rest",
             count=len(parts),

@@ -12,14 +12,15 @@ import numpy as np
 
 from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
-from gruebler.analysis.table import Column, as_csv, motion_table
+from gruebler.analysis.table import motion_table
 from gruebler.arrays import Reals
-from gruebler.cli.analysis_table import check_csv, shown
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of, with_points
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
+from gruebler.cli.printed_file import is_csv
 from gruebler.cli.tables import print_table, print_text
+from gruebler.columns import Column, as_csv, shown
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.linkages import linkage_to_json
 from gruebler.kinematics import Motion, move
@@ -102,13 +103,11 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
     )
-    parser.add_argument("--json", action="store_true", help="print an object with linkage, measures, columns and rows")
-    parser.add_out(help="write the table into a .csv file, with units in its header")
+    parser.add_printed(help="print an object with linkage, measures, columns and rows", table=True)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
-    check_csv(arguments.out)
     linkage, shown_range = linkage_of(arguments.linkage)
     linkage = with_points(linkage, arguments.point)
     turning = turning_drives(linkage)
@@ -240,7 +239,7 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
 
 def _listed(arguments: argparse.Namespace) -> bool:
     """Whether the poles are printed as a list below the table."""
-    return bool(arguments.poles and arguments.at and not arguments.json and arguments.out is None)
+    return bool(arguments.poles and arguments.at and not arguments.json and not is_csv(arguments.out))
 
 
 def _others(linkage: Linkage, measures: Measures) -> list[str]:
@@ -263,14 +262,14 @@ def _report(
     columns: Sequence[Column],
     arguments: argparse.Namespace,
 ) -> int:
-    if arguments.out is not None:
+    if is_csv(arguments.out):
         write_file(arguments.out, as_csv(columns).encode("utf-8"), arguments.lang)
     if arguments.json:
         print_json(_document(linkage, measures, motion, columns, arguments.lang))
     else:
         if measures is not None:
             _print_measures(linkage, measures, arguments.lang)
-        if columns and arguments.out is None:
+        if columns and not is_csv(arguments.out):
             rows = shown(columns, arguments.lang)
             print_table([column.header for column in columns], rows, numbers=range(len(columns)))
         if columns and _listed(arguments):

@@ -80,7 +80,7 @@ def add(parser: Parser) -> None:
     )
     parser.add_argument("--explain", action="store_true", help="explain the result step by step")
     parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
-    parser.add_argument("--json", action="store_true", help="print a list of objects, one per chain")
+    parser.add_printed(help="print a list of objects, one per chain")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -11,7 +11,7 @@ from gruebler.analysis.table import default_rows
 from gruebler.arrays import Reals
 from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
-from gruebler.kinematics import degrees
+from gruebler.kinematics import from_degrees
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
@@ -124,5 +124,5 @@ def _path(text: str, turning: bool) -> Reals:
         )
     if abs((stop - start) / step) >= _MOST_ROWS:
         raise GrueblerError("--range {text}: more than {most:,} rows", text=text, most=_MOST_ROWS)
-    rows = degrees(start, stop, step)
+    rows = from_degrees(start, stop, step)
     return rows if turning else np.degrees(rows)

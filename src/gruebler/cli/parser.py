@@ -6,6 +6,7 @@ import argparse
 import gettext
 import os
 import re
+import textwrap
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
@@ -59,7 +60,7 @@ class Parser(argparse.ArgumentParser):
         """
         kind = partial(_path_with_ending, endings=endings, lang=self.lang) if endings else Path
         self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
-        self.replaced("--output", "--out", like=_FILE)
+        self._replaced.setdefault("--output", ("--out", _FILE))
 
     def add_printed(self, *, help: str, table: bool = False) -> None:
         """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
@@ -129,6 +130,14 @@ class Parser(argparse.ArgumentParser):
             )
         return arguments
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """As argparse; a value that is none of the choices is answered by the nearest of them."""
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            suggestion = nearest(str(value)[:50], map(str, action.choices or ()))
+            raise argparse.ArgumentError(action, error.message + suggestion) from None
+
     def error(self, message: str) -> NoReturn:
         """Say in one sentence what is wrong and where the help is, and exit with status 2."""
         text = translate("{problem} (see {program} --help)", self.lang, problem=shortened(message), program=self.prog)
@@ -162,6 +171,13 @@ class _HelpFormatter(argparse.HelpFormatter):
     def add_text(self, text: str | None) -> None:
         """A paragraph."""
         super().add_text(text and translate(text, self._lang))
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "\n".join(indent + line for line in self._split_lines(text, width))
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        """Lines that keep options and commands with hyphens in one piece."""
+        return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
     def _get_help_string(self, action: argparse.Action) -> str | None:
         return action.help and translate(action.help, self._lang)

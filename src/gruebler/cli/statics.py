@@ -20,9 +20,9 @@ from gruebler.cli.printed_file import is_csv
 from gruebler.cli.tables import print_table
 from gruebler.columns import Column, as_csv, shown
 from gruebler.errors import GrueblerError
+from gruebler.forces import Loads, Statics, statics
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
-from gruebler.statics import Loads, Statics, statics
 from gruebler.text import message, translate
 
 __all__ = ["add", "run"]

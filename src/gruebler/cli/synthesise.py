@@ -9,7 +9,7 @@ from collections.abc import Callable
 from math import degrees, isnan, radians
 from pathlib import Path
 
-from gruebler.cli.output import print_json, say_written
+from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import SynthesisError
@@ -132,6 +132,11 @@ def run(arguments: argparse.Namespace) -> int:
     result = _solved(arguments, task, demands)
     best = result.designs[0] if result.designs else None
     optimum = _minimax(arguments, result) if arguments.action == "function" and arguments.minimax else None
+    if best is not None and arguments.out is not None:
+        write_linkage(arguments.out, best.linkage)
+        say_written(arguments.out, arguments.lang)
+    if result.designs and arguments.draw is not None:
+        _draw(arguments.draw, result, arguments.lang)
     if arguments.json:
         document = result.to_json()
         if optimum is not None:
@@ -141,12 +146,6 @@ def run(arguments: argparse.Namespace) -> int:
         _print(result, arguments.rejected, arguments.lang)
         if optimum is not None:
             _print_optimum(optimum, arguments.lang)
-    if best is not None and arguments.out is not None:
-        write_linkage(arguments.out, best.linkage)
-        say_written(arguments.out, arguments.lang)
-    if result.designs and arguments.draw is not None:
-        _draw(arguments.draw, result, arguments.lang)
-        say_written(arguments.draw, arguments.lang)
     return 0 if result.designs else 1
 
 
@@ -316,13 +315,11 @@ def _check_picture(path: Path) -> None:
 
 def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
     """The best design, or all on a page."""
-    from gruebler.atomic_files import atomic_file
     from gruebler.synthesis.pictures import design_figure, designs_page
 
     alone = path.suffix.lower() == ".svg"
     text = design_figure(found.task, found.designs[0], lang=lang).svg() if alone else designs_page(found, lang=lang)
-    with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+    write_file(path, text.encode("utf-8"), lang)
 
 
 def _minimax(arguments: argparse.Namespace, found: SynthesisResult) -> Minimax:

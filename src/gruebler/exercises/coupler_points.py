@@ -14,8 +14,7 @@ from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_ste
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.geometry.sizing import longest_in_band
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.text import Text
 
@@ -87,7 +86,7 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
         "Der Koppelpunkt liegt um u längs A-B und um v links davon; θ ist die Richtung von A nach B:",
         "K = A + u·(cos θ, sin θ) + v·(-sin θ, cos θ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     motion = size.motion(drives)
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
@@ -118,7 +117,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
         "Die Koppel zeigt stets von A durch den Gleitstein in B0 = (d; 0); C liegt an ihrem Ende, um b von A entfernt:",
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     rows = []
     for phi in drives.tolist():
         joint = a * cmath.exp(1j * phi)

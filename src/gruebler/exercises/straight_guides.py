@@ -14,8 +14,7 @@ from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import Path, PathPiece, coupler_path, linkage_path, path_piece
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.lever_contact import lever_contact
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
+from gruebler.kinematics import from_degrees, move
 from gruebler.text import Text
 
 __all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
@@ -45,7 +44,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     height = builder.find(
         "h", name, "√((b + e)² - (a + d)²)", sqrt((b + e) ** 2 - (a + d) ** 2), text=text, a=a, b=b, d=d, e=e
     )
-    drives = turns(0, 360, as_step(step))
+    drives = from_degrees(0, 360, as_step(step))
     motion = size.motion(drives)
     points = motion.point(b + e).value
     rows = [
@@ -130,7 +129,7 @@ def watt_linkage(
         "Zu jedem Winkel t der linken Schwinge: A aus t, B auf beiden Kreisen, F in der Mitte.",
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
     )
-    values = turns(start, stop, as_step(step))
+    values = from_degrees(start, stop, as_step(step))
     motion = size.motion(values - tilt, branch=-1)
     if not motion.complete:
         raise LinkageError("the left rocker cannot reach these angles: {message}", message=motion.message)
@@ -230,7 +229,7 @@ def double_rocker(
         "D folgt aus φ; A liegt auf dem Kreis um D mit Radius a und dem um den anderen Drehpunkt mit Radius b:",
         "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
     )
-    values = turns(start, stop, as_step(step))
+    values = from_degrees(start, stop, as_step(step))
     tilt = radians(frame)
     motion = size.motion(values - tilt)
     if not motion.complete:
@@ -327,7 +326,7 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
         "der Geraden durch A0 senkrecht zum Schieberweg.",
         "C = A - e·(B - A)/b, C_x = 0, C_y = 2·a·sin φ",
     )
-    drives = turns(-60, 60, as_step(step))
+    drives = from_degrees(-60, 60, as_step(step))
     points = size.motion(drives).point(-e).value
     rows = [(round(degrees(p), 9), round(float(z[0]), 12), float(z[1])) for p, z in zip(drives, points, strict=True)]
     builder.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)

@@ -110,6 +110,8 @@ def _is_linkage(path: Path) -> bool:
 
 def structures_of_json(text: str, source: str) -> Iterator[Structure]:
     """The structures of a JSON object, of a list of objects, or of an object with such a list under ``items``."""
+    if not text.strip():
+        raise NotationError("{path}: is empty", path=source)
     try:
         document = json.loads(text)
     except RecursionError:
@@ -122,14 +124,18 @@ def structures_of_json(text: str, source: str) -> Iterator[Structure]:
         raise NotationError("{path}: no chain in it; expected an object or a list of objects", path=source)
     documents = document if isinstance(document, list) else [document]
     for number, each in enumerate(documents, 1):
-        name = f"{source}[{number}]" if isinstance(document, list) else source
+        name = place = f"{source}[{number}]" if isinstance(document, list) else source
+        if isinstance(each, dict) and isinstance(each.get("name"), str) and each["name"].strip():
+            name = each["name"].strip()
+            place += f" ({name})"
         if isinstance(each, dict) and "id" in each:
-            yield Structure(each["id"], name, entry_of_data(each, name))
+            yield Structure(name, place, entry_of_data(each, place))
             continue
         try:
-            yield Structure(name, name, _structure_of_document(each))
+            structure = _structure_of_document(each)
         except GrueblerError as error:
-            raise NotationError("{name}: {error}", name=name, error=error) from None
+            raise NotationError("{place}: {error}", place=place, error=error) from None
+        yield Structure(name, place, structure)
 
 
 def _structure_of_document(document: Any) -> Chain | Linkage | SpatialLinkage:

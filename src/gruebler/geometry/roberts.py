@@ -227,8 +227,8 @@ def parallel_motion(
     The third cognate, moved so that its pivot C0 comes to A0, has a crank that turns with the given one: both are made
     one link; its coupler carries the point K + A0 - C0, and its rocker is left out.
 
-    >>> from gruebler.kinematics import degrees, move
-    >>> motion = move(parallel_motion(FourBar(25, 70, 40, 70), 45, 40), degrees(180, 540, 5))
+    >>> from gruebler.kinematics import from_degrees, move
+    >>> motion = move(parallel_motion(FourBar(25, 70, 40, 70), 45, 40), from_degrees(180, 540, 5))
     >>> motion.complete, bool(np.ptp(motion.angle("platform")) < 1e-9)
     (True, True)
     """

@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 
@@ -29,7 +30,6 @@ __all__ = [
     "search_modes",
 ]
 
-PIN, SLIDE = 0, 1
 Row = tuple[int, int, int, complex, complex, complex, complex]
 Method = Literal["exact", "degenerate", "search"]
 

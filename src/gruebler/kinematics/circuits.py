@@ -29,6 +29,7 @@ from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.kinematics.solve import move
 from gruebler.linkages import Linkage, LinkPoint, with_lower_pairs
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
 
 __all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
@@ -290,7 +291,7 @@ _OPEN = {
 
 
 def circuit(
-    linkage: Linkage,
+    linkage: LinkageLike,
     *,
     branch: str | Iterable[str] | None = None,
     drive: float | None = None,
@@ -320,8 +321,7 @@ def circuit(
     >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
     (True, [121.855431, -121.855431])
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    linkage = as_linkage(linkage)
     for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
             raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)

@@ -9,13 +9,13 @@ from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan
 
-__all__ = ["degrees", "drive_path", "drive_speeds"]
+__all__ = ["drive_path", "drive_speeds", "from_degrees"]
 
 
-def degrees(start: float, stop: float, step: float) -> Reals:
+def from_degrees(start: float, stop: float, step: float) -> Reals:
     """Angles from start to stop, both included, given in degrees, in radians.
 
-    >>> degrees(0, 180, 90).round(4).tolist()
+    >>> from_degrees(0, 180, 90).round(4).tolist()
     [0.0, 1.5708, 3.1416]
     """
     if not step or not np.isfinite([start, stop, step]).all() or (stop - start) / step < 0:

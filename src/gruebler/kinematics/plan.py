@@ -10,10 +10,11 @@ from math import radians
 
 import numpy as np
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, SolvedGroup, decompose
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.kinematics.contacts import Condition, contact_conditions, law_tables
 from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction

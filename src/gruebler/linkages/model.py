@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, isfinite, pi, sin
 from types import MappingProxyType
 from typing import Any
 
@@ -184,8 +184,15 @@ class Linkage:
         a, b = self.element(first, link), self.element(second, link)
         return hypot(a.x - b.x, a.y - b.y)
 
+    @property
+    def required_pose(self) -> Mapping[str, Pose2D]:
+        """The reference pose; `LinkageError` if the linkage has none."""
+        if self.reference_pose is None:
+            raise LinkageError("the linkage has no reference pose: give the place of every link in one position")
+        return self.reference_pose
+
     def points_named(self, name: str) -> tuple[LinkPoint, ...]:
-        """The point of that name, or of the joint of that name (on each of its links, the frame's first).
+        """The point of that name, of the joint of that name (on each of its links, the frame's first), or of LINK:X,Y.
 
         Raises `LinkageError` for a name that is neither, with the nearest one that is.
         """
@@ -194,6 +201,9 @@ class Linkage:
         chain = self.mechanism.chain
         number = chain.find_joint(name)
         if number is None:
+            place = _read_point(name)
+            if place is not None and place.link in chain.links:
+                return (place,)
             known = [*self.points, *chain.joint_names()]
             raise LinkageError(
                 "there is no point {name!r}{suggestion}; known are {known}",
@@ -476,3 +486,13 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
         return Pose2D(first.x, first.y, lines[0].angle)
     far = next((p for p in pins[1:] if hypot(p.x - first.x, p.y - first.y) > 0), None)
     return Pose2D(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)
+
+
+def _read_point(text: str) -> LinkPoint | None:
+    """The point of a link in its coordinates, as in ``coupler:45,40``; None for another text."""
+    link, _, place = text.rpartition(":")
+    try:
+        x, y = (float(part) for part in place.split(","))
+    except ValueError:
+        return None
+    return LinkPoint(link, x, y) if isfinite(x) and isfinite(y) else None

@@ -86,8 +86,7 @@ def _matrix(x: float, y: float, angle: float) -> Reals:
 
 
 def _home(linkage: Linkage) -> Reals:
-    assert linkage.reference_pose is not None
-    places = [linkage.reference_pose[link] for link in linkage.mechanism.chain.links]
+    places = [linkage.required_pose[link] for link in linkage.mechanism.chain.links]
     return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
 
 

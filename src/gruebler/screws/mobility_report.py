@@ -12,6 +12,7 @@ import numpy as np
 
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mobility import MobilityReport, mobility_report
 from gruebler.mobility.idle import IdleFreedom
 from gruebler.notebook import Brief
@@ -23,7 +24,7 @@ from gruebler.screws.joint_geometry import Reason
 from gruebler.screws.model import SpatialLinkage
 from gruebler.screws.reasons import reasons
 
-__all__ = ["Freedoms", "freedom_report", "freedoms"]
+__all__ = ["Freedoms", "freedoms"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -119,7 +120,7 @@ class Freedoms(Brief):
 
 
 def freedoms(
-    linkage: Linkage | SpatialLinkage,
+    linkage: LinkageLike | SpatialLinkage,
     *,
     at: float | Sequence[float] | None = None,
     branch: str | Iterable[str] | None = None,
@@ -148,8 +149,8 @@ def freedoms(
     >>> stretched.instant.mobility, stretched.mobility, stretched.finite.ways
     (2, 1, 2)
     """
-    if not isinstance(linkage, Linkage | SpatialLinkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    if not isinstance(linkage, SpatialLinkage):
+        linkage = as_linkage(linkage)
     if isinstance(tolerance, bool) or not isinstance(tolerance, int | float) or not 0 < tolerance < 0.01:
         raise LinkageError("the tolerance is a number between 0 and 0.01, not {tolerance!r}", tolerance=tolerance)
     closing, pose = closed_pose(linkage, _values(at), branch)
@@ -168,7 +169,3 @@ def _values(at: float | Sequence[float] | None) -> list[float] | None:
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
             raise LinkageError("a drive value is a finite number, not {value!r}", value=value)
     return [float(value) for value in values]
-
-
-freedom_report = freedoms
-"""The same under a name that the front door can have: there `freedoms` is this room."""

@@ -32,9 +32,9 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
         lang: language of title and description, ``en`` or ``de``.
         name: the title, if it is not to be found out.
 
-    >>> from gruebler.kinematics import degrees, move
+    >>> from gruebler.kinematics import from_degrees, move
     >>> from gruebler.fourbar import FourBar
-    >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), degrees(0, 90, 5))
+    >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), from_degrees(0, 90, 5))
     >>> draw_motion(motion).description[-39:]
     'A motion of 19 poses; 5 of them thinly.'
     """

@@ -16,7 +16,7 @@ from gruebler.drawing.linkage.posed_linkage import drive_rows
 from gruebler.drawing.structure.messages import title
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.text import decimal_sign_in
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
@@ -111,13 +111,12 @@ class PlotRun:
         return _RANGE[self.lang].format(low=self.value(self.drives[0]), high=self.value(self.drives[-1]))
 
 
-def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
+def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
     """Full turns from 0 on, else the range, or the part of it between two values; rates for a drive of speed 1.
 
     Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    linkage = as_linkage(linkage)
     if not linkage.mechanism.drives:
         raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
     cycle = drive_cycle(linkage, branch)

@@ -19,6 +19,7 @@ from gruebler.kinematics.messages import stop_message
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint, Pin
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
 
@@ -110,7 +111,7 @@ def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
 
 
 def posed_linkage(
-    linkage: Linkage,
+    linkage: LinkageLike,
     drive: float | Sequence[float] | None = None,
     *,
     branch: str | Iterable[str] | None = None,
@@ -125,8 +126,7 @@ def posed_linkage(
 
     Raises `LinkageError` for a pose that it cannot reach, and without a drive if there is no home.
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    linkage = as_linkage(linkage)
     try:
         given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
     except (TypeError, ValueError):

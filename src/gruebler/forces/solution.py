@@ -10,13 +10,13 @@ import numpy as np
 from gruebler.arrays import Flags, Reals
 from gruebler.columns import Table
 from gruebler.errors import LinkageError
+from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connections, reactions
+from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
+from gruebler.forces.motion_rates import drive_speed, with_velocities
 from gruebler.kinematics import Motion
 from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
-from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
-from gruebler.statics.loads import Loads, Rows, Wrench, loads_over_rows
-from gruebler.statics.motion_rates import drive_speed, with_velocities
 
 __all__ = ["Statics", "statics"]
 
@@ -128,7 +128,7 @@ class Statics(Brief):
         >>> table["torque R(frame-crank)"].round(9).tolist(), table.columns[1].unit
         ([-300.0], 'N·mm')
         """
-        from gruebler.statics.messages import table
+        from gruebler.forces.messages import table
 
         return table(self, friction, lang)
 
@@ -139,7 +139,7 @@ class Statics(Brief):
             lang: Of the names of the columns.
             reactions: On all links of a joint; otherwise of two links only on one, not on the frame.
         """
-        from gruebler.statics.messages import component_columns
+        from gruebler.forces.messages import component_columns
 
         return component_columns(self, lang, reactions=reactions)
 

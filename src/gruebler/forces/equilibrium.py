@@ -10,9 +10,9 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.loads import Wrench
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line
-from gruebler.statics.loads import Wrench
 
 __all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
 

@@ -9,11 +9,11 @@ import numpy.typing as npt
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.motion_rates import with_velocities
+from gruebler.forces.solution import Statics
 from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
-from gruebler.statics.motion_rates import with_velocities
-from gruebler.statics.solution import Statics
 
 __all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from gruebler.columns import Column, Table
-from gruebler.statics.friction import slide_friction
-from gruebler.statics.solution import Statics
+from gruebler.forces.friction import slide_friction
+from gruebler.forces.solution import Statics
 from gruebler.text import translate
 
 __all__ = ["component_columns", "table"]
