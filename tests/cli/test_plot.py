@@ -96,9 +96,8 @@ def test_draw_has_ghosts_and_dimensions(capsys):
 
 @pytest.mark.parametrize("suffix", ["svg", "html"])
 def test_what_is_on_the_ground_of_its_reader_is_not_dark(capsys, tmp_path, suffix):
-    assert (
-        "--dark does not go with" in run(capsys, "animate", FOUR_BAR, "-o", str(tmp_path / f"x.{suffix}"), "--dark")[2]
-    )
+    path = tmp_path / f"x.{suffix}"
+    assert "--dark does not go with" in run(capsys, "animate", FOUR_BAR, "-o", str(path), "--dark")[2]
 
 
 def test_german_plots_have_german_links_and_numbers(capsys):

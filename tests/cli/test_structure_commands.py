@@ -142,8 +142,8 @@ def test_extend(capsys):
 @pytest.mark.parametrize(
     ("command", "arguments", "words"),
     [
-        (assur, {}, "name one mechanism, or ask for --list N"),
-        (assur, {"mechanism": WATT, "list": 4}, "name one mechanism, or ask for --list N"),
+        (assur, {}, "give either a mechanism or --list N"),
+        (assur, {"mechanism": WATT, "list": 4}, "give either a mechanism or --list N"),
         (assur, {"list": 3}, "2, 4, 6"),
         (assur, {"mechanism": "R(0-1) R(1-2"}, "character 13"),
         (assur, {"mechanism": "nothing"}, "no entry 'nothing'"),

@@ -9,6 +9,7 @@ from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
 from gruebler.errors import GrueblerError
+from gruebler.text import joined_by_or
 
 __all__ = ["is_csv", "printed_to_file"]
 
@@ -22,21 +23,21 @@ def is_csv(path: Path | None) -> bool:
 
 @contextmanager
 def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
-    """Within this, standard output goes into the file ``out`` of a command with `Parser.add_printed`, if one is given.
+    """Standard output goes into the file ``out`` of a command with `Parser.add_printed`, if one is given.
 
-    The file appears when the command has ended, whole or not at all. `GrueblerError` for another ending than .txt and
-    .json, and if ``--json`` does not agree with it.
+    The file appears when the command has ended, whole or not at all; files with endings in ``written`` are written by
+    the command itself. `GrueblerError` for other endings than these, .txt and .json, and if ``--json`` does not agree.
     """
-    path = arguments.out if getattr(arguments, "printed", False) else None
-    if path is None or (getattr(arguments, "table", False) and is_csv(path)):
+    written: tuple[str, ...] = getattr(arguments, "written", ())
+    path = arguments.out if hasattr(arguments, "written") else None
+    ending = "" if path is None else path.suffix.lower()
+    if path is None or ending in written:
         yield
         return
-    ending = path.suffix.lower()
     if ending not in _ENDINGS or (arguments.json and ending != ".json"):
+        known = [".json"] if arguments.json else [*_ENDINGS, *written]
         raise GrueblerError(
-            "-o {path}: expected a name that ends with {endings}",
-            path=path,
-            endings=".json" if arguments.json else " or ".join(_ENDINGS),
+            "-o {path}: expected a name that ends with {endings}", path=path, endings=joined_by_or(known)
         )
     arguments.json = ending == ".json"
     from gruebler.atomic_files import atomic_file
