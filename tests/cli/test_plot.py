@@ -57,7 +57,7 @@ def test_the_speed_is_in_turns_a_minute(capsys):
         ([FOUR_BAR, "--kind", "family", "--count", "40"], "2 to 8 points"),
         ([FOUR_BAR, "--kind", "hodograph", "--speed", "nan"], "finite number"),
         ([FOUR_BAR, "--kind", "ratio", "--point", "R(frame-crank)"], "no windows with Q_G"),
-        (["crane_cyl", "--kind", "ratio"], "L/l1 needs"),
+        (["crane_cyl", "--kind", "ratio"], "a crank with two revolute joints"),
         ([FOUR_BAR, "-o", "x.gif"], "ends with .svg, .png or .pdf"),
         ([FOUR_BAR, "-o", "nowhere/x.svg"], "cannot be written"),
         (["R(0-1) R(1-2) R(2-0)"], "no dimensions"),

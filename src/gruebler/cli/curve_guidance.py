@@ -8,10 +8,10 @@ import re
 from collections.abc import Sequence
 
 from gruebler.cli import curve_capellen
-from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
+from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
 from gruebler.text import error_in_language, message, number, translate
@@ -90,8 +90,8 @@ def _task(arguments: argparse.Namespace) -> tuple[float, float, str] | None:
         return None
     if arguments.length is None or arguments.band is None:
         raise GrueblerError("a size needs both --length and --band")
-    length, unit = length_of("length", arguments.length)
-    return length, same_unit(*length_of("band", arguments.band), unit), unit
+    length, unit = length_of("--length", arguments.length)
+    return length, same_unit(*length_of("--band", arguments.band), unit), unit
 
 
 def _print_table(linkages: Sequence[Guidance], lang: str) -> None:
