@@ -71,7 +71,7 @@ def test_geneva(capsys):
     assert found["motion"][-1]["wheel_deg"] == pytest.approx(-90)
     _, out, _ = run(capsys, "geneva", "6", "--internal", "--lang", "de", "--step", "90")
     assert "Rastanteil einer Umdrehung" in out
-    assert out.splitlines()[-1].split()[:3] == ["360°", "60.000000°", "0.333333"]
+    assert out.splitlines()[-1].split()[:3] == ["360°", "60,000000°", "0,333333"]
 
 
 def test_cam(capsys):

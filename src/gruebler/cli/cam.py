@@ -83,7 +83,7 @@ def add(parser: Parser) -> None:
         help="swinging follower: length of its arm (0 for a flat face) and distance of its pivot",
     )
     parser.add_argument("--step", type=float, metavar="DEG", help="also a table over the turn with this step")
-    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_printed(help="print an object; with --laws a list", pictures=True)
     parser.add_argument(
         "--at", type=float, metavar="DEG", help="with -o: the cam angle shown (default: greatest pressure angle)"
     )

@@ -181,9 +181,9 @@ def _path(arguments: argparse.Namespace) -> int:
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
     if is_csv(arguments.out):
         write_file(arguments.out, as_csv(_polygon(curve)).encode("utf-8"), arguments.lang)
-    elif arguments.json:
+    if arguments.json:
         print_json(_document(curve, contacts, directions))
-    else:
+    elif not is_csv(arguments.out):
         _print(curve, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
     return 0
 

@@ -8,13 +8,13 @@ import re
 from collections.abc import Sequence
 
 from gruebler.cli import curve_capellen
-from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
+from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
-from gruebler.text import LANGUAGES, error_in_language, message, number, translate, translate_in_context
+from gruebler.text import LANGUAGES, error_in_language, message, number, translate
 
 __all__ = ["run"]
 
@@ -22,6 +22,19 @@ _HEADERS = (
     *(message("name"), message("inventor"), "n", message("kind"), message("contact"), message("length")),
     *(message("band"), "Q_G", message("drive")),
 )
+_LINKS = {
+    "frame": message("frame"),
+    "crank": message("crank"),
+    "coupler": message("coupler"),
+    "rocker": message("rocker"),
+    "slider": message("slider"),
+    "block": message("block"),
+    "arm": message("arm"),
+    "bar": message("bar"),
+    "long": message("long"),
+    "short": message("short"),
+}
+"""The links of the linkages; a number may follow."""
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -77,8 +90,8 @@ def _task(arguments: argparse.Namespace) -> tuple[float, float, str] | None:
         return None
     if arguments.length is None or arguments.band is None:
         raise GrueblerError("a size needs both --length and --band")
-    length, unit = length_of("length", arguments.length)
-    return length, same_unit(*length_of("band", arguments.band), unit), unit
+    length, unit = length_of("--length", arguments.length)
+    return length, same_unit(*length_of("--band", arguments.band), unit), unit
 
 
 def _print_table(linkages: Sequence[Guidance], lang: str) -> None:
@@ -129,7 +142,7 @@ def _in_language(key: str, lang: str) -> str:
     """A length's key, links and joints in a language."""
     if lang == "en":
         return key
-    links = re.sub(r"[a-z]+", lambda match: translate_in_context("link", match[0], lang), key)
+    links = re.sub(r"[a-z]+", lambda match: _LINKS[match[0]].in_language(lang) if match[0] in _LINKS else match[0], key)
     return links.replace("R(", "D(") if lang == "de" else links
 
 

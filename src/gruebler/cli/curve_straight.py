@@ -8,10 +8,10 @@ import math
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
 from gruebler.cli.linkage_inputs import linkage_of, size_of
-from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json
 from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
+from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.geometry.straight import (
     Path,
     PathPiece,
@@ -86,7 +86,7 @@ def _piece(arguments: argparse.Namespace, centre: float) -> PathPiece | None:
         raise GrueblerError("--direction does not go with --band, which finds the best line")
     if not ranges:
         raise GrueblerError("{lengths} cannot be assembled in any position", lengths=arguments.linkage)
-    band, band_unit = length_of("band", arguments.band)
+    band, band_unit = length_of("--band", arguments.band)
     width = same_unit(band, band_unit, unit) if band_unit else band
     return max((longest_piece(path, *ends, width) for ends in ranges), key=lambda piece: piece.length)
 

@@ -90,7 +90,7 @@ def add(parser: Parser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """List or count what the arguments ask for."""
     if arguments.assortments:
-        arguments.printed, arguments.table = True, False
+        arguments.written = ()
         with printed_to_file(arguments):
             return assortments(arguments)
     request = Request(

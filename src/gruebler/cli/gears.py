@@ -50,7 +50,7 @@ def add(parser: Parser) -> None:
         "1 undetermined, contradictory or impossible to assemble, 2 wrong usage or unreadable input.",
     )
     parser.add_argument("train", metavar="TRAIN|FILE", help="a text, a file of statements (.txt) or a table (.toml)")
-    parser.add_argument("--json", action="store_true", help="an object; numbers as exact fractions and decimals")
+    parser.add_printed(help="print an object; numbers as exact fractions and decimals", pictures=True)
     parser.add_argument("--teeth", action="store_true", help="with -o: involute teeth instead of pitch circles")
     add_picture_options(parser, help="with --animate: seconds for a turn of the fastest link (default: 4)")
 
@@ -95,7 +95,7 @@ def _read(word: str) -> TrainReading:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise GrueblerError(
-            "{word}: cannot be read: {value}", word=word, value=getattr(error, "strerror", None) or error
+            "{path}: cannot be read: {problem}", path=path, problem=getattr(error, "strerror", None) or error
         ) from None
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 

@@ -67,7 +67,7 @@ def add(parser: Parser) -> None:
     parser.add_argument("--distance", type=float, metavar="D", help="distance of the axes: adds the lengths")
     parser.add_argument("--speed", type=float, metavar="RPM", help="driver speed in turns per minute: adds the times")
     parser.add_argument("--step", type=float, metavar="DEG", help="also a table over the driver's turn with this step")
-    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_printed(help="print an object with all figures", pictures=True)
     parser.add_argument("--at", type=float, metavar="DEG", help="with -o: the driver angle shown (default: 0)")
     parser.add_argument("--plot", action="store_true", help="with -o: add diagrams of angle, ratio and acceleration")
     add_picture_options(parser, help="with --animate: seconds for a turn (default: 4)")

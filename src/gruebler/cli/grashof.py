@@ -36,7 +36,7 @@ def add(parser: Parser) -> None:
     parser.add_argument(
         "--turns", choices=("a", "b", "c"), metavar="LINK", help="a, b or c: ask whether this link turns fully"
     )
-    parser.add_argument("--json", action="store_true", help="one object; with --free its items")
+    parser.add_printed(help="print an object; with --free, its items")
 
 
 def run(arguments: argparse.Namespace) -> int:

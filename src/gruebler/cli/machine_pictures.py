@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
@@ -22,11 +23,8 @@ _FEW = ("gif", "webp", "png")
 
 
 def add_picture_options(machine: Parser, *, help: str) -> None:
-    """Options for the picture of a machine, besides its table; ``help`` explains ``--seconds``."""
-    machine.add_out(help="also a picture: .svg, .png or .pdf")
-    machine.add_argument(
-        "--animate", action="store_true", help="with -o: a moving picture: .svg, .html, .gif, .webp or .png (APNG)"
-    )
+    """Options for the picture of a machine and for what is printed; ``help`` explains ``--seconds``."""
+    machine.add_argument("--animate", action="store_true", help="with -o: a moving picture")
     machine.add_argument("--seconds", type=float, metavar="S", help=help)
     machine.add_argument("--dark", action="store_true", help="with -o: a dark background for PNG, GIF, WebP and PDF")
 
@@ -35,6 +33,8 @@ def refuse_picture(arguments: argparse.Namespace, why: Message) -> None:
     """`GrueblerError` with the reason if an option for pictures is given."""
     for option in ("out", *_OPTIONS):
         value = getattr(arguments, option, None)
+        if option == "out" and not _is_picture(value):
+            continue
         if value is not None and value is not False:
             raise GrueblerError("--{option}: {why}", option=option, why=why)
 
@@ -51,11 +51,16 @@ def is_few(arguments: argparse.Namespace) -> bool:
     return arguments.out is not None and arguments.out.suffix.lower().removeprefix(".") in _FEW
 
 
+def _is_picture(path: Path | None) -> bool:
+    """Whether a file is named that does not hold what is printed."""
+    return path is not None and path.suffix.lower() not in (".txt", ".json")
+
+
 def write_picture(
     arguments: argparse.Namespace, still: Callable[[], Figure], moving: Callable[[float], MovingPicture]
 ) -> None:
     """Write the picture if a file is named; ``moving`` takes the seconds."""
-    if arguments.out is None:
+    if not _is_picture(arguments.out):
         refuse_picture(arguments, message("needs a file for the picture: -o FILE"))
         return
     if not arguments.animate:

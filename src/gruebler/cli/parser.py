@@ -19,6 +19,7 @@ from gruebler.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 
 __all__ = ["Parser", "argparse_in_language", "wanted_language"]
 
+_PICTURES = (".svg", ".png", ".pdf", ".html", ".gif", ".webp")
 _FILE = r".+\.[A-Za-z]\w{1,4}"
 _KINDS = {int: message("a whole number"), float: message("a number")}
 
@@ -62,19 +63,25 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
         self._replaced.setdefault("--output", ("--out", _FILE))
 
-    def add_printed(self, *, help: str, table: bool = False) -> None:
+    def add_printed(self, *, help: str, table: bool = False, pictures: bool = False) -> None:
         """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
 
         Args:
             help: What is printed with `--json`.
             table: Whether the command itself writes a table to a .csv file.
+            pictures: Whether it writes pictures, besides what it prints.
         """
         self.add_argument("--json", action="store_true", help=help)
-        if table:
+        if pictures:
+            self.add_out(
+                help="also a picture: .svg, .png or .pdf, with --animate .svg, .html, .gif, .webp or .png (APNG); or "
+                "write what is printed: .txt, or .json as with --json"
+            )
+        elif table:
             self.add_out(help="write into a file instead: .txt, .json as with --json, or .csv with the columns")
         else:
             self.add_out(help="write into a file instead: .txt, or .json as with --json")
-        self.set_defaults(printed=True, table=table)
+        self.set_defaults(written=_PICTURES if pictures else (".csv",) if table else ())
 
     def replaced(self, old: str, new: str, like: str = ".*") -> None:
         """Answer an option that has another name now by the new name.

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import cmath
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, told_picture
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, with_points
@@ -23,9 +20,6 @@ from gruebler.linkages import Linkage
 from gruebler.text import joined_by_or, translate
 
 __all__ = ["add", "run"]
-
-_LEAST, _MOST = 1e-6, 0.02  # Q_G that are shown
-_STEP, _WINDOWS = math.radians(3.0), 120  # of the windows in which the range is sought; how many are shown then
 
 
 def add(parser: Parser) -> None:
@@ -178,7 +172,7 @@ def _place(key: str, text: str | None) -> complex | None:
         u, v = (float(part) for part in text.split(","))
     except ValueError:
         raise GrueblerError(
-            "--{written}: expected two numbers U,V, but found {text_!r}", written=_WRITTEN[key], text_=text
+            "--{option}: expected two numbers X,Y, but found {found!r}", option=_WRITTEN[key], found=text
         ) from None
     return complex(u, v)
 
@@ -186,36 +180,15 @@ def _place(key: str, text: str | None) -> complex | None:
 def _ratio(asked: _Asked) -> Figure:
     """Q_G and L/l1 of windows about a crank angle, against the tangent there."""
     from gruebler.drawing.structure.messages import title
-    from gruebler.geometry.straight import PathPiece, linkage_path, path_piece, piece_of_ratio
-    from gruebler.kinematics import move
+    from gruebler.geometry.sizing import crank_length, tangent_windows
+    from gruebler.geometry.straight import linkage_path, piece_of_ratio
 
-    given, linkage = asked.arguments, asked.linkage
-    crank = _crank(linkage)
-    point, middle = asked.points[0], math.radians(given.centre)
-    motion = move(linkage, [middle], speed=1.0, branch=given.branch)
-    if not len(motion):
-        raise GrueblerError("{reason}", reason=motion.reason)
-    path = linkage_path(linkage, point, given.branch)
-    tangent = cmath.phase(complex(motion.complex_point(point, 1)[0]))
-
-    def within(windows: Iterable[float]) -> list[PathPiece]:
-        pieces = (path_piece(path, middle - w / 2, middle + w / 2, tangent, samples=361) for w in windows)
-        return [p for p in pieces if _LEAST <= p.ratio <= _MOST]
-
-    rough = [p.end - p.start for p in within(_STEP * np.arange(1, round(2 * math.pi / _STEP) + 1))]
-    ends = (rough[0] - _STEP, min(rough[-1] + _STEP, 2 * math.pi)) if rough else (0.0, 0.0)
-    shown = within(np.linspace(*ends, _WINDOWS)[1:]) if rough else []
-    if len(shown) < 2:
-        raise GrueblerError(
-            "the path of {point} about {centre:g} degrees has no windows with Q_G from {least:g} to {most:g}",
-            point=point,
-            centre=given.centre,
-            least=_LEAST,
-            most=_MOST,
-        )
+    given, linkage, point = asked.arguments, asked.linkage, asked.points[0]
+    crank, centre = crank_length(linkage), math.radians(given.centre)
+    curve = tangent_windows(linkage, point, centre, branch=given.branch)
     marked = None
     if given.ratio is not None:
-        piece = piece_of_ratio(path, middle, given.ratio, tangent)
+        piece = piece_of_ratio(linkage_path(linkage, point, given.branch), centre, given.ratio)
         if piece is None:
             raise GrueblerError(
                 "every window about {centre:g} degrees is straighter than Q_G = {ratio:g}",
@@ -225,27 +198,13 @@ def _ratio(asked: _Asked) -> Figure:
         marked = piece.end - piece.start, piece.ratio, piece.length / crank
     name = title(linkage.mechanism, given.lang, asked.name)
     return ratio_diagram(
-        [p.end - p.start for p in shown],
-        [p.ratio for p in shown],
-        [p.length / crank for p in shown],
+        curve.widths,
+        curve.ratios,
+        curve.lengths / crank,
         at=marked,
         lang=given.lang,
         title=translate("{name}: relative deviation of {point}", given.lang, name=name, point=point),
     )
-
-
-def _crank(linkage: Linkage) -> float:
-    """The length of the driven link: from the driven joint to the next turning joint on it."""
-    drives = linkage.mechanism.drives
-    if len(drives) == 1 and drives[0].turning:
-        number, link = drives[0].joint, linkage.reference(0)[1]
-        joints = linkage.mechanism.chain.joints
-        others = [
-            n for n, joint in enumerate(joints) if n != number and link in joint.links and joint.pair.name == "revolute"
-        ]
-        if others and (length := linkage.length(link, number, others[0])) > 0:
-            return length
-    raise GrueblerError("L/l1 needs a linkage with one drive, a crank with two turning joints")
 
 
 _KINDS: Mapping[str, Callable[[_Asked], Figure]] = {

@@ -25,16 +25,17 @@ def is_csv(path: Path | None) -> bool:
 def printed_to_file(arguments: argparse.Namespace) -> Iterator[None]:
     """Standard output goes into the file ``out`` of a command with `Parser.add_printed`, if one is given.
 
-    The file appears when the command has ended, whole or not at all. `GrueblerError` for another ending than .txt and
-    .json, and if ``--json`` does not agree with it.
+    The file appears when the command has ended, whole or not at all; files with endings in ``written`` are written by
+    the command itself. `GrueblerError` for other endings than these, .txt and .json, and if ``--json`` does not agree.
     """
-    path = arguments.out if getattr(arguments, "printed", False) else None
-    if path is None or (arguments.table and is_csv(path)):
+    written: tuple[str, ...] = getattr(arguments, "written", ())
+    path = arguments.out if hasattr(arguments, "written") else None
+    ending = "" if path is None else path.suffix.lower()
+    if path is None or ending in written:
         yield
         return
-    ending = path.suffix.lower()
     if ending not in _ENDINGS or (arguments.json and ending != ".json"):
-        known = [".json"] if arguments.json else [*_ENDINGS, *([".csv"] if arguments.table else [])]
+        known = [".json"] if arguments.json else [*_ENDINGS, *written]
         raise GrueblerError(
             "-o {path}: expected a name that ends with {endings}", path=path, endings=joined_by_or(known)
         )

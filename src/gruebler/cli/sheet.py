@@ -6,11 +6,11 @@ import argparse
 import math
 from typing import Any
 
-from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
+from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
 from gruebler.sheets.messages import explanation_paragraphs
 from gruebler.text import error_in_language, joined, message, number, translate
@@ -194,9 +194,9 @@ def _value(value: StatedValue) -> dict[str, Any]:
 
 def _size(one: Sheet, arguments: argparse.Namespace) -> int:
     """All lengths for a task; status 1 if no piece of the path is so straight."""
-    length, unit = length_of("length", arguments.length)
+    length, unit = length_of("--length", arguments.length)
     if arguments.ratio is None:
-        tolerance = same_unit(*length_of("band", arguments.band), unit)
+        tolerance = same_unit(*length_of("--band", arguments.band), unit)
     elif math.isfinite(arguments.ratio) and 0 < arguments.ratio < 1:
         tolerance = arguments.ratio * length
     else:

@@ -94,9 +94,9 @@ def run(arguments: argparse.Namespace) -> int:
     table = held.table(arguments.friction, lang)
     if is_csv(arguments.out):
         write_file(arguments.out, as_csv([*table, *held.components(lang)]).encode("utf-8"), lang)
-    elif arguments.json:
+    if arguments.json:
         print_json(_document(held, [*table, *held.components(lang)], lang))
-    else:
+    elif not is_csv(arguments.out):
         _print(held, table.columns, lang)
     return 0 if motion.complete and not held.singular.any() else 1
 

@@ -14,7 +14,7 @@ _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*"
 
 
 def length_of(name: str, word: str) -> tuple[float, str]:
-    """Number and unit; no unit is an empty one.
+    """Number and unit; no unit is an empty one. Errors begin with the name.
 
     >>> length_of("length", "15cm"), length_of("length", "2")
     ((15.0, 'cm'), (2.0, ''))
@@ -26,10 +26,10 @@ def length_of(name: str, word: str) -> tuple[float, str]:
         value = math.nan
     if form is None or not 0 < value < 1e70 or form[2] not in ("", *_METRES):
         raise GrueblerError(
-            "--{name}: expected a positive length such as 15cm (units: {metres}), but found {word!r}",
+            "{name}: expected a positive length such as 15cm (units: {units}), but found {found!r}",
             name=name,
-            metres=", ".join(_METRES),
-            word=word,
+            units=", ".join(_METRES),
+            found=word,
         )
     return value, form[2]
 
