@@ -107,17 +107,9 @@ def test_imports_run_downward():
 
 
 def test_no_two_files_need_each_other():
-    """Within a room no imports form a circle, those in functions and for type checking included.
-
-    One pattern is let through: a value explains itself by calling, within a method, its room's `messages`, which name
-    the value's type.
-    """
+    """Within a room no imports form a circle, those in functions and for type checking included."""
     graph = {
-        name: [
-            other
-            for other, inside in edges
-            if room(other) == room(name) and not (inside and other.split(".")[-1] == "messages")
-        ]
+        name: [other for other, _ in edges if room(other) == room(name)]
         for name, edges in EDGES.items()
         if name not in ENTRANCES
     }

@@ -32,6 +32,7 @@ __all__ = [
     "decimal_sign_in",
     "error_in_language",
     "joined",
+    "joined_by_and",
     "joined_by_or",
     "listed",
     "message",
@@ -195,6 +196,16 @@ def joined_by_or(items: Sequence[object]) -> Message:
     """
     last = joined(items[-1:])
     return message("{items} or {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
+
+
+def joined_by_and(items: Sequence[object]) -> Message:
+    """Items that go together, as one message.
+
+    >>> joined_by_and(["a", message("{x} mm", x=1.5), "c"]).in_language("de")
+    'a, 1,5 mm und c'
+    """
+    last = joined(items[-1:])
+    return message("{items} and {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
 
 
 _ARITIES = {

@@ -1,31 +1,20 @@
 """`gruebler draw` and `gruebler gallery`, run with their arguments."""
 
-from argparse import Namespace
-
 import pytest
 
 from gruebler import GrueblerError
 from gruebler.cli import draw, gallery
-from gruebler.cli.commands import command
 from gruebler.text import error_in_language
-
-
-def arguments(name, chain, **options):
-    """The defaults of a command with these options."""
-    words = [] if chain is None else [chain]
-    required = ["-o", "x.html"] if name == "gallery" else []
-    given = command(name).parser().parse_args([*words, *required])
-    assert set(options) <= set(vars(given))
-    return Namespace(**(vars(given) | options))
+from tests.commands import arguments_of
 
 
 def drawn(capsys, chain, **options):
-    assert draw.run(arguments("draw", chain, **options)) == 0
+    assert draw.run(arguments_of("draw", chain, **options)) == 0
     return capsys.readouterr().out
 
 
 def paged(path, **options):
-    assert gallery.run(arguments("gallery", None, out=path, **options)) == 0
+    assert gallery.run(arguments_of("gallery", "-o", str(path), **options)) == 0
     return path.read_bytes()
 
 
@@ -50,11 +39,11 @@ def test_views_differ(capsys, view):
 
 
 def test_files(tmp_path):
-    assert draw.run(arguments("draw", "diff", out=tmp_path / "x.svg")) == 0
+    assert draw.run(arguments_of("draw", "diff", out=tmp_path / "x.svg")) == 0
     assert (tmp_path / "x.svg").read_text("utf-8").startswith("<svg")
     for name, words in (("x.gif", "end it with"), ("no/x.svg", "cannot be written")):
         with pytest.raises(GrueblerError, match=words):
-            draw.run(arguments("draw", "diff", out=tmp_path / name))
+            draw.run(arguments_of("draw", "diff", out=tmp_path / name))
 
 
 def test_the_sixteen_chains_on_one_page(tmp_path):
@@ -94,7 +83,7 @@ def test_machines_on_a_page(tmp_path):
 )
 def test_refusals(options, words):
     with pytest.raises(GrueblerError, match=words):
-        gallery.run(arguments("gallery", None, **options))
+        gallery.run(arguments_of("gallery", "-o", "x.html", **options))
 
 
 def test_pictures_of_a_printed_gallery_stay_legible():
@@ -102,15 +91,17 @@ def test_pictures_of_a_printed_gallery_stay_legible():
     from gruebler.drawing.canvas.gallery import Section
     from gruebler.drawing.canvas.matplotlib_files import _columns
 
-    small, large = (gallery._machine(id, arguments("gallery", None, labels=True)) for id in ("mzc", "excavator"))
+    small, large = (
+        gallery._machine(id, arguments_of("gallery", "-o", "x.html", labels=True)) for id in ("mzc", "excavator")
+    )
     assert _columns(Section("", (small,))) == 5
     assert _columns(Section("", (small, large))) < 4
 
 
 def test_refusals_in_german():
     with pytest.raises(GrueblerError) as refused:
-        gallery.run(arguments("gallery", None, links=5))
+        gallery.run(arguments_of("gallery", "-o", "x.html", links=5))
     assert error_in_language(refused.value, "de").startswith("solche Ketten mit 5 Gliedern")
     with pytest.raises(GrueblerError) as refused:
-        draw.run(arguments("draw", "four-bar:60,30,40,50", at="171"))
+        draw.run(arguments_of("draw", "four-bar:60,30,40,50", at="171"))
     assert "der Antrieb geht in dieser Einbaulage" in error_in_language(refused.value, "de")

@@ -66,7 +66,7 @@ def test_inversions():
 def test_grashof():
     (table,) = teaching_table("grashof")
     assert {row[-1].de for row in table.rows} == {
-        kind.german for (relation, _), kind in FOUR_BAR_TYPES.items() if relation in "<=>"
+        kind.name("de") for (relation, _), kind in FOUR_BAR_TYPES.items() if relation in "<=>"
     }
     for row in table.rows:
         lengths = [float(x) for x in row[2:6]]

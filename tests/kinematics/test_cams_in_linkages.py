@@ -249,7 +249,7 @@ def test_dwells_are_reported():
     found = measures(roller_follower(), speed_rpm=60)
     assert "Dwell in the outer position from 90° to 150°, 60°: -10" in found.explain()
     assert "Rast in der inneren Lage von 270° bis 360°, 90°" in found.explain("de")
-    assert "In Rast: 0.416667 s je Periode." in found.explain("de")
+    assert "In Rast: 0,416667 s je Periode." in found.explain("de")
     told = found.to_json()
     assert [one["begin"] for one in told["dwells"]] == pytest.approx([90, 270], abs=1e-9)
     assert told["dwell_share"] == pytest.approx(150 / 360)

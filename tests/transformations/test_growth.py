@@ -119,7 +119,7 @@ def test_derive_tells_why_not():
     assert code(growth.core) == code(rigid)
     assert len(growth.derivation.steps) == 1
     assert growth.derivation.chain == more
-    assert "in which no dyad can be taken away" in growth.explain().replace("\n", " ")
+    assert "in which no dyad can be removed" in growth.explain().replace("\n", " ")
 
 
 def test_multiple_joints_and_sliders_grow_too():

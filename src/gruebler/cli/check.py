@@ -29,7 +29,7 @@ from gruebler.formats.structures import (
 )
 from gruebler.linkages import Linkage
 from gruebler.mobility import mobility_report
-from gruebler.mobility.messages import verdict_word
+from gruebler.mobility.report import verdict_word
 from gruebler.screws import SpatialLinkage, freedoms, has_only_lower_pairs
 from gruebler.text import translate
 

@@ -163,8 +163,8 @@ def _item(linkage: Guidance) -> dict[str, object]:
     contact = linkage.contact
     return {
         "name": linkage.key,
-        "finder": linkage.name._asdict(),
-        "proportions": linkage.proportions._asdict(),
+        "finder": {lang: linkage.name.in_language(lang) for lang in LANGUAGES},
+        "proportions": {lang: linkage.proportions.in_language(lang) for lang in LANGUAGES},
         "mechanism": str(linkage.linkage.mechanism),
         "exact": linkage.is_exact,
         "length": linkage.piece.length,

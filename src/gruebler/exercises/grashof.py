@@ -24,7 +24,7 @@ _SAYS = {
 
 
 def _name(kind: LinkageType) -> Text:
-    return Text(kind.english, kind.german)
+    return Text(kind.name("en"), kind.name("de"))
 
 
 def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solution:

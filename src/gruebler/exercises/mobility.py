@@ -11,7 +11,7 @@ from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
 from gruebler.exercises.solution import Heading, Solution, SolutionBuilder, SolutionStep
 from gruebler.mobility import count_freedoms, mobility_report
-from gruebler.mobility.messages import verdict_word
+from gruebler.mobility.report import verdict_word
 from gruebler.text import Text
 
 __all__ = ["chain", "machines"]

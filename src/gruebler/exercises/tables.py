@@ -148,7 +148,7 @@ def inversion_table() -> tuple[Table, ...]:
         size = FourBar(*(chain[name] for name in (crank, coupler, rocker, frame)))
         roles = dict(zip((frame, crank, coupler, rocker), motion_roles(size.linkage()).values(), strict=True))
         cells = [Text(roles[name].in_language("en"), roles[name].in_language("de")) for name in ring]
-        rows.append((f"({row})", frame, *cells, Text(size.type.english, size.type.german)))
+        rows.append((f"({row})", frame, *cells, Text(size.type.name("en"), size.type.name("de"))))
     title = Text(
         "One chain, four mechanisms: a = 2, b = 5, c = 4, d = 5",
         "Eine Kette, vier Getriebe: a = 2, b = 5, c = 4, d = 5",
@@ -175,7 +175,8 @@ def grashof_types() -> tuple[Table, ...]:
         lengths = found[kind.key]
         turning = ", ".join(grashof(*lengths).turning) or "-"
         shortest = " = ".join(place) or "-"
-        rows.append((_CONDITIONS[condition], shortest, *map(str, lengths), turning, Text(kind.english, kind.german)))
+        name = Text(kind.name("en"), kind.name("de"))
+        rows.append((_CONDITIONS[condition], shortest, *map(str, lengths), turning, name))
     title = Text(
         "Four-bars by Grashof's condition and the place of the shortest link (a crank, b coupler, c rocker, d frame)",
         "Viergelenkgetriebe nach der Bedingung von Grashof und der Stelle des kürzesten Gliedes (a Kurbel, b Koppel, "

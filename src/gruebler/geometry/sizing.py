@@ -157,7 +157,7 @@ def crank_length(linkage: Linkage) -> float:
 def _points(path: Path, parameters: Reals) -> Complexes:
     points = path(parameters)
     if not np.isfinite(points).all():
-        raise LinkageError("the path has no point at {parameters:.6g}", parameters=parameters[~np.isfinite(points)][0])
+        raise LinkageError("the path has no point at {parameter:.6g}", parameter=parameters[~np.isfinite(points)][0])
     return points
 
 

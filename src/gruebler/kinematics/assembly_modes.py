@@ -137,10 +137,10 @@ def conditions(rows: Iterable[Row]) -> GroupConditions:
         )
     if 2 * len(rows) != 3 * len(bodies):
         raise LinkageError(
-            "{count} bodies are determined by {count_2:g} joints of one freedom, not {count_3}",
-            count=len(bodies),
-            count_2=1.5 * len(bodies),
-            count_3=len(rows),
+            "{bodies} bodies are determined by {wanted:g} joints of one freedom, not {joints}",
+            bodies=len(bodies),
+            wanted=1.5 * len(bodies),
+            joints=len(rows),
         )
     points = np.array([z for row in rows for z in (row[3], row[5])], np.complex128)
     lines = np.array([z for row in rows for z in (row[4], row[6])], np.complex128)

@@ -231,7 +231,7 @@ def plan(linkage: Linkage) -> Plan:
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)
     if not parts.complete:
-        raise LinkageError("the linkage cannot be moved by its drives. {message}", message=parts.message())
+        raise LinkageError("the linkage cannot be moved by its drives. {reason}", reason=parts.reason)
     return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
@@ -353,6 +353,6 @@ class _Planner:
                         out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
-                            "{joint_names}: {error}", joint_names=self.chain.joint_names()[joint], error=error
+                            "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
                         ) from None
         return tuple(out)

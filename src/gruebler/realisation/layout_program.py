@@ -17,11 +17,12 @@ from numpy.typing import NDArray
 from gruebler._numeric.motion.program import RPR, RRP, RRR
 from gruebler.arrays import Complexes, Reals
 from gruebler.chain import Chain
-from gruebler.chain.pairs import Space
+from gruebler.chain.pairs import Space, pair
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan, plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import joined
 
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
@@ -201,10 +202,10 @@ def check_drawable(chain: Chain) -> None:
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
         if joint.pair.name not in _DRAWN:
             raise LinkageError(
-                "{name}: dimensions of {name_2} joints are not found yet; known are {drawn}",
+                "{name}: dimensions of {pair} joints are not found yet; known are {drawn}",
                 name=name,
-                name_2=joint.pair.name,
-                drawn=", ".join(_DRAWN),
+                pair=joint.pair.title,
+                drawn=joined(pair(name).title for name in _DRAWN),
             )
 
 

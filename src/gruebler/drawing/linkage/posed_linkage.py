@@ -15,7 +15,6 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.messages import stop_message
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint, Pin
@@ -151,7 +150,7 @@ def posed_linkage(
         given = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
     pose = move(linkage, given.reshape(1, -1), branch=branch)
     if not len(pose):
-        raise LinkageError("{reason}", reason=stop_message(pose))
+        raise LinkageError("{reason}", reason=pose.reason)
     return _posed(pose)
 
 
