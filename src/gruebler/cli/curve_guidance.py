@@ -14,7 +14,7 @@ from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
-from gruebler.text import error_in_language, message, number, translate
+from gruebler.text import LANGUAGES, error_in_language, message, number, translate
 
 __all__ = ["run"]
 

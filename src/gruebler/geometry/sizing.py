@@ -10,7 +10,6 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.geometry.straight import Path, PathPiece, linkage_path, longest_piece, path_piece
 from gruebler.kinematics import move
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.linkages.quantities import as_finite, as_positive
 
@@ -116,7 +115,7 @@ def tangent_windows(
     least, most = ratios
     middle = move(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
     if not len(middle):
-        raise LinkageError("{reason}", reason=stop_message(middle))
+        raise LinkageError("{reason}", reason=middle.reason)
     path, tangent = linkage_path(linkage, point, branch), float(np.angle(middle.complex_point(point, 1)[0]))
     width = 2 * np.pi
     for _ in range(2):  # first the range of the windows, then that range finely
