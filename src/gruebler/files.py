@@ -117,11 +117,11 @@ def write(value: object, path: str | PathLike[str]) -> Path:
         raise GrueblerError("write(value, path): expected the path of a file, but found {path!r}", path=path)
     from gruebler.chain import Chain
     from gruebler.linkages import Linkage
-    from gruebler.linkages.conversion import HasLinkage
+    from gruebler.linkages.conversion import makes_linkage
     from gruebler.synthesis import Task
 
     path = Path(path)
-    if isinstance(value, Linkage | HasLinkage):
+    if isinstance(value, Linkage) or makes_linkage(value):
         from gruebler.formats import write_linkage
 
         write_linkage(path, value if isinstance(value, Linkage) else value.linkage())

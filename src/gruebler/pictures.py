@@ -42,7 +42,7 @@ class Picture:
         return _saved(path, partial(picture_bytes, self.figure, dark=dark), suffix_of(Path(path)))
 
     def __repr__(self) -> str:
-        return f"<picture {self.figure.title!r}, {self.figure.width:.0f} x {self.figure.height:.0f}>"
+        return f"<Picture {self.figure.title!r}, {self.figure.width:.0f} x {self.figure.height:.0f}>"
 
     def _repr_svg_(self) -> str:
         return self.svg()
@@ -71,7 +71,7 @@ class Animation:
         return _saved(path, partial(self._content, dark=dark), suffix_of(Path(path), _MOVING))
 
     def __repr__(self) -> str:
-        return f"<animation {self.title!r}>"
+        return f"<Animation {self.title!r}>"
 
     def _repr_svg_(self) -> str:
         return self.svg()
@@ -122,7 +122,7 @@ def draw(value: Any, **options: Any) -> Picture:
 
     >>> import gruebler as gr
     >>> gr.draw(gr.FourBar(25, 70, 40, 70))
-    <picture 'four-bar linkage', 328 x 195>
+    <Picture 'four-bar linkage', 328 x 195>
     """
     value, kind = _drawn(value)
     return Picture(_called(_function(kind.module, kind.still), value, options))
@@ -162,7 +162,7 @@ def plot(linkage: object, kind: str = "transfer", **options: Any) -> Picture:
 
     >>> import gruebler as gr
     >>> gr.plot(gr.FourBar(25, 70, 40, 70), "transmission")
-    <picture 'four-bar linkage: transmission angle of rocker', 705 x 410>
+    <Picture 'four-bar linkage: transmission angle of rocker', 705 x 410>
     """
     from gruebler.linkages.conversion import as_linkage
 
@@ -186,9 +186,9 @@ def picture_of(value: object) -> str:
 
 def _drawn(value: Any) -> tuple[Any, _Kind]:
     """The value that is drawn, and how: a linkage for lengths that make one."""
-    from gruebler.linkages.conversion import HasLinkage
+    from gruebler.linkages.conversion import makes_linkage
 
-    if type(value).__name__ not in _KINDS and isinstance(value, HasLinkage):
+    if type(value).__name__ not in _KINDS and makes_linkage(value):
         value = value.linkage()
     kind = _KINDS.get(type(value).__name__)
     if kind is None:

@@ -12,7 +12,7 @@ from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
-from gruebler.sheets.messages import explanation_paragraphs
+from gruebler.sheets.messages import explanation_paragraphs, typeset_number
 from gruebler.text import error_in_language, joined, message, number, translate
 
 __all__ = ["add", "run"]
@@ -132,7 +132,7 @@ def _row(value: StatedValue, lang: str) -> tuple[Cell, ...]:
         value.symbol,
         name,
         value.exact.typeset if value.exact else "",
-        number(value.derived, lang, "g" if whole else ".6f") + value.unit,
+        typeset_number(value.derived, lang, "g" if whole else ".6f") + value.unit,
         printed.replace(".", ",") if lang == "de" else printed,
         _remark(value, lang),
     )

@@ -51,7 +51,7 @@ def read_linkage(path: Path | str) -> Linkage:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
-    data = load_document(path, lambda text: LinkageError("{path}: {text_}", path=path, text_=text))
+    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
             "{path}: has the screws of its joints in one position, not the dimensions of its links: `gruebler check "

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import Protocol, TypeGuard, runtime_checkable
 
 from gruebler.errors import LinkageError
 from gruebler.linkages.model import Linkage
 
-__all__ = ["LinkageLike", "as_linkage"]
+__all__ = ["LinkageLike", "as_linkage", "makes_linkage"]
 
 
 @runtime_checkable
@@ -20,6 +20,11 @@ class HasLinkage(Protocol):
 
 
 LinkageLike = Linkage | HasLinkage
+
+
+def makes_linkage(value: object) -> TypeGuard[HasLinkage]:
+    """Whether a value is lengths that make a linkage; a motion has one, which is another thing."""
+    return isinstance(value, HasLinkage) and not isinstance(value, type) and callable(value.linkage)
 
 
 def as_linkage(value: object) -> Linkage:
@@ -36,7 +41,7 @@ def as_linkage(value: object) -> Linkage:
         raise LinkageError("expected a planar linkage, but found a SpatialLinkage: gruebler.screws moves and judges it")
     if kind in ("Chain", "Mechanism"):
         raise LinkageError("a {kind} has no dimensions: realise(mechanism) finds some", kind=kind)
-    if isinstance(value, HasLinkage) and not isinstance(value, type):
+    if makes_linkage(value):
         return value.linkage()
     raise LinkageError(
         "expected a linkage, a FourBar, SliderCrank or InvertedSliderCrank, but found {found}", found=_in_short(value)
@@ -44,5 +49,5 @@ def as_linkage(value: object) -> Linkage:
 
 
 def _in_short(value: object) -> str:
-    text = f"{type(value).__name__} {value!r}"
+    text = " ".join(repr(value).split())
     return text if len(text) < 80 else f"{text[:77]}..."

@@ -17,7 +17,7 @@ from gruebler.drawing.structure.messages import title
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages.conversion import LinkageLike, as_linkage
-from gruebler.text import decimal_sign_in
+from gruebler.text import number, translate
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
 
@@ -30,7 +30,6 @@ _DOZEN = 12
 _TINY = 1e-9  # of a period or range
 _BULK = 0.9  # the middle part of all values
 _STEEP = {False: 1.5, True: 20.0}  # what lies farther from it than so many times its width is cut off; True: full turns
-_RANGE = {"en": "drive from {low} to {high}", "de": "Antrieb von {low} bis {high}"}
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class PlotRun:
         """A drive value in words."""
         if not self.cycle.turning_drive:
             return as_text(drive, self.unit, self.lang)
-        return decimal_sign_in(f"{round(self.drive_in_units(drive), 6) + 0.0:.4g}°", self.lang)
+        return number(round(self.drive_in_units(drive), 6) + 0.0, self.lang, ".4g") + "°"
 
     @cached_property
     def round_drives(self) -> Reals:
@@ -108,7 +107,8 @@ class PlotRun:
     @property
     def range(self) -> str:
         """From where to where, in words."""
-        return _RANGE[self.lang].format(low=self.value(self.drives[0]), high=self.value(self.drives[-1]))
+        low, high = self.value(self.drives[0]), self.value(self.drives[-1])
+        return translate("drive from {low} to {high}", self.lang, low=low, high=high)
 
 
 def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:

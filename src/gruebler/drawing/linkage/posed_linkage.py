@@ -223,13 +223,13 @@ def _value(cycle: DriveCycle, given: Reals | None, rows: Reals) -> float:
             return start
         return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
     if given.shape != (1,) or not np.isfinite(given).all():
-        raise LinkageError("expected one finite drive value, but found {tolist}", tolist=given.tolist())
+        raise LinkageError("expected one finite drive value, but found {found}", found=given.tolist())
     value, span = float(given[0]), cycle.span
     if cycle.turning_drive and not span.full:
         value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
     if not span.full and not span.low <= value <= span.high:
         raise LinkageError(
-            "{range}; there is no pose at {value}", range=_range(cycle), value=_drive_value(cycle, float(given[0]))
+            "{range}; there is no pose at {drive}", range=_range(cycle), drive=_drive_value(cycle, float(given[0]))
         )
     return value
 
@@ -241,8 +241,8 @@ def _range(cycle: DriveCycle) -> Message:
 
 def _drive_value(cycle: DriveCycle, value: float) -> Message:
     if cycle.turning_drive:
-        return message("{value:.6g} degrees", value=math.degrees(value))
-    return message("{value:.6g} {unit}", value=value, unit=cycle.linkage.unit)
+        return message("{angle:.6g} degrees", angle=math.degrees(value))
+    return message("{length:.6g} {unit}", length=value, unit=cycle.linkage.unit)
 
 
 def floating_link(linkage: Linkage) -> str:
