@@ -40,7 +40,7 @@ def test_counts(capsys):
     found = run(capsys, "inversions", "g6:Cr", "--drives", "--with-output", "--count", "--json")[1]
     assert json.loads(found) == {"count": 2}
     assert run(capsys, "variants", "--links", "6", "--prismatic", "1", "--count")[1] == "6\n"
-    document = json.loads(run(capsys, "variants", "--links", "4", "--drive", "R@frame", "--json")[1])
+    document = json.loads(run(capsys, "variants", "--links", "4", "--drive-joint", "R@frame", "--json")[1])
     assert document["count"] == 1
     assert ";frame=0;drives=" in document["items"][0]["code"]
     assert run(capsys, "variants", "--links", "4", "--lang", "de") == (
@@ -58,9 +58,9 @@ def test_counts(capsys):
         (["inversions", "vcomp", "--output"], "--output is now --with-output"),
         (["inversions", "vcomp", "--drives", "--number", "0"], "at least one drive"),
         (["variants"], "--links"),
-        (["variants", "--links", "6", "--drive", "R@wall"], "frame, moving or any"),
+        (["variants", "--links", "6", "--drive-joint", "R@wall"], "frame, moving or any"),
         (["variants", "--links", "6", "--assortment", "four"], "--assortment 'four'"),
-        (["variants", "--links", "6", "--at-frame", "P:x"], "--at-frame 'P:x'"),
+        (["variants", "--links", "6", "--at-frame", "P:x"], "--at-frame: expected a pair"),
     ],
 )
 def test_mistakes_are_one_sentence(capsys, arguments, words):
@@ -73,7 +73,10 @@ def test_mistakes_are_one_sentence(capsys, arguments, words):
 @pytest.mark.parametrize(
     ("arguments", "number"),
     [
-        (("variants", "--links", "6", "--prismatic", "1", "--drive", "P@moving", "--output", "R@frame"), 34),
+        (
+            ("variants", "--links", "6", "--prismatic", "1", "--drive-joint", "P@moving", "--output-joint", "R@frame"),
+            34,
+        ),
         (("variants", "--links", "6", "--prismatic", "1"), 6),
         (("inversions", "slidercrank", "--drives", "--with-output", "--text"), 8),
         (("inversions", "vcomp", "--drives", "--anywhere", "--text"), 26),
