@@ -158,7 +158,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 1
     rows = default_rows(measures.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, measures, rows, arguments.branch, order)
-    columns: list[Column] = []
+    columns = []
     if len(motion):
         table = motion_table(
             motion,
