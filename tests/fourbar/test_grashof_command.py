@@ -77,7 +77,7 @@ def test_json_of_one(capsys):
     ("lengths", "free", "message"),
     [
         (["1", "2", "3"], None, "four lengths A B C D are needed"),
-        (["1", "2", "x", "4"], None, "a length must be a number, not 'x'"),
+        (["1", "2", "x", "4"], None, "expected a length, but found 'x'"),
         (["1", "2", "-3", "4"], None, "c must be positive, not -3"),
         (["1", "nan", "3", "4"], None, "b must be a finite number"),
         (["1", "2"], "d", "--free d takes the lengths a, b, c"),
