@@ -20,7 +20,7 @@ from gruebler.cli.printed_file import is_csv
 from gruebler.cli.tables import print_table
 from gruebler.columns import Column, as_csv, shown
 from gruebler.errors import GrueblerError
-from gruebler.forces import Loads, Statics, statics
+from gruebler.forces import Loads, Statics, component_table, statics, statics_table
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
 from gruebler.text import message, translate
@@ -91,11 +91,11 @@ def run(arguments: argparse.Namespace) -> int:
         print(motion.message(lang))
         return 1
     held = statics(motion, loads)
-    table = held.table(arguments.friction, lang)
+    table = statics_table(held, arguments.friction, lang)
     if is_csv(arguments.out):
-        write_file(arguments.out, as_csv([*table, *held.components(lang)]).encode("utf-8"), lang)
+        write_file(arguments.out, as_csv([*table, *component_table(held, lang)]).encode("utf-8"), lang)
     if arguments.json:
-        print_json(_document(held, [*table, *held.components(lang)], lang))
+        print_json(_document(held, [*table, *component_table(held, lang)], lang))
     elif not is_csv(arguments.out):
         _print(held, table.columns, lang)
     return 0 if motion.complete and not held.singular.any() else 1
@@ -193,7 +193,7 @@ def _print(held: Statics, table: Sequence[Column], lang: str) -> None:
     if len(motion) > 1:
         print_table([column.header for column in table], shown(table, lang), numbers=range(len(table)))
     else:
-        columns = [*table, *held.components(lang, reactions=False)]
+        columns = [*table, *component_table(held, lang, reactions=False)]
         cells = [[c.name, value, c.unit] for c, value in zip(columns, shown(columns, lang)[0], strict=True)]
         print_table(["", "", ""], cells, [1])
     for text in (motion.message(lang), held.message(lang)):

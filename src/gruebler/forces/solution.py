@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from gruebler.arrays import Flags, Reals
-from gruebler.columns import Table
 from gruebler.errors import LinkageError
 from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connections, reactions
 from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
@@ -109,35 +108,6 @@ class Statics(Brief):
         for k, sign in self._signs(number, link):
             out = out + sign * self.reactions.couples[:, k]
         return out
-
-    def table(self, friction: float | None = None, lang: str = "en") -> Table:
-        """Columns of drive values, drive efforts and the sizes of joint forces, over the rows.
-
-        Args:
-            friction: A coefficient adds the friction of slides and the efforts with it, as an estimate; for one drive.
-            lang: Of the names of the columns.
-
-        >>> from gruebler.fourbar import SliderCrank
-        >>> from gruebler.kinematics import move
-        >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0]))
-        >>> table = statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)})).table()
-        >>> table["torque R(frame-crank)"].round(9).tolist(), table.columns[1].unit
-        ([-300.0], 'N·mm')
-        """
-        from gruebler.forces.messages import table
-
-        return table(self, friction, lang)
-
-    def components(self, lang: str = "en", *, reactions: bool = True) -> Table:
-        """Columns of the components of all joint forces and the moments of slides, over the rows.
-
-        Args:
-            lang: Of the names of the columns.
-            reactions: On all links of a joint; otherwise of two links only on one, not on the frame.
-        """
-        from gruebler.forces.messages import component_columns
-
-        return component_columns(self, lang, reactions=reactions)
 
     def message(self, lang: str = "en") -> str:
         """Where joint forces, or not even the drives' efforts, are determined; else empty."""

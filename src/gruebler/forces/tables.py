@@ -11,13 +11,27 @@ from gruebler.forces.friction import slide_friction
 from gruebler.forces.solution import Statics
 from gruebler.text import translate
 
-__all__ = ["component_columns", "table"]
+__all__ = ["component_table", "statics_table"]
 
 _NOISE = 1e-13  # of the loads: a smaller effort is none
 
 
-def table(statics: Statics, friction: float | None = None, lang: str = "en") -> Table:
-    """Drive values, their efforts, the sizes of joint forces, friction of slides; see `Statics.table`."""
+def statics_table(statics: Statics, friction: float | None = None, lang: str = "en") -> Table:
+    """Columns of drive values, drive efforts and the sizes of joint forces, over the rows.
+
+    Args:
+        statics: The forces.
+        friction: A coefficient adds the friction of slides and the efforts with it, as an estimate; for one drive.
+        lang: Of the names of the columns.
+
+    >>> from gruebler.forces import Loads, statics
+    >>> from gruebler.fourbar import SliderCrank
+    >>> from gruebler.kinematics import move
+    >>> press = move(SliderCrank(3, 5).linkage(), np.radians([90.0]))
+    >>> table = statics_table(statics(press, Loads(forces={"R(coupler-slider)": (-100, 0)})))
+    >>> table["torque R(frame-crank)"].round(9).tolist(), table.columns[1].unit
+    ([-300.0], 'N·mm')
+    """
     linkage, motion = statics.motion.linkage, statics.motion
     mechanism = linkage.mechanism
     drives, efforts, forces = list[Column](), list[Column](), list[Column]()
@@ -46,12 +60,12 @@ def table(statics: Statics, friction: float | None = None, lang: str = "en") -> 
     return Table((*drives, *efforts, *forces))
 
 
-def component_columns(statics: Statics, lang: str = "en", *, reactions: bool = True) -> Table:
-    """The forces of all joints by components, and the moments of slides.
+def component_table(statics: Statics, lang: str = "en", *, reactions: bool = True) -> Table:
+    """Columns of the components of all joint forces and the moments of slides, over the rows.
 
     Args:
         statics: The forces.
-        lang: Of the names.
+        lang: Of the names of the columns.
         reactions: On all links of a joint; otherwise of two links only on one, not on the frame.
     """
     linkage = statics.motion.linkage
