@@ -12,6 +12,7 @@ import numpy as np
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import transmission_angle
 from gruebler.arrays import Reals
+from gruebler.chain.pairs import Alphabet
 from gruebler.columns import Column, Table
 from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion
@@ -54,7 +55,7 @@ def motion_table(
         rates: Velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
             the drive only.
         transmission: The output whose transmission angle gets a column.
-        lang: Language of the column names.
+        lang: Language of the column names and joint symbols.
 
     >>> from gruebler.fourbar import FourBar
     >>> from gruebler.kinematics import from_degrees, move
@@ -68,7 +69,9 @@ def motion_table(
     asked: Sequence[str | Output | None] = outputs or linkage.outputs or [None]
     seen = [each if isinstance(each, Output) else find_output(linkage, each) for each in asked]
     out = []
-    for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
+    for k, (name, drive) in enumerate(
+        zip(mechanism.drive_names(Alphabet.of_language(lang)), mechanism.drives, strict=True)
+    ):
         turning = drive.turning
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].turning

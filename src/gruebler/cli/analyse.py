@@ -14,6 +14,7 @@ from gruebler.analysis import motion_roles, rotatability
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.table import motion_table
 from gruebler.arrays import Reals
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of, with_points
 from gruebler.cli.output import print_json, write_file
@@ -27,7 +28,7 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import read_branch
 from gruebler.kinematics.solve import all_branches, cached_plan
 from gruebler.linkages import Linkage
-from gruebler.text import Message, error_in_language, joined, message, translate
+from gruebler.text import LANGUAGES, Message, error_in_language, joined, message, translate
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
@@ -140,7 +141,9 @@ def run(arguments: argparse.Namespace) -> int:
             )
         else:
             motion = move(linkage, given, branch=arguments.branch)
-        table = motion_table(motion, outputs, arguments.point) if len(motion) else None
+        table = (
+            motion_table(motion, outputs, arguments.point, lang=_language_of_names(arguments)) if len(motion) else None
+        )
         return _report(linkage, None, motion, list(table or ()), arguments)
     try:
         measures = _measured(linkage, outputs[0], turning[0], arguments)
@@ -155,7 +158,7 @@ def run(arguments: argparse.Namespace) -> int:
         return 1
     rows = default_rows(measures.span, shown_range, turning[0]) if given is None else given
     motion, before = _moved(linkage, measures, rows, arguments.branch, order)
-    columns: list[Column] = []
+    columns = []
     if len(motion):
         table = motion_table(
             motion,
@@ -163,7 +166,7 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.point,
             rates=(speeds[0], accelerations[0], jerks[0]) if speeds else None,
             transmission=None if measures.transmission is None else measures.output.name,
-            lang=arguments.lang,
+            lang=_language_of_names(arguments),
         )
         columns = [*table, *_geometry(motion, outputs, arguments)]
     return _report(linkage, measures, motion, [column.without(before) for column in columns], arguments)
@@ -231,10 +234,17 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
     """The columns of --poles and --curvature."""
     from gruebler.geometry.columns import curvature_columns, pole_columns
 
-    columns = pole_columns(motion, arguments.lang) if arguments.poles and not _listed(arguments) else []
+    columns = pole_columns(motion, _language_of_names(arguments)) if arguments.poles and not _listed(arguments) else []
     if arguments.curvature:
-        columns += curvature_columns(motion, arguments.point, [output.link for output in outputs], arguments.lang)
+        columns += curvature_columns(
+            motion, arguments.point, [output.link for output in outputs], _language_of_names(arguments)
+        )
     return columns
+
+
+def _language_of_names(arguments: argparse.Namespace) -> str:
+    """The names of columns in JSON are the same in every language."""
+    return LANGUAGES[0] if arguments.json else str(arguments.lang)
 
 
 def _listed(arguments: argparse.Namespace) -> bool:
@@ -292,8 +302,10 @@ def _print_measures(linkage: Linkage, measures: Measures, lang: str) -> None:
         roles = motion_roles(around).items()
         moving = (f"{link} = {role.in_language(lang)}" for link, role in roles if link != linkage.mechanism.frame)
         print(translate("Roles: {roles}.", lang, roles=", ".join(moving)))
+        chain = linkage.mechanism.chain
+        names = dict(zip(chain.joint_names(), chain.joint_names(Alphabet.of_language(lang)), strict=True))
         pairs = joined(
-            message("{joint} {range}", joint=row.joint, range=_extent(row, linkage.unit))
+            message("{joint} {range}", joint=names[row.joint], range=_extent(row, linkage.unit))
             for row in rotatability(around)
         )
         print(translate("Relative motion at the joints: {pairs}.", lang, pairs=pairs))

@@ -8,6 +8,7 @@ from typing import Any
 from gruebler.assur import AssurGroup, Decomposition, SolvedGroup, assur_groups, decompose, drive_choices
 from gruebler.assur.forms import roman
 from gruebler.assur.listing import expected_seconds_of_groups
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
@@ -124,7 +125,7 @@ def _code(mechanism: Mechanism) -> str | None:
 
 
 def _list(groups: list[AssurGroup], lang: str) -> None:
-    alphabet = "german" if lang == "de" else "international"
+    alphabet = Alphabet.of_language(lang)
     rows = []
     for group in groups:
         form = group.named(alphabet)
@@ -135,7 +136,7 @@ def _list(groups: list[AssurGroup], lang: str) -> None:
 
 
 def _compare(choices: list[Decomposition], lang: str) -> None:
-    alphabet = "german" if lang == "de" else "international"
+    alphabet = Alphabet.of_language(lang)
     rows = [
         (
             ", ".join(decomposition.mechanism.drive_names(alphabet)),

@@ -8,6 +8,7 @@ from typing import Any
 import msgspec
 
 from gruebler.catalog import entries, entry, exercises
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli import search
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -107,7 +108,7 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
             for case in record.cases
         ]
         return "\n".join(lines)
-    chain, alphabet = record.chain(), "german" if lang == "de" else "international"
+    chain, alphabet = record.chain(), Alphabet.of_language(lang)
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
     names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
     lines += [

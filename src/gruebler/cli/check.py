@@ -180,7 +180,8 @@ def explanation(checked: CheckedEntry, lang: str) -> str:
             )
         )
     if checked.freedoms is not None:
-        lines.append(checked.freedoms.explain(lang))
+        counted = checked.report.count.formula()  # has its line above
+        lines += [line for line in checked.freedoms.explain(lang).splitlines() if not line.endswith(counted)]
     return "\n".join(lines)
 
 

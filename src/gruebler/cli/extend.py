@@ -6,6 +6,7 @@ import argparse
 from typing import Any
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -104,7 +105,7 @@ def _item(chain: Chain, extension: Extension) -> dict[str, Any]:
 
 def _row(chain: Chain, extension: Extension, lang: str) -> tuple[str, str, str, str, str]:
     report = mobility_report(extension.chain)
-    alphabet = "german" if lang == "de" else "international"
+    alphabet = Alphabet.of_language(lang)
     names = extension.chain.joint_names(alphabet)
     return (
         extension.chain.text(alphabet),
@@ -115,6 +116,8 @@ def _row(chain: Chain, extension: Extension, lang: str) -> tuple[str, str, str, 
     )
 
 
-def _places(chain: Chain, pair: tuple[Attachment, Attachment], alphabet: str = "international") -> list[str]:
+def _places(
+    chain: Chain, pair: tuple[Attachment, Attachment], alphabet: Alphabet = Alphabet.INTERNATIONAL
+) -> list[str]:
     names = chain.joint_names(alphabet)
     return [place if isinstance(place, str) else names[place] for place in pair]

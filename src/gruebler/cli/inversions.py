@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -98,7 +99,7 @@ def _row(driven: DrivenMechanism, lang: str) -> dict[str, str]:
     mechanism = driven.mechanism
     return {
         "frame": mechanism.frame,
-        "drive": ", ".join(mechanism.drive_names()),
+        "drive": ", ".join(mechanism.drive_names(Alphabet.of_language(lang))),
         "output": driven.output or "",
         "family": family(mechanism, lang) or "",
     }

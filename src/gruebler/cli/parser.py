@@ -143,7 +143,8 @@ class Parser(argparse.ArgumentParser):
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
             suggestion = nearest(str(value)[:50], map(str, action.choices or ()))
-            raise argparse.ArgumentError(action, error.message + suggestion) from None
+            text = translate("{problem}{suggestion}", self.lang, problem=error.message, suggestion=suggestion)
+            raise argparse.ArgumentError(action, text) from None
 
     def error(self, message: str) -> NoReturn:
         """Say in one sentence what is wrong and where the help is, and exit with status 2."""

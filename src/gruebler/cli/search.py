@@ -179,7 +179,7 @@ def _counted(entry: Entry) -> int:
 
 
 def _row(entry: Entry, features: AccessFeatures, lang: str) -> tuple[str, ...]:
-    alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
+    alphabet = Alphabet.of_language(lang)
     return (
         entry.id,
         entry.name.in_language(lang),
@@ -235,7 +235,7 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
 
 
 def _text(driven: DrivenMechanism, lang: str) -> str:
-    text = driven.mechanism.text("german" if lang == "de" else "international")
+    text = driven.mechanism.text(Alphabet.of_language(lang))
     if driven.output is not None:
         text += "; " + translate("output {link}", lang, link=driven.output)
     name = family(driven.mechanism, lang)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from gruebler.chain.pairs import Alphabet
 from gruebler.columns import Column, Table
 from gruebler.forces.friction import slide_friction
 from gruebler.forces.solution import Statics
@@ -35,7 +36,9 @@ def statics_table(statics: Statics, friction: float | None = None, lang: str = "
     linkage, motion = statics.motion.linkage, statics.motion
     mechanism = linkage.mechanism
     drives, efforts, forces = list[Column](), list[Column](), list[Column]()
-    for k, (name, drive) in enumerate(zip(mechanism.drive_names(_alphabet(lang)), mechanism.drives, strict=True)):
+    for k, (name, drive) in enumerate(
+        zip(mechanism.drive_names(Alphabet.of_language(lang)), mechanism.drives, strict=True)
+    ):
         values, work = motion.drives[:, k], statics.work[:, k]
         work = np.where(np.abs(work) <= _NOISE * statics.load[k], 0.0, work)
         if drive.turning:
@@ -44,7 +47,7 @@ def statics_table(statics: Statics, friction: float | None = None, lang: str = "
         else:
             drives.append(Column(name, linkage.unit, values))
             efforts.append(Column(translate("force {joint}", lang, joint=name), "N", work))
-    names, largest = mechanism.chain.joint_names(_alphabet(lang)), _largest_force(statics)
+    names, largest = mechanism.chain.joint_names(alphabet), _largest_force(statics)
     for number, joint in enumerate(mechanism.chain.joints):
         for link in joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]:
             size = np.hypot(*statics.force(number, link).T)
@@ -70,7 +73,7 @@ def component_table(statics: Statics, lang: str = "en", *, reactions: bool = Tru
     """
     linkage = statics.motion.linkage
     mechanism, largest = linkage.mechanism, _largest_force(statics)
-    columns, names = [], mechanism.chain.joint_names(_alphabet(lang))
+    columns, names = [], mechanism.chain.joint_names(Alphabet.of_language(lang))
     for number, (joint, name) in enumerate(zip(mechanism.chain.joints, names, strict=True)):
         single = not reactions and len(joint.links) == 2
         for link in (_moving(joint.links, mechanism.frame),) if single else joint.links:
@@ -89,10 +92,6 @@ def _largest_force(statics: Statics) -> float:
     joints = enumerate(statics.motion.linkage.mechanism.chain.joints)
     sizes = [np.abs(statics.force(number, link)) for number, joint in joints for link in joint.links]
     return max(float(np.where(np.isfinite(size), size, 0.0).max(initial=0.0)) for size in sizes)
-
-
-def _alphabet(lang: str) -> str:
-    return "german" if lang == "de" else "international"
 
 
 def _moving(links: Sequence[str], frame: str) -> str:
