@@ -168,7 +168,6 @@ def test_files_of_what_is_printed(capsys, tmp_path):
         (["lambda", "C", "--kappa", "20"], "--kappa goes with --guidance"),
         (["lambda", "C", "--straight", "--contact", "3"], "--contact goes with the path of a point"),
         (["lambda", "C", "--cognates", "--direction", "3"], "--direction goes with the path of a point or --straight"),
-        (["lambda", "C", "--cognates"], "--cognates needs lengths"),
         (["--guidance", "lambda", "watt"], "--guidance takes one name and no linkage, but found 'watt'"),
         (["--guidance", "lambda", "--length", "5mm", "--tolerance", "1mm"], "--tolerance 1mm is now --band 1mm"),
         (["lambda", "C", "--straight", "--cognates"], "not allowed with argument"),

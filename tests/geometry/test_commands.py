@@ -46,6 +46,33 @@ def test_cognates_as_json(capsys):
     assert points[2] == pytest.approx(points[0])
 
 
+@pytest.mark.parametrize("label", ["+", "-"])
+def test_cognates_of_a_file_are_those_of_its_lengths(capsys, tmp_path, label):
+    path = tmp_path / "four_bar.toml"
+    write_linkage(path, FourBar(25, 70, 40, 70).linkage({"K": (45, 40)}))
+    at = ("--cognates", "--at", "50", f"--branch={label}", "--json")
+    by_lengths, by_file = (
+        json.loads(run(capsys, *words, *at)[1])["cognates"] for words in (("25,70,40,70", "45,40"), (str(path), "K"))
+    )
+    for one, other in zip(by_lengths, by_file, strict=True):
+        assert one["type"] == other["type"]
+        assert one["branch"] == other["branch"]
+        for key in ("a", "b", "c", "d", "u", "v", "point"):
+            assert one[key] == pytest.approx(other[key]), key
+
+
+def test_cognates_of_an_entry_trace_its_curve(capsys):
+    found = json.loads(run(capsys, "lambda", "C", "--cognates", "--json")[1])["cognates"]
+    assert [round(found[0][name] / found[0]["a"], 9) for name in "abcd"] == [1, 2.5, 2.5, 2]
+    assert found[1]["point"] == pytest.approx(found[0]["point"])
+    assert found[2]["point"] == pytest.approx(found[0]["point"])
+    assert run(capsys, "watt_axle", "F", "--cognates")[0] == 0
+    for entry in ("wiper", "slidercrank"):
+        assert (
+            "expected a four-bar or an inverted slider-crank" in run(capsys, entry, "R(frame-crank)", "--cognates")[1]
+        )
+
+
 def test_straight(capsys):
     status, out = run(capsys, LENKER, K, "--straight", "--ratio", "0.005")
     assert status == 0

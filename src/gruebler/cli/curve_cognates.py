@@ -6,30 +6,26 @@ import argparse
 import math
 from collections.abc import Sequence
 
+from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.coupler_inputs import branch_sign, coupler_point
-from gruebler.cli.linkage_inputs import size_of
+from gruebler.cli.linkage_inputs import linkage_of, size_of, with_points
 from gruebler.cli.output import print_json
 from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError
-from gruebler.fourbar import FourBar, SliderCrank
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.geometry.lever_contact import lever_pose
 from gruebler.geometry.roberts import Cognate, cognates, slider_cognates
 from gruebler.text import joined, message, number, translate
 
 __all__ = ["run"]
 
+_INSIDE = 0.4  # of the range of the crank: a pose away from its limits
 _LINKS = {"crank": message("crank"), "coupler": message("coupler"), "rocker": message("rocker")}
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Lengths, coupler point and place of every cognate."""
-    size = size_of(arguments.linkage)
-    if size is None:
-        raise GrueblerError(
-            "--cognates needs lengths, four-bar:A,B,C,D or slider-crank:A,B[,E], but found {found!r}",
-            found=arguments.linkage,
-        )
-    u, v = coupler_point(size, arguments.point)
-    branch, phi = branch_sign(arguments.branch), _radians(arguments.at)
+    size, u, v, branch, phi = _given(arguments)
     found: Sequence[Cognate]
     if isinstance(size, FourBar):
         found = cognates(size, u, v, branch=branch, phi=phi)
@@ -42,6 +38,23 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _print(found, arguments.lang)
     return 0
+
+
+def _given(
+    arguments: argparse.Namespace,
+) -> tuple[FourBar | SliderCrank | InvertedSliderCrank, float, float, int, float | None]:
+    """The linkage by its lengths, the coupler point, the assembly mode, and the crank angle of the pose."""
+    size = size_of(arguments.linkage)
+    if size is not None:
+        u, v = coupler_point(size, arguments.point)
+        return size, u, v, branch_sign(arguments.branch), _radians(arguments.at)
+    linkage = with_points(linkage_of(arguments.linkage)[0], [arguments.point])
+    drive = _radians(arguments.at)
+    if drive is None:
+        span = drive_cycle(linkage, arguments.branch).span
+        drive = span.low + _INSIDE * span.width
+    size, u, v, phi, branch = lever_pose(linkage, arguments.point, drive, arguments.branch)
+    return size, u, v, branch, phi
 
 
 def _radians(degrees: float | None) -> float | None:

@@ -113,10 +113,10 @@ def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, 
     rows = []
     for link, speed in found.values.items():
         ratio = speed / reading.drives[driver] if driver and speed is not None else None
-        cells: list[Cell] = [_UNITS[units[link]].filled(link=link), "?" if speed is None else fraction_text(speed)]
-        cells += [
-            "" if value is None else fraction_text(value) for value in (ratio, torques.get(link), powers.get(link))
-        ]
+        speed_text = "?" if speed is None else fraction_text(speed, lang)
+        cells: list[Cell] = [_UNITS[units[link]].filled(link=link), speed_text]
+        values = (ratio, torques.get(link), powers.get(link))
+        cells += ["" if value is None else fraction_text(value, lang) for value in values]
         rows.append(cells)
     headers: list[Cell] = [message("link"), message("speed"), message("per turn of {drive}", drive=driver)]
     headers += [message("torque or force"), message("power")]

@@ -180,6 +180,10 @@ class _HelpFormatter(argparse.HelpFormatter):
         """A paragraph."""
         super().add_text(text and translate(text, self._lang))
 
+    def start_section(self, heading: str | None) -> None:
+        """The title of a group of options."""
+        super().start_section(heading and translate(heading, self._lang))
+
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         return "\n".join(indent + line for line in self._split_lines(text, width))
 

@@ -36,7 +36,8 @@ from gruebler.text import message, number, numbers, translate
 __all__ = ["add", "run"]
 
 _COLUMNS = (
-    *(message("design"), message("drive"), message("full turn"), message("transmission"), message("lengths")),
+    *(message("design"), message("drive"), message("full turn"), message("transmission")),
+    message("pin distances, link by link"),
     message("error"),
 )
 _TASKS: dict[str, type[Task]] = {
@@ -146,6 +147,9 @@ def run(arguments: argparse.Namespace) -> int:
         _print(result, arguments.rejected, arguments.lang)
         if optimum is not None:
             _print_optimum(optimum, arguments.lang)
+        for path in (arguments.out, arguments.draw):
+            if path is not None and best is None:
+                print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))
     return 0 if result.designs else 1
 
 
@@ -238,7 +242,7 @@ def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> 
 
     mechanism = mechanism_of(arguments.structure, None, [])
     driven = mechanism if mechanism.drives else with_drives(mechanism)
-    return synthesise_structures(task, [driven], demands, starts=arguments.number or 4, link=arguments.link)
+    return synthesise_structures(task, [driven], demands, starts=arguments.number, link=arguments.link)
 
 
 def _progress(lang: str) -> Callable[[int, int], None] | None:
