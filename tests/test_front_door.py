@@ -104,7 +104,7 @@ MISTAKES = [
     (lambda: gr.write(CRANK_ROCKER, 7), "expected the path of a file, but found 7"),
     (lambda: gr.write(7, "x.toml"), "a int cannot be written"),
     (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
-    (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .g6 or .txt, not '.bmp'"),
+    (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),
     (lambda: gr.synthesise(7), "expected a task of positions"),
 ]

@@ -303,16 +303,16 @@ def _free_name(name: str, used: Collection[str]) -> str:
 # --- from a linkage to a drawing ---------------------------------------------------------------------
 
 
-def drawing_of(linkage: Linkage) -> PinDrawing:
+def drawing_of(linkage: Linkage, left_out: list[Message]) -> PinDrawing:
     """The drawing of a linkage in its reference pose, without one in a pose that it can be assembled in.
 
     A block between a slide and a pin on its line becomes a pin in a slot; joints are called A, B, ..., points as they
-    are.
+    are. The list gets a message for what a drawing does not have.
 
     Raises `LinkageError` if a joint neither turns nor slides (wheels, cams), or if no pose is found.
 
     >>> from gruebler.fourbar import SliderCrank
-    >>> drawing = drawing_of(SliderCrank(25, 70).linkage())
+    >>> drawing = drawing_of(SliderCrank(25, 70).linkage(), [])
     >>> [(joint.name, joint.links, joint.slot) for joint in drawing.joints][-1]
     ('C', ('frame', 'coupler'), 0.0)
     """
@@ -321,6 +321,8 @@ def drawing_of(linkage: Linkage) -> PinDrawing:
     for joint in chain.joints:
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError("the format holds turning and sliding joints only, not {joint}", joint=joint)
+    if linkage.outputs:
+        left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
     names = _letters(lower.points)
     placed = [_placed(lower, number) for number in range(len(chain.joints))]
     in_slots = _pins_in_slots(lower, placed)
