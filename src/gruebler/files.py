@@ -342,7 +342,7 @@ FORMATS: tuple[Format, ...] = (
     _json_of_others(
         "pylinkage",
         message("pylinkage"),
-        message("one position of a linkage of pins, points, driven cranks on the frame; slides are read only"),
+        message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
     ),
 )
 """Every format, those of this library first."""

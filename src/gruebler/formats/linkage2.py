@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element
 from xml.sax.saxutils import quoteattr
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, with_slot_ends
+from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, one_drive_a_joint, with_slot_ends
 from gruebler.formats.text_files import parse_xml, read_number
 from gruebler.text import Message, message
 
@@ -168,7 +168,7 @@ def _slot(
 
 def linkage2_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     """The text of a ``.linkage2`` file; the limits of slots are further points of the links that have them."""
-    driven = {drive.joint: drive for drive in drawing.drives or ()}
+    driven = one_drive_a_joint(drawing, left_out)
     actuators = {
         joint.links[0]: joint.name for joint in drawing.joints if joint.name in driven and _cylinder(drawing, joint)
     }

@@ -25,7 +25,7 @@ from gruebler.linkages.elements import direction
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.text import Message, message
 
-__all__ = ["DrawnDrive", "DrawnJoint", "PinDrawing", "drawing_of", "linkage_of", "with_slot_ends"]
+__all__ = ["DrawnDrive", "DrawnJoint", "PinDrawing", "drawing_of", "linkage_of", "one_drive_a_joint", "with_slot_ends"]
 
 _MOST = 3000  # joints, and links; real mechanisms have fewer than a hundred
 _MOST_AT_A_PIN = 60
@@ -380,6 +380,17 @@ def _pins_in_slots(lower: Linkage, placed: Sequence[DrawnJoint]) -> dict[int, in
         if abs(across) <= _SAME * lower.size and base not in pin.links:
             found[others[0]] = slide
     return found
+
+
+def one_drive_a_joint(drawing: PinDrawing, left_out: list[Message]) -> dict[str, DrawnDrive]:
+    """The drives by their joints; what a joint has more than one is left out."""
+    drives: dict[str, DrawnDrive] = {}
+    for drive in drawing.drives or ():
+        if drives.setdefault(drive.joint, drive) is not drive:
+            left_out.append(
+                message("the second drive at joint {joint}, of link {link}", joint=drive.joint, link=drive.moved)
+            )
+    return drives
 
 
 def with_slot_ends(drawing: PinDrawing) -> tuple[PinDrawing, dict[str, tuple[str, str]]]:

@@ -13,12 +13,14 @@ Masses, forces and colours are not part of a linkage. Sources: the program's tra
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from itertools import repeat
 from math import atan2, cos, pi, sin
 from typing import NamedTuple
 from urllib.parse import parse_qs, unquote
 
 from gruebler.errors import GrueblerError
-from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
+from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, one_drive_a_joint
 from gruebler.formats.text_files import read_number
 from gruebler.text import Message, message
 
@@ -235,13 +237,14 @@ def _slot(joint: _Joint, links: list[_Link], by_id: dict[str, _Joint]) -> tuple[
 def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     """The address that opens a drawing in PMKS+; millimetres become centimetres, places thousandths of the unit.
 
-    The slot of a link that moves runs through two further joints of the link.
+    The slot of a link that moves runs through two further joints of the link. Raises `GrueblerError` for a pin of the
+    frame in the slot of another link.
     """
     scale, unit = (0.1, "cm") if drawing.unit == "mm" else (1.0, drawing.unit)
     if unit not in _UNITS:
         left_out.append(message("the unit {unit}", unit=unit))
         unit = "cm"
-    driven = {drive.joint: drive for drive in drawing.drives or ()}
+    driven = one_drive_a_joint(drawing, left_out)
     moved = [drive.moved for drive in driven.values()]
     links = sorted(
         dict.fromkeys(link for joint in drawing.joints for link in joint.links), key=lambda k: k not in moved
@@ -265,7 +268,7 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
         return number
 
     undriven = set(driven)
-    for joint in drawing.joints:
+    for joint in map(_slot_on_the_frame, drawing.joints, repeat(drawing.frame)):
         flags, slot, angle = 0, "", 0.0
         base = joint.links[0]
         drive = driven.get(joint.name)
@@ -298,6 +301,15 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     body = f"{head}{''.join(f'{record}.' for record in records)}.{''.join(f'{each}.' for each in bodies)}..N_"
     checked = body + _CHECKS[len(body) % 62]
     return f"{_ADDRESS}{checked}*{_digest(checked)}\n"
+
+
+def _slot_on_the_frame(joint: DrawnJoint, frame: str) -> DrawnJoint:
+    """A slide on the frame with the slot in the frame; `GrueblerError` for a pin of the frame in a slot that moves."""
+    if joint.slot is None or frame not in joint.links[1:]:
+        return joint
+    if joint.turns:
+        raise GrueblerError("the format holds no pin of the frame in the slot of another link")
+    return replace(joint, links=(frame, joint.links[0]))
 
 
 def _base_64(value: int) -> str:

@@ -1,18 +1,18 @@
 """JSON of pylinkage, in its two forms.
 
-The mechanism form has joints with an id, a type (ground, revolute, prismatic, tracker) and a position, and links with
-the ids of their joints, of type ground, driver, arc_driver or link. The older form has joints that are placed one by
-one: Static; Crank at a distance from a joint; Revolute (also Pivot) at two distances from two joints; Fixed at a
-distance and an angle against the line of two joints; Prismatic (also Linear) at a distance from a joint on the line of
-two others. Each crank, and each distance of a Revolute or Prismatic, is a link. Source: the serialization modules of
-the library.
+The mechanism form has joints with an id, a type (ground, revolute, tracker, prismatic: a pin in a slot of the frame)
+and a position, and links with the ids of their joints, of type ground, driver, arc_driver or link. The older form has
+joints that are placed one by one: Static; Crank at a distance from a joint; Revolute (also Pivot) at two distances from
+two joints; Fixed at a distance and an angle against the line of two joints; Prismatic (also Linear) at a distance from
+a joint on the line of two others. Each crank, and each distance of a Revolute or Prismatic, is a link. Source: the
+serialization modules of the library.
 """
 
 from __future__ import annotations
 
 from cmath import phase, rect
 from collections.abc import Mapping
-from math import atan2, hypot, isfinite
+from math import atan2, cos, hypot, isfinite, sin
 from typing import Any
 
 from gruebler.errors import GrueblerError
@@ -239,11 +239,11 @@ def _on_line(name: str, centre: complex, radius: float, start: complex, end: com
 def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict[str, Any]:
     """The document of a drawing in the mechanism form.
 
-    Raises `GrueblerError` if something slides: the form does not say in which link.
+    Raises `GrueblerError` if something slides other than a pin in a slot of the frame.
     """
     frame = drawing.frame
-    if any(joint.slot is not None for joint in drawing.joints):
-        raise GrueblerError("the format holds turning joints only: its slides do not name the link with the slot")
+    if any(joint.slot is not None and not (joint.turns and joint.links[0] == frame) for joint in drawing.joints):
+        raise GrueblerError("of what slides the format holds pins in slots of the frame only")
     members: dict[str, list[DrawnJoint]] = {}
     for joint in drawing.joints:
         for link in joint.links:
@@ -251,7 +251,10 @@ def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
     joints: list[dict[str, Any]] = []
     for joint in drawing.joints:
         record: dict[str, Any] = {"id": joint.name, "type": "revolute", "position": [joint.x, joint.y]}
-        if frame in joint.links:
+        if joint.slot is not None:
+            axis = [cos(joint.slot), sin(joint.slot)]
+            record |= {"type": "prismatic", "axis": axis, "line_point": [joint.x, joint.y], "slide_distance": 0.0}
+        elif frame in joint.links:
             record["type"] = "ground"
         elif len(joint.links) == 1:
             pins = [each for each in members[joint.links[0]] if len(each.links) > 1]
@@ -267,6 +270,8 @@ def pylinkage_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> dict
     links: list[dict[str, Any]] = []
     for link, its in members.items():
         names = [joint.name for joint in its if len(joint.links) > 1 or frame in joint.links]
+        if link == frame:
+            names = [joint.name for joint in its if joint.slot is None]
         entry: dict[str, Any] = {"id": link, "type": "ground" if link == frame else "link", "joints": names}
         if link in drives:
             motor = next(joint for joint in its if joint.name == drives[link].joint)
