@@ -146,7 +146,8 @@ def test_files_survive_pmks_in_thousandths(path):
         np.array([(joint.x, joint.y) for joint in drawing_of(each, []).joints if len(joint.links) > 1])
         for each in (linkage, other.scaled(scale))
     )
-    assert gap(one, two) <= 0.002 * scale
+    turned = 0.001 * size(linkage) * any(joint.slot is not None for joint in drawing_of(linkage, []).joints)
+    assert gap(one, two) <= 0.002 * scale + turned
 
 
 def test_jansens_leg_stands_where_pyslvs_has_it():

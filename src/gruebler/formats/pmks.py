@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import repeat
-from math import atan2, cos, pi, sin
+from math import atan2, cos, pi, remainder, sin
 from typing import NamedTuple
 from urllib.parse import parse_qs, unquote
 
@@ -289,6 +289,8 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
                 flags += _INPUT
                 undriven.discard(joint.name)
         put(flags, joint.name, joint.x, joint.y, angle, joint.links[joint.slot is not None :], slot)
+    if any(abs(remainder(joint.slot, 0.001)) > 1e-9 for joint in drawing.joints if joint.slot is not None):
+        left_out.append(message("digits of directions beyond 0.001 radians"))
     if undriven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(sorted(undriven))))
     if off * 1e9 > reach * scale:
