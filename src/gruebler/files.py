@@ -223,6 +223,12 @@ def _json_of_others(name: str, title: Message, carries: Message) -> Format:
     return Format(name, (), title, carries, read, write)
 
 
+def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.formats.mjcf import mjcf_from_linkage
+
+    _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
+
+
 def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
     def read(path: Path, left_out: list[Message]) -> list[Chain]:
         from gruebler.formats.chain_files import read_lines
@@ -343,6 +349,14 @@ FORMATS: tuple[Format, ...] = (
         "pylinkage",
         message("pylinkage"),
         message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
+    ),
+    Format(
+        "mjcf",
+        (".mjcf",),
+        message("MuJoCo"),
+        message("a linkage of pins, slides and slots as a model that runs, points, drives"),
+        None,
+        _write_mjcf,
     ),
 )
 """Every format, those of this library first."""

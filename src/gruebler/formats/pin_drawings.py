@@ -25,7 +25,16 @@ from gruebler.linkages.elements import direction
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.text import Message, message
 
-__all__ = ["DrawnDrive", "DrawnJoint", "PinDrawing", "drawing_of", "linkage_of", "one_drive_a_joint", "with_slot_ends"]
+__all__ = [
+    "DrawnDrive",
+    "DrawnJoint",
+    "PinDrawing",
+    "drawing_of",
+    "linkage_of",
+    "lower_linkage",
+    "one_drive_a_joint",
+    "with_slot_ends",
+]
 
 _MOST = 3000  # joints, and links; real mechanisms have fewer than a hundred
 _MOST_AT_A_PIN = 60
@@ -316,11 +325,8 @@ def drawing_of(linkage: Linkage, left_out: list[Message]) -> PinDrawing:
     >>> [(joint.name, joint.links, joint.slot) for joint in drawing.joints][-1]
     ('C', ('frame', 'coupler'), 0.0)
     """
-    lower = with_lower_pairs(_posed(linkage))
+    lower = lower_linkage(linkage)
     chain, frame = lower.mechanism.chain, lower.mechanism.frame
-    for joint in chain.joints:
-        if joint.pair.name not in ("revolute", "prismatic"):
-            raise LinkageError("the format holds turning and sliding joints only, not {joint}", joint=joint)
     if linkage.outputs:
         left_out.append(message("which links are outputs: {links}", links=", ".join(linkage.outputs)))
     names = _letters(lower.points)
@@ -345,6 +351,15 @@ def drawing_of(linkage: Linkage, left_out: list[Message]) -> PinDrawing:
         for name, point in lower.points.items()
     ]
     return PinDrawing(frame, (*joints.values(), *points), tuple(drives), lower.unit)
+
+
+def lower_linkage(linkage: Linkage) -> Linkage:
+    """The linkage with turning and sliding joints only and a reference pose; `LinkageError` if it has others."""
+    lower = with_lower_pairs(_posed(linkage))
+    for joint in lower.mechanism.chain.joints:
+        if joint.pair.name not in ("revolute", "prismatic"):
+            raise LinkageError("the format holds turning and sliding joints only, not {joint}", joint=joint)
+    return lower
 
 
 def _placed(lower: Linkage, number: int) -> DrawnJoint:

@@ -36,6 +36,7 @@ _SLIDER, _INPUT, _GROUND, _WELDED, _TRACED = 1, 2, 4, 8, 16
 _ROOTS = "YAMG0123"  # flags of links that are not parts of another one
 _LONGEST = 200_000  # characters of an address
 _DIGEST = 6
+_ROUND = 1e-9  # radians
 
 
 def drawing_from_pmks(text: str, left_out: list[Message]) -> PinDrawing:
@@ -245,6 +246,7 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
         left_out.append(message("the unit {unit}", unit=unit))
         unit = "cm"
     driven = one_drive_a_joint(drawing, left_out)
+    _say_rounded(drawing, left_out)
     moved = [drive.moved for drive in driven.values()]
     links = sorted(
         dict.fromkeys(link for joint in drawing.joints for link in joint.links), key=lambda k: k not in moved
@@ -289,8 +291,6 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
                 flags += _INPUT
                 undriven.discard(joint.name)
         put(flags, joint.name, joint.x, joint.y, angle, joint.links[joint.slot is not None :], slot)
-    if any(abs(remainder(joint.slot, 0.001)) > 1e-9 for joint in drawing.joints if joint.slot is not None):
-        left_out.append(message("digits of directions beyond 0.001 radians"))
     if undriven:
         left_out.append(message("drives of joints {joints}", joints=", ".join(sorted(undriven))))
     if off * 1e9 > reach * scale:
@@ -303,6 +303,11 @@ def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
     body = f"{head}{''.join(f'{record}.' for record in records)}.{''.join(f'{each}.' for each in bodies)}..N_"
     checked = body + _CHECKS[len(body) % 62]
     return f"{_ADDRESS}{checked}*{_digest(checked)}\n"
+
+
+def _say_rounded(drawing: PinDrawing, left_out: list[Message]) -> None:
+    if any(abs(remainder(joint.slot, 0.001)) > _ROUND for joint in drawing.joints if joint.slot is not None):
+        left_out.append(message("digits of directions beyond 0.001 radians"))
 
 
 def _slot_on_the_frame(joint: DrawnJoint, frame: str) -> DrawnJoint:
