@@ -229,6 +229,12 @@ def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
     _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
 
 
+def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.formats.dxf import dxf_from_linkage
+
+    _write_text(path, dxf_from_linkage(_as_linkage(value), left_out))
+
+
 def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
     def read(path: Path, left_out: list[Message]) -> list[Chain]:
         from gruebler.formats.chain_files import read_lines
@@ -349,6 +355,14 @@ FORMATS: tuple[Format, ...] = (
         "pylinkage",
         message("pylinkage"),
         message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
+    ),
+    Format(
+        "dxf",
+        (".dxf",),
+        message("CAD, laser cutters (DXF)"),
+        message("plates of links of pins and slides with holes, paths of points, in one position"),
+        None,
+        _write_dxf,
     ),
     Format(
         "mjcf",

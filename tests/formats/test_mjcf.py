@@ -17,7 +17,7 @@ CASES = {
     "slider-crank": SliderCrank(25, 70, 5).linkage({"K": (45, 40)}),
     "jansen": files.read(FOLDER / "jansen.linkage2", left_out=[]),
     "klann": files.read(FOLDER / "klann.linkage2", left_out=[]),
-    "shaper": files.read(FOLDER / "shaper.pmks", left_out=[]),
+    "shaper": files.read(FOLDER / "shaper.pmks", left_out=[]).with_points({"K": ("DR", 0.3, 0.2)}),
 }
 
 
