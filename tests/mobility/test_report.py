@@ -48,7 +48,7 @@ def test_a_sum_that_is_right_by_accident_is_not_passed():
     (part,) = braced.overconstrained
     assert part.links == ("0", "1", "2", "3")
     assert part.redundancy == 1
-    assert part.mended_by_freeing == part.mended_by_removing == part.joints == (0, 1, 2, 3, 4)
+    assert part.resolved_by_freeing == part.resolved_by_removing == part.joints == (0, 1, 2, 3, 4)
     assert braced.rigid_clusters == (("0", "1", "2", "3"),)
     assert braced.immobile_joints == (0, 1, 2, 3, 4)
     hidden = mobility_report(Chain.parse(KNOWN[10][0]))
