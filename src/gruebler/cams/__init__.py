@@ -1,4 +1,4 @@
-"""Cams: laws of motion, profiles for given lifts, and the motion that a given contour gives."""
+"""Cams: laws of motion, profiles for given lifts, and follower motions for given contours."""
 
 from gruebler.cams.cam import Cam, CamExtremum, CamReport
 from gruebler.cams.contour import ArcContour, ContourArc, FollowerMotion, follower_motion, tangent_cam

@@ -23,7 +23,7 @@ __all__ = ["Cam", "CamExtremum", "CamReport"]
 
 
 class _Contact(NamedTuple):
-    """What touches, in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""
+    """The contact in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""
 
     point: Complexes
     shape: Reals
@@ -31,7 +31,7 @@ class _Contact(NamedTuple):
     curvature: Reals
     pressure: Reals
     face: Reals
-    """Where along a flat face the cam touches, from the foot of the normal through the axis, or from the pivot."""
+    """The place of the contact along a flat face, from the foot of the normal through the axis, or from the pivot."""
     centre: Complexes
     """The pitch curve: the roller's centre; for a face the contact itself."""
 
@@ -45,18 +45,18 @@ class CamExtremum(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class CamReport:
-    """What decides whether a cam is good; each extreme found exactly, jumps of acceleration taken from both sides."""
+    """The quality measures of a cam; extremes are exact, with one-sided values at jumps of acceleration."""
 
     pressure: tuple[CamExtremum, CamExtremum]
     """The least and the greatest signed pressure angle in radians: from the follower's motion to the normal."""
     convex: CamExtremum | None
     """The smallest radius of curvature where the profile is convex."""
     hollow: CamExtremum | None
-    """The smallest radius of curvature where it is hollow, if it is: no larger grinding wheel has room there."""
+    """The smallest radius of curvature where it is hollow, if it is: the greatest radius of a grinding wheel."""
     room: CamExtremum
     """Not positive: undercut. 1 - r k for a roller on a pitch curve of curvature k; for a face the radius."""
     face: tuple[CamExtremum, CamExtremum]
-    """How far a flat face must reach to both sides (0 for rollers)."""
+    """The length of a flat face that is needed to both sides (0 for rollers)."""
 
     @property
     def undercut(self) -> bool:
@@ -66,12 +66,12 @@ class CamReport:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Cam(Brief):
-    """A disc cam that gives a follower its lift; the lift is a length, or radians for a swinging follower.
+    """A disc cam for a lift of a follower; the lift is a length, or radians for a swinging follower.
 
     >>> from gruebler.cams import read_lift
     >>> cam = Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), base=40, follower=Roller(10, offset=5))
-    >>> found = cam.findings()
-    >>> round(math.degrees(found.pressure[1].value), 3), round(found.convex.value, 3), found.undercut
+    >>> report = cam.findings()
+    >>> round(math.degrees(report.pressure[1].value), 3), round(report.convex.value, 3), report.undercut
     (17.693, 30.382, False)
     """
 
@@ -126,7 +126,7 @@ class Cam(Brief):
         return self._at(angle).curvature
 
     def contact_on_face(self, angle: ArrayLike) -> Reals:
-        """Where along a flat face the cam touches (length)."""
+        """The place of the contact along a flat face (length)."""
         return self._at(angle).face
 
     def findings(self) -> CamReport:
@@ -170,7 +170,7 @@ class Cam(Brief):
 def _radii(
     follower: Follower, low: CamExtremum, high: CamExtremum
 ) -> tuple[CamExtremum | None, CamExtremum | None, CamExtremum]:
-    """The least convex and hollow radius and the room, from the extremes of the shape."""
+    """The least convex and hollow radius and the clearance, from the extremes of the shape."""
     if isinstance(follower, Flat):
         return (low if low.value > 0 else None), None, low
     # The radius 1 / k - r of the profile grows as the pitch curve's curvature k falls, on either side of k = 0.
@@ -185,7 +185,7 @@ def _roller_contact(roller: Roller, phi: Reals, s: Reals, s1: Reals, s2: Reals) 
     back = np.exp(-1j * phi)
     c, c1, c2 = path.at, path.first * s1, path.first * s2 + path.second * s1**2
     z, z1, z2 = c * back, (c1 - 1j * c) * back, (c2 - 2j * c1 - c) * back
-    # The pitch curve runs clockwise: its outward normal lies to the left of the tangent.
+    # The pitch curve is clockwise: its outward normal lies to the left of the tangent.
     normal = 1j * z1 / np.abs(z1)
     bend = -np.imag(np.conj(z1) * z2) / np.abs(z1) ** 3
     pressure = np.angle(normal / back / path.first)
@@ -212,7 +212,7 @@ def _flat_contact(flat: Flat, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Co
     motion = -1j * math.copysign(1.0, flat.distance) * lever / np.abs(lever) if flat.swings else normal
     point = contact * np.exp(-1j * phi)
     along = np.real(contact) if not flat.swings else np.sqrt(np.maximum(np.abs(lever) ** 2 - flat.face**2, 0))
-    # Where the face turns back against the cam there is no regular profile, whatever the radius says.
+    # Where the face turns back against the cam there is no regular profile, whatever the radius.
     shape = np.where(turn < 0, radius, -np.abs(radius)) if flat.swings else radius
     return _Contact(point, shape, 1 / radius, np.angle(normal / motion), along, point)
 
