@@ -32,7 +32,7 @@ class GivenAnswer(NamedTuple):
 
     number: float
     place: float
-    """What one unit of the last written digit is worth."""
+    """The value of one unit of the last written digit."""
     has_unit: bool
 
 
