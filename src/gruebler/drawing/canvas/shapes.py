@@ -1,6 +1,6 @@
 """The shapes of a picture.
 
-Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; nothing else tells how it looks.
+Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`, which alone determines its look.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ class Point(NamedTuple):
 
     @property
     def length(self) -> float:
-        """Of the vector."""
+        """The length of the vector."""
         return math.hypot(self.x, self.y)
 
     @property
     def unit(self) -> Point:
-        """The vector of length 1 in the same direction; to the right for no vector at all."""
+        """The vector of length 1 in the same direction; to the right for the zero vector."""
         size = self.length
         return Point(self.x / size, self.y / size) if size > 1e-9 else Point(1.0, 0.0)
 
@@ -82,7 +82,7 @@ class CircleShape:
 
 @dataclass(frozen=True, slots=True)
 class ArcShape:
-    """A part of a circle, from an angle on by an extent of less than a full turn; positive from x to y."""
+    """An arc of a circle from an angle over an extent of less than a full turn; positive from x to y."""
 
     at: Point
     radius: float
@@ -98,7 +98,7 @@ class ArcShape:
 
 @dataclass(frozen=True, slots=True)
 class TextShape:
-    """Words at a place, their middle at its height; the anchor is start, middle or end."""
+    """A text at a place, its middle at the height of the place; the anchor is start, middle or end."""
 
     at: Point
     words: str
@@ -121,7 +121,7 @@ _LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,3})(?!\w)")
 
 
 def split_subscripts(words: str) -> list[tuple[str, bool]]:
-    """A text in pieces, each with whether it stands lower: up to three signs after a letter and an underscore.
+    """A text in pieces, each with whether it is a subscript: up to three signs after a letter and an underscore.
 
     >>> split_subscripts("μ_min = 3°, left_arm")
     [('μ', False), ('min', True), (' = 3°, left_arm', False)]
@@ -130,14 +130,14 @@ def split_subscripts(words: str) -> list[tuple[str, bool]]:
     """
     pieces = _LOWERED.split(words)
     in_order = [(pieces[0], False)]
-    for letter, low, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+    for letter, low, following in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         in_order[-1] = in_order[-1][0] + letter, False
-        in_order += [(low, True), (rest, False)]
+        in_order += [(low, True), (following, False)]
     return [piece for piece in in_order if piece[0]]
 
 
 def text_width(words: str, size: float = 13.0) -> float:
-    """About how wide a text is; widths differ from one font to another."""
+    """The approximate width of a text; widths differ between fonts."""
     return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in words)
 
 
@@ -154,7 +154,7 @@ def _corners(shape: Shape) -> Iterator[Point]:
 
 
 def moved_shape(shape: Shape, by: Point) -> Shape:
-    """The shape somewhere else."""
+    """The shape shifted by a vector."""
     match shape:
         case Polylines(parts, style, closed):
             return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)

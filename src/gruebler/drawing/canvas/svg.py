@@ -1,4 +1,4 @@
-"""Figures as SVG: small, the same from run to run, with title and description, text as text."""
+"""Figures as SVG: small, reproducible, with title and description, with text as text elements."""
 
 from __future__ import annotations
 
@@ -54,9 +54,9 @@ def svg_element(shape: Shape) -> str:
             ends = _pair(shape.place(0)), _pair(shape.place(1))
             return f'<path class="gr-{style}" d="M{ends[0]}A{size} {size} 0 {flags} {ends[1]}"/>'
         case TextShape(at, words, style, anchor):
-            where = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
+            position = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
-            return f'<text class="gr-{style}" {where}{anchored}>{svg_words(words, STYLES[style].size)}</text>'
+            return f'<text class="gr-{style}" {position}{anchored}>{svg_words(words, STYLES[style].size)}</text>'
 
 
 def _line(points: tuple[Point, ...], closed: bool) -> str:
@@ -73,21 +73,23 @@ def svg_number(value: float) -> str:
 
 
 def svg_words(words: str, size: float) -> str:
-    """Words with subscripts, and after them as high as before; the size is that of the letters."""
+    """Text with subscripts, after which the base line is restored; the size is that of the letters."""
     pieces = split_subscripts(words)
     if len(pieces) == 1:
         return xml_text(words)
-    made, was_low = "", False
+    markup, was_low = "", False
     for piece, low in pieces:
         shift = 0.25 * size * (low - was_low)
         small = f' font-size="{svg_number(0.75 * size)}"' if low else ""
         text = piece.lstrip(" ")
-        made += " " * (len(piece) - len(text))  # before the tspan: in it, some viewers drop spaces at its beginning
-        made += f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(text)}</tspan>' if shift or small else xml_text(text)
+        markup += " " * (len(piece) - len(text))  # before the tspan: in it, some viewers drop spaces at its beginning
+        markup += (
+            f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(text)}</tspan>' if shift or small else xml_text(text)
+        )
         was_low = low
-    return made
+    return markup
 
 
 def xml_text(words: str) -> str:
-    """Text that XML can hold."""
+    """Text escaped for XML, without control characters."""
     return escape(words.translate(_CONTROLS))
