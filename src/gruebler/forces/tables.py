@@ -47,7 +47,7 @@ def statics_table(statics: Statics, friction: float | None = None, lang: str = "
         else:
             drives.append(Column(name, linkage.unit, values))
             efforts.append(Column(translate("force {joint}", lang, joint=name), "N", work))
-    names, largest = mechanism.chain.joint_names(alphabet), _largest_force(statics)
+    names, largest = mechanism.chain.joint_names(Alphabet.of_language(lang)), _largest_force(statics)
     for number, joint in enumerate(mechanism.chain.joints):
         for link in joint.links[1:] if len(joint.links) > 2 else [_moving(joint.links, mechanism.frame)]:
             size = np.hypot(*statics.force(number, link).T)
