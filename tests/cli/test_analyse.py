@@ -200,7 +200,7 @@ def test_refusals(capsys, arguments, words):
 
 def test_who_turns_fully_is_told(capsys):
     _, out, _ = run(capsys, "lambda", "--lang", "de")
-    assert "R(crank-coupler) volle Umläufe, R(coupler-rocker) 50,6659°" in out
+    assert "D(crank-coupler) volle Umläufe, D(coupler-rocker) 50,6659°" in out
     document, _ = table(capsys, "lambda")
     assert [row["full"] for row in document["rotatability"]] == [True, True, False, False]
 

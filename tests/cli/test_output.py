@@ -143,3 +143,43 @@ def test_a_file_is_written_though_nobody_reads_the_output(tmp_path, monkeypatch,
         monkeypatch.setattr(sys, "stdout", Closed())
         assert main([*arguments, "-o", str(path)]) == 0
     assert path.stat().st_size > 0
+
+
+PRINTING = [
+    ["check", "vcomp"],
+    ["inversions", "vcomp"],
+    ["assur", "wiper"],
+    ["extend", "quad", "--dyad"],
+    ["extend", "quad", "--derivation"],
+    ["enumerate", "--links", "8", "--assortments"],
+    ["catalog", "show", "vcomp"],
+    ["catalog", "search", "--links", "4", "--drives", "1"],
+    ["exercise", "show", "15"],
+    ["coverage", "crank"],
+    ["analyse", FOUR_BAR, "--at", "30"],
+]
+
+
+@pytest.mark.parametrize("arguments", PRINTING, ids=lambda arguments: " ".join(arguments[:2]))
+def test_what_is_printed_goes_into_files_too(tmp_path, capsys, arguments):
+    printed = {}
+    for ending, options in ((".txt", []), (".json", ["--json"])):
+        assert main([*arguments, *options]) == 0
+        printed[ending] = capsys.readouterr().out
+        path = tmp_path / f"out{ending}"
+        assert main([*arguments, "-o", str(path)]) == 0
+        assert capsys.readouterr() == ("", f"Written: {path}\n")
+        assert path.read_text(encoding="utf-8") == printed[ending]
+    assert printed[".txt"] != printed[".json"]
+    json.loads(printed[".json"])
+
+
+def test_a_file_that_does_not_fit_is_refused_and_none_is_left(tmp_path, capsys):
+    for arguments, words in (
+        (["check", "vcomp", "-o", str(tmp_path / "x.csv")], "expected a name that ends with .txt or .json"),
+        (["check", "vcomp", "--json", "-o", str(tmp_path / "x.txt")], "expected a name that ends with .json"),
+        (["check", "no-such-machine", "-o", str(tmp_path / "x.txt")], "no entry 'no-such-machine'"),
+    ):
+        assert main(arguments) == 2
+        assert words in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

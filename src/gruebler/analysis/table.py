@@ -63,7 +63,7 @@ def motion_table(
     >>> [column.header for column in table]
     ['R(frame-crank) [°]', 'rocker [°]', 'rocker′', 'rocker′′ [1/rad]']
     >>> table["rocker"].round(3).tolist()
-    [121.946, 134.927, 131.753]
+    [69.258, 92.319, 138.876]
     """
     linkage, mechanism = motion.linkage, motion.linkage.mechanism
     asked: Sequence[str | Output | None] = outputs or linkage.outputs or [None]

@@ -200,14 +200,7 @@ def _special_mobility(checked: CheckedEntry) -> int | None:
 def _complain(checked_entries: Iterable[CheckedEntry], lang: str) -> None:
     for checked in checked_entries:
         for claim in checked.wrong:
-            text = translate(
-                "{key}: printed {printed}, derived {derived}",
-                lang,
-                key=claim.key,
-                printed=claim.printed,
-                derived=claim.derived,
-            )
-            print(f"{checked.origin or checked.id}: {text}", file=sys.stderr)
+            print(f"{checked.origin or checked.id}: {claim.in_language(lang)}", file=sys.stderr)
 
 
 def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:

@@ -220,7 +220,7 @@ def wanted_language(argv: Sequence[str]) -> str:
     default = os.environ.get("GRUEBLER_LANG") or LANGUAGES[0]
     if default not in LANGUAGES:
         raise GrueblerError(
-            "GRUEBLER_LANG: expected {languages}, but found {found!r}", languages=" or ".join(LANGUAGES), found=default
+            "GRUEBLER_LANG: expected {languages}, but found {found!r}", languages=joined_by_or(LANGUAGES), found=default
         )
     wanted = default
     for word, following in pairwise([*argv, ""]):

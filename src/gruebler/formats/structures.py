@@ -97,7 +97,11 @@ def read_structures(path: Path, space: str | None = None) -> Iterator[Structure]
     if ending == ".json":
         yield from structures_of_json(text, str(path))
     elif ending == ".g6":
-        yield from structures_of_lines("".join(f"g6:{line}\n" for line in text.split()), str(path))
+        marks = ("g6:", "#")
+        lines = (
+            line if line.lstrip().startswith(marks) or not line.strip() else f"g6:{line}" for line in text.splitlines()
+        )
+        yield from structures_of_lines("\n".join(lines), str(path))
     else:
         yield from structures_of_lines(text, str(path), space)
 
@@ -152,7 +156,7 @@ def _structure_of_document(document: Any) -> Chain | Linkage | SpatialLinkage:
 def structures_of_lines(text: str, source: str, space: str | None = None) -> Iterator[Structure]:
     r"""The chains of lines; empty lines and lines that begin with # are skipped.
 
-    >>> [structure.place for structure in structures_of_lines("# two\nR(0-1) R(1-0)\n\nP(0-1) P(1-0)", "a.txt")]
+    >>> [found.place for found in structures_of_lines("# two\nR(0-1) R(1-2) R(2-0)\n\nR(0-1) P(1-2) P(2-0)", "a.txt")]
     ['a.txt, line 2', 'a.txt, line 4']
     """
     empty = True
