@@ -10,6 +10,8 @@ import sys
 
 import pytest
 
+from gruebler.enumeration import count_chains
+
 LIMITS = {resource.RLIMIT_AS: 3 * 10**9, resource.RLIMIT_CPU: 300}
 
 
@@ -142,6 +144,13 @@ def test_long_lists_are_refused_with_their_size(words, said):
     assert (status, out) == (2, "")
     assert said in err
     assert "--yes" in err
+
+
+@pytest.mark.slow
+def test_the_groups_of_ten_links_are_listed_without_consent():
+    """As many as ways to choose the frame of an eleven-link truss, which enumeration counts without making groups."""
+    status, out, err = run("assur", "--list", "10", "--count")
+    assert (status, out, err) == (0, f"{count_chains(11, 0, orbits=True).inversions}\n", "")
 
 
 def test_a_limit_ends_a_long_search_and_needs_no_consent():

@@ -24,8 +24,10 @@ _ROWS = {
     "most_pins": (message("largest number of pins"), ""),
     "step_deg": (message("step angle of the wheel"), "°"),
     "engaged_deg": (message("driver angle per step"), "°"),
+    "moving_deg": (message("driver angle in motion per turn"), "°"),
     "motion_fraction": (message("motion as a fraction of a turn"), ""),
     "dwell_fraction": (message("dwell as a fraction of a turn"), ""),
+    "motion_ratio": (message("motion time / dwell time"), ""),
     "dwell_begin_deg": (message("dwell from driver angle"), "°"),
     "dwell_end_deg": (message("dwell to driver angle"), "°"),
     "greatest_ratio": (message("greatest wheel speed / driver speed"), ""),
@@ -85,7 +87,11 @@ def run(arguments: argparse.Namespace) -> int:
             document["motion"] = records(_KEYS, table)
         print_json(document)
         return 0
-    rows = [(_ROWS[key][0], number(value, arguments.lang, ".10g") + _ROWS[key][1]) for key, value in figures.items()]
+    rows = [
+        (_ROWS[key][0], number(value, arguments.lang, ".10g") + _ROWS[key][1])
+        for key, value in figures.items()
+        if value < math.inf
+    ]
     print_table((message("quantity"), message("value")), rows, numbers=(1,), lang=arguments.lang)
     if table is not None:
         print()
@@ -112,8 +118,10 @@ def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict
         "most_pins": drive.most_pins,
         "step_deg": math.degrees(drive.step),
         "engaged_deg": math.degrees(2 * drive.engaged),
+        "moving_deg": math.degrees(drive.motion_fraction * math.tau),
         "motion_fraction": drive.motion_fraction,
         "dwell_fraction": drive.dwell_fraction,
+        "motion_ratio": drive.motion_ratio,
         "dwell_begin_deg": math.degrees(drive.engaged),
         "dwell_end_deg": math.degrees(math.tau / drive.pins - drive.engaged),
         "greatest_ratio": drive.greatest_ratio,
