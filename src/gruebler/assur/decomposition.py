@@ -211,7 +211,7 @@ class Decomposition(Brief):
             highest = roman(self.class_number)
             lines.append(translate("The mechanism has class {group_class}.", lang, group_class=highest))
         elif self.complete:
-            lines.append(translate("The drives are all there is.", lang))
+            lines.append(translate("There are only drives.", lang))
         lines += [line.in_language(lang) for line in _open_groups_message(self)]
         return "\n".join(lines)
 

@@ -167,11 +167,11 @@ def _check(group: AssurGroup) -> None:
             constraints=constraints,
         )
     if not _rigid(group):
-        raise AssurError("{chain} is no Assur group: with its places held it stays loose", chain=chain)
+        raise AssurError("{chain} is no Assur group: with its places fixed it is not rigid", chain=chain)
     part = _first_part(group)
     if len(part) < len(group.links):
         raise AssurError(
-            "{chain} is no Assur group: the links {part} can be found without the others",
+            "{chain} is no Assur group: the links {part} can be solved without the others",
             chain=chain,
             part=", ".join(part),
         )

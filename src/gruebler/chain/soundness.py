@@ -101,7 +101,7 @@ def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
     if len(parts) > 1:
         sizes = sorted(parts, key=len)
         raise ChainError(
-            "the chain falls into {count} parts: no joint connects {links} with the rest",
+            "the chain falls into {count} parts: no joint connects {links} with the others",
             count=len(parts),
             links=_some(sizes[0]),
         )

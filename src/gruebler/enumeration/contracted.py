@@ -114,7 +114,7 @@ class ContractedGraph:
         """int64[16]; `GrueblerError` if the graph is too large for it."""
         if self.nodes > _NODES or max(k for _, _, k in self.bundles) > 15:
             raise GrueblerError(
-                "only contracted graphs of at most {most} nodes and 15 parallel strings can be worked on, this one has "
+                "only contracted graphs of at most {most} nodes and 15 parallel strings can be processed, this one has "
                 "{nodes} nodes",
                 most=_NODES,
                 nodes=self.nodes,
@@ -152,7 +152,7 @@ def _check(graph: ContractedGraph) -> None:
             front.extend(fresh)
         if len(visited - {-1}) < graph.nodes:
             raise GrueblerError(
-                "a contracted graph is two-connected, this one is in pieces"
+                "a contracted graph is two-connected, this one is disconnected"
                 if missing < 0
                 else "a contracted graph is two-connected, this one falls apart at node {node}",
                 node=missing,
@@ -182,7 +182,7 @@ def packed_graphs(loops: int) -> Iterator[Packed]:
     """
     if not 2 <= loops <= MOST_LOOPS:
         raise GrueblerError(
-            "contracted graphs are made for 2 to {most_loops} loops, not for {loops}",
+            "contracted graphs are available for 2 to {most_loops} loops, not for {loops}",
             most_loops=MOST_LOOPS,
             loops=loops,
         )

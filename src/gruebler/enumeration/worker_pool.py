@@ -249,7 +249,8 @@ class _Workers(Generic[P, R]):
             self.executor, self.owned = self.source(), True
         else:
             raise RunError(
-                "the {name} broke and cannot be made anew; give a function that can", name=type(self.source).__name__
+                "the {name} broke and cannot be replaced; pass a function that creates executors",
+                name=type(self.source).__name__,
             )
         resent, self.lost = sorted(self.lost, key=lambda item: item[0]), []
         for number, piece in resent:

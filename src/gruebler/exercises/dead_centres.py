@@ -20,8 +20,8 @@ _OUTER = message("outer dead centre, crank and connecting rod stretched")
 _INNER = message("inner dead centre, crank and connecting rod overlapping")
 _STROKE = message("stroke, the distance of the dead centres")
 _RATIO = message("crank-conrod ratio")
-_LONGER = message("longer way of the crank between the dead centres")
-_SHORTER = message("shorter way of the crank between the dead centres")
+_LONGER = message("larger crank angle between the dead centres")
+_SHORTER = message("smaller crank angle between the dead centres")
 _TIMES = message("ratio of the times at constant speed")
 _SWING = message("swing of the rocker")
 
@@ -98,7 +98,7 @@ def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measur
     builder.mistake(
         "difference",
         phi_i - phi_a,
-        message("Asked is φ_max - φ_min = 2·Δφ: one way is longer by Δφ, the other shorter by it."),
+        message("The task asks for φ_max - φ_min = 2·Δφ: one stroke is longer by Δφ, the other shorter by it."),
     )
 
 
@@ -110,7 +110,7 @@ def _add_times(builder: SolutionBuilder, delta: float, angles: dict[str, str], f
     ratio = longer / shorter
     values = {"φ_max": angle(longer), "φ_min": angle(shorter)}
     builder.find("time_ratio", _TIMES, "φ_max/φ_min", ratio, unit="", symbol="k", values=values)
-    hint = message("Both ways together are a full turn; φ_max is more than 180°, φ_min less.")
+    hint = message("Both angles together are a full turn; φ_max is more than 180°, φ_min less.")
     builder.mistake("φ_max", shorter, hint)
     builder.mistake("φ_min", longer, hint)
     builder.mistake("time_ratio", shorter / longer, message("The longer time is divided by the shorter."))
@@ -239,8 +239,8 @@ def _add_middle_mistakes(builder: SolutionBuilder, phi: float, alpha: float) -> 
         90.0,
         message("At 90° the crank is in the middle of the time, not of the way: the slider is already beyond H/2."),
     )
-    builder.mistake("φ_H2", 180 - phi, message("Counted from the inner dead centre; asked is the outer."))
-    builder.mistake("φ_i_H2", phi, message("Counted from the outer dead centre; asked is the inner."))
+    builder.mistake("φ_H2", 180 - phi, message("Counted from the inner dead centre; the answer counts from the outer."))
+    builder.mistake("φ_i_H2", phi, message("Counted from the outer dead centre; the answer counts from the inner."))
     builder.mistake("μ_H2", alpha, message("That is the deviation angle α; μ = 90° - α."))
 
 
@@ -337,8 +337,8 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     period = builder.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
     times = []
     for key, name, angle_name, part in (
-        ("T_max", message("time of the slower way"), "φ_max", longer),
-        ("T_min", message("time of the quicker way"), "φ_min", 360 - longer),
+        ("T_max", message("time of the slower stroke"), "φ_max", longer),
+        ("T_min", message("time of the quicker stroke"), "φ_min", 360 - longer),
     ):
         values = {angle_name: angle(part), "T": f"{number(period)} ms"}
         times.append(builder.find(key, name, f"{angle_name}/360°·T", part / 360 * period, unit="ms", values=values))
@@ -347,7 +347,7 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     shown = {"T_max": f"{number(slow)} ms", "T_min": f"{number(quick)} ms"}
     builder.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
     builder.check(
-        message("Time of the slower way, by the solved motion"),
+        message("Time of the slower stroke, by the solved motion"),
         slow,
         by_motion,
         "ms",
@@ -355,7 +355,7 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     builder.mistake(
         "ΔT",
         (slow - quick) / 2,
-        message("That is the distance from T/2; the ways differ by twice it."),
+        message("That is the distance from T/2; the strokes differ by twice it."),
     )
 
 

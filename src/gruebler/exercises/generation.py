@@ -166,7 +166,7 @@ def _dyad(random: Random, level: int) -> _Draft:
     more = [message("How does F change?")]
     if level > 1:
         keys += ("chains",)
-        more.append(message("How many essentially different chains can come out (names of the links aside)?"))
+        more.append(message("How many essentially different chains can result (names of the links aside)?"))
     if is_dyad or level == 3:
         given["form"], kind = random.choice(_DYADS if level > 1 else _DYADS[:1])
         method = "dyads.dyad"
@@ -177,7 +177,7 @@ def _dyad(random: Random, level: int) -> _Draft:
         method = "dyads.coupler"
         task = message(
             "Connect two links of the chain {chain} by a coupler with two turning pairs, so that no rigid "
-            "triangle comes out.",
+            "triangle results.",
             chain=chain,
         )
     return _Draft(method, given, keys, joined([task, *more], " "))
@@ -311,7 +311,7 @@ def _dead_centre(random: Random, level: int) -> _Draft:
     rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
     task = message(
         "A crank-rocker has {lengths}; the crank makes {rpm} turns a minute. Find the swing of the rocker, the larger "
-        "crank angle between the dead centres and the times of both ways.",
+        "crank angle between the dead centres and the times of both strokes.",
         lengths=_given_lengths(given),
         rpm=rpm,
     )

@@ -78,10 +78,10 @@ def _check_piece(builder: SolutionBuilder, again: PathPiece) -> None:
 def _add_straight(builder: SolutionBuilder, size: FourBar, reach: float) -> None:
     """The straight part of the lambda linkage's path, over half a turn of the crank."""
     half = path_piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
-    text = message("straight stretch: from φ = 90° to 270° C runs along a length of")
+    text = message("straight part: from φ = 90° to 270° C runs along a length of")
     builder.find(
         "length",
-        message("length of the straight stretch"),
+        message("length of the straight part"),
         "|C_x(90°) - C_x(270°)|",
         half.length,
         symbol="L",

@@ -210,7 +210,7 @@ def _kinds_of_transfer(columns: list[_Column]) -> Table:
         kind = message("uniform, linear") if steady else message("non-uniform")
         sense = message("to and fro") if back else message("one sense")
         rows.append((mechanism, kind, sense, f"{still:.0%}"))
-    title = message("What the transfer function says")
+    title = message("Properties of the transfer function")
     headers = (
         message("mechanism"),
         message("transmission"),

@@ -43,7 +43,7 @@ _VERDICTS = {
 }
 _MEANINGS = {
     Verdict.OVERCONSTRAINED: message(
-        "Some links hold more constraints than they need; such a machine runs only with exact or special dimensions."
+        "Some links have more constraints than they need; such a machine moves only with exact or special dimensions."
     ),
     Verdict.RIGID: message(
         "Nothing moves for almost all dimensions; only special dimensions (equal and parallel cranks, a contact on "
@@ -238,7 +238,7 @@ def _numbers(report: MobilityReport) -> Iterator[Message]:
 
 def _count_and_rank(report: MobilityReport) -> Message:
     if report.redundancy:
-        text = message("The count is off by {difference}: so many constraints are redundant.")
+        text = message("The count is off by {difference}, the number of redundant constraints.")
         return text.filled(difference=report.redundancy)
     if report.generic and report.rigid_clusters:
         return message("The sum is right, but the chain is not sound: see below.")
@@ -262,7 +262,7 @@ def _details(report: MobilityReport, names: Sequence[str]) -> Iterator[Message]:
         yield _idle(idle, report.generic)
     for link, count in chain.degrees.items():
         if count == 1:
-            yield message("{link} hangs on a single joint; its freedom there belongs to it alone.", link=link)
+            yield message("{link} has a single joint; its freedom there affects no other link.", link=link)
 
 
 def _idle(idle: IdleFreedom, generic: int) -> Message:
@@ -283,7 +283,7 @@ def _idle(idle: IdleFreedom, generic: int) -> Message:
 def _overconstrained(part: Overconstrained, names: Sequence[str]) -> Message:
     links = ", ".join(part.links)
     if not part.minimal:
-        text = message("Overconstrained as a whole, not taken apart further: links {links} by {redundancy}.")
+        text = message("Overconstrained as a whole, not decomposed further: links {links} by {redundancy}.")
         return text.filled(links=links, redundancy=part.redundancy)
     line = message(
         "Overconstrained: links {links} by {redundancy}, at the joints {joints}.",

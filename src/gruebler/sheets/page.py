@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.canvas.styles import COLOURS
-from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_words
+from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_text
 
 __all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "suffix_of"]
 
@@ -113,9 +113,9 @@ class Page:
 
 def _words_svg(item: TextLine) -> str:
     style = f'font-size="{item.size:g}" fill="{COLOURS[item.role][0]}"' + ' font-weight="bold"' * item.bold
-    words = svg_words(item.text, item.size)
+    text = svg_text(item.text, item.size)
     anchor = "" if item.anchor == "start" else f' text-anchor="{item.anchor}"'
-    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{words}</text>'
+    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{text}</text>'
 
 
 def _rule_svg(item: HorizontalRule) -> str:
@@ -136,9 +136,9 @@ _SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, Placed
 
 
 def _paint_words(canvas: Any, item: TextLine) -> None:
-    from gruebler.drawing.canvas.matplotlib_files import math_words
+    from gruebler.drawing.canvas.matplotlib_files import math_text
 
-    text, has_subscripts = math_words(item.text)
+    text, has_subscripts = math_text(item.text)
     canvas.text(
         item.x / WIDTH,
         1 - item.y / HEIGHT,

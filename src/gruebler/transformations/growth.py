@@ -80,7 +80,7 @@ class Growth:
                 )
             if not self.exact:
                 lines.append(
-                    translate("The search was cut short: another order of the dyads might lead to a loop.", lang)
+                    translate("The search ended early: another order of the dyads might lead to a loop.", lang)
                 )
         if steps:
             lines.append(self.derivation.explain(lang))

@@ -36,7 +36,7 @@ class Scale(NamedTuple):
 class Axis(NamedTuple):
     """A scale and the name of its quantity, unit included."""
 
-    words: str
+    text: str
     scale: Scale
 
 

@@ -93,7 +93,7 @@ def _strokes(shape: Shape) -> Iterator[_Stroke]:
 
 
 def _text(text: TextShape) -> _Stroke:
-    wide = text_width(text.words, STYLES[text.style].size)
+    wide = text_width(text.text, STYLES[text.style].size)
     return *_core(complex(text.at.x + _FROM_ANCHOR[text.anchor] * wide, text.at.y), wide), HALF
 
 

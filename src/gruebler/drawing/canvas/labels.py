@@ -61,9 +61,9 @@ def labels_with_names(
     return texts, {name: number for name, number in numbers.items() if name != number}
 
 
-def note_near(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> TextShape:
+def note_near(at: Point, text: str, style: str, shapes: Sequence[Shape]) -> TextShape:
     """A text near a point, where the shapes leave most space; above and to the right if there is no obstacle."""
-    room, wide = Obstacles(shapes), text_width(words, STYLES[style].size)
+    room, wide = Obstacles(shapes), text_width(text, STYLES[style].size)
     places = [
         Point(at.x + (off + wide / 2) * math.cos(turn), at.y - (off + HALF) * math.sin(turn))
         for off in (8.0, 14.0, 22.0, 32.0, 44.0, 58.0)
@@ -71,7 +71,7 @@ def note_near(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Tex
     ]
     free = room.free(complexes(places), wide)
     best = max(range(len(places)), key=lambda k: (min(float(free[k]), _LEAST), -k))
-    return TextShape(places[best], words, style)
+    return TextShape(places[best], text, style)
 
 
 def short_names(links: Sequence[str]) -> dict[str, str]:

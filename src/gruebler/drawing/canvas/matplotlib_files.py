@@ -68,10 +68,10 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
 
     style = STYLES[shape.style]
     if isinstance(shape, TextShape):
-        words, has_subscripts = math_words(shape.words)
+        text, has_subscripts = math_text(shape.text)
         axes.text(
             *shape.at,
-            words,
+            text,
             fontsize=style.size * point,
             color=COLOURS[style.fill][dark],
             ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
@@ -104,11 +104,11 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
     )
 
 
-def math_words(words: str) -> tuple[str, bool]:
+def math_text(text: str) -> tuple[str, bool]:
     """Text in the notation of matplotlib, with upright subscripts; and whether there are subscripts."""
-    pieces = split_subscripts(words)
+    pieces = split_subscripts(text)
     if len(pieces) == 1:
-        return words, False
+        return text, False
     plain = [(piece.replace("$", r"\$"), low) for piece, low in pieces]
     return "".join(rf"$_\mathregular{{{piece}}}$" if low else piece for piece, low in plain), True
 

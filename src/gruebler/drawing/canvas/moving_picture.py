@@ -125,10 +125,10 @@ def even_keys(turns: float, start: float = 0.0) -> Turn:
 def key_list(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
     """The legend of lines: pairs of a style and a text, one below the other, each beside a sample of its line."""
     shapes: list[Shape] = []
-    for k, (style, words) in enumerate(rows):
+    for k, (style, text) in enumerate(rows):
         start = at.plus(Point(0.0, _ROW * k))
         shapes += [Polylines(((start, start.plus(Point(_SAMPLE, 0.0))),), style)]
-        shapes += [TextShape(start.plus(Point(_SAMPLE + 8.0, 0.0)), words, "value", "start")]
+        shapes += [TextShape(start.plus(Point(_SAMPLE + 8.0, 0.0)), text, "value", "start")]
     return shapes
 
 
@@ -178,8 +178,8 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
             return CircleShape(to(at), radius, style)
         case ArcShape(at, radius, begin, extent, style):
             return ArcShape(to(at), radius, begin - cmath.phase(turn), extent, style)
-        case TextShape(at, words, style, anchor):
-            return TextShape(to(at), words, style, anchor)
+        case TextShape(at, text, style, anchor):
+            return TextShape(to(at), text, style, anchor)
 
 
 def figure_at(picture: MovingPicture, time: float) -> Figure:

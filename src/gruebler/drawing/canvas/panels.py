@@ -48,7 +48,7 @@ class PointMarker(NamedTuple):
 
     x: float
     y: float
-    words: str
+    text: str
     right: bool = False
 
 
@@ -57,14 +57,14 @@ class Band(NamedTuple):
 
     low: float
     high: float
-    words: str
+    text: str
 
 
 class AxisMarker(NamedTuple):
     """A place on the axis below that is marked by a line upwards."""
 
     x: float
-    words: str
+    text: str
 
 
 class DwellMarker(NamedTuple):
@@ -72,7 +72,7 @@ class DwellMarker(NamedTuple):
 
     low: float
     high: float
-    words: str
+    text: str
 
 
 class Panel(NamedTuple):
@@ -119,7 +119,7 @@ def draw_panels(panels: Sequence[Panel], title: str, description: str, lang: str
 def _localised(shape: Shape, lang: str) -> Shape:
     """A shape whose numbers have the decimal sign of a language."""
     if isinstance(shape, TextShape) and shape.style in ("tick", "value"):
-        return replace(shape, words=decimal_sign_in(shape.words, lang))
+        return replace(shape, text=decimal_sign_in(shape.text, lang))
     return shape
 
 
@@ -136,7 +136,7 @@ def _painted(panel: Panel) -> list[Shape]:
     for spot in panel.spots:
         at = panel.place(spot.x, spot.y, spot.right)
         drawn.append(CircleShape(at, 3.2, "dot"))
-        drawn += [note_near(at, spot.words, "value", [*drawn, margins])] if spot.words else []
+        drawn += [note_near(at, spot.text, "value", [*drawn, margins])] if spot.text else []
     shaded = [shape for band in panel.bands for shape in _shaded(panel, band, drawn)]
     dwells = [_dwell(panel, dwell) for dwell in panel.dwells]
     return [*dwells, *shaded, *_grid(panel), *drawn]
@@ -184,13 +184,13 @@ def _frame(panel: Panel) -> Iterator[Shape]:
             texts += [TextShape(beside, name, "tick", "end" if outward < 0 else "start")] if name else []
     yield Polylines(tuple(strokes), "axis")
     yield from texts
-    yield TextShape(Point(wide, _TICK + 27.0), panel.across.words, "value", "end")
+    yield TextShape(Point(wide, _TICK + 27.0), panel.across.text, "value", "end")
     above = -high - _ABOVE * (
-        2 if any([*(mark.words for mark in panel.marks), *(dwell.words for dwell in panel.dwells)]) else 1
+        2 if any([*(mark.text for mark in panel.marks), *(dwell.text for dwell in panel.dwells)]) else 1
     )
-    yield TextShape(Point(0.0, above), panel.up.words, "value", "start")
+    yield TextShape(Point(0.0, above), panel.up.text, "value", "start")
     if panel.right:
-        yield TextShape(Point(wide, above), panel.right.words, "value", "end")
+        yield TextShape(Point(wide, above), panel.right.text, "value", "end")
 
 
 def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]:
@@ -198,24 +198,24 @@ def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]
     low, high = (panel.place(panel.across.scale.low, y) for y in (band.low, band.high))
     wide = Point(panel.size.x, 0.0)
     yield Polylines(((low, low.plus(wide), high.plus(wide), high),), "warning", closed=True)
-    half = text_width(band.words, 11.0) / 2
+    half = text_width(band.text, 11.0) / 2
     places = [Point(x, y) for y in (high.y + 11.0, low.y - 11.0) for x in (wide.x - half - 6.0, half + 6.0, wide.x / 2)]
     free = Obstacles(drawn).free(complexes(places), 2 * half)
-    yield TextShape(places[int(free.argmax())], band.words, "tick")
+    yield TextShape(places[int(free.argmax())], band.text, "tick")
 
 
 def _marks(panel: Panel) -> Iterator[Shape]:
     """Lines upwards; their texts and those of dwells are side by side above the panel, if there is space."""
     last = -math.inf
-    dwells = [AxisMarker((dwell.low + dwell.high) / 2, dwell.words) for dwell in panel.dwells]
+    dwells = [AxisMarker((dwell.low + dwell.high) / 2, dwell.text) for dwell in panel.dwells]
     for mark in sorted([*panel.marks, *dwells]):
         foot = panel.place(mark.x, panel.up.scale.low)
         top = Point(foot.x, -panel.size.y)
         if mark not in dwells:
             yield Polylines(((foot, top),), "dead")
-        half = text_width(mark.words, 11.0) / 2
-        if mark.words and foot.x - half > last:
-            yield TextShape(top.plus(Point(0.0, -13.0)), mark.words, "tick")
+        half = text_width(mark.text, 11.0) / 2
+        if mark.text and foot.x - half > last:
+            yield TextShape(top.plus(Point(0.0, -13.0)), mark.text, "tick")
             last = foot.x + half + 4.0
 
 
@@ -294,7 +294,7 @@ def ratio_diagram(
     Raises `GrueblerError` for lists of different lengths, less than two values, or ratios that are not positive.
 
     >>> figure = ratio_diagram([0.5, 1.6, 2.9], [1e-6, 1e-4, 5e-3], [0.8, 2.0, 3.9], at=(2.85, 0.005, 3.9))
-    >>> [shape.words for shape in figure.shapes if isinstance(shape, TextShape)][-4:]
+    >>> [shape.text for shape in figure.shapes if isinstance(shape, TextShape)][-4:]
     ['P₁', 'P₂', 'Q_G', 'L/l₁']
     """
     phi, q, lengths = (np.array(list(values), np.float64) for values in (angle, ratio, length))
@@ -322,8 +322,8 @@ def ratio_diagram(
         )
         about = f"{about} {point}"
 
-    def axis(words: str, scale: Scale) -> Axis:
-        return Axis(words, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
+    def axis(text: str, scale: Scale) -> Axis:
+        return Axis(text, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
 
     panel = Panel(
         axis(translate("φ_G in °", lang), angles(0.0, float(degrees.max()), tight=True)),

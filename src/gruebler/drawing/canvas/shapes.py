@@ -101,7 +101,7 @@ class TextShape:
     """A text at a place, its middle at the height of the place; the anchor is start, middle or end."""
 
     at: Point
-    words: str
+    text: str
     style: str
     anchor: str = "middle"
 
@@ -120,7 +120,7 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
 _LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,3})(?!\w)")
 
 
-def split_subscripts(words: str) -> list[tuple[str, bool]]:
+def split_subscripts(text: str) -> list[tuple[str, bool]]:
     """A text in pieces, each with whether it is a subscript: up to three signs after a letter and an underscore.
 
     >>> split_subscripts("μ_min = 3°, left_arm")
@@ -128,7 +128,7 @@ def split_subscripts(words: str) -> list[tuple[str, bool]]:
     >>> split_subscripts("B₀K_I")
     [('B₀K', False), ('I', True)]
     """
-    pieces = _LOWERED.split(words)
+    pieces = _LOWERED.split(text)
     in_order = [(pieces[0], False)]
     for letter, low, following in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         in_order[-1] = in_order[-1][0] + letter, False
@@ -136,9 +136,9 @@ def split_subscripts(words: str) -> list[tuple[str, bool]]:
     return [piece for piece in in_order if piece[0]]
 
 
-def text_width(words: str, size: float = 13.0) -> float:
+def text_width(text: str, size: float = 13.0) -> float:
     """The approximate width of a text; widths differ between fonts."""
-    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in words)
+    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in text)
 
 
 def _corners(shape: Shape) -> Iterator[Point]:
@@ -147,8 +147,8 @@ def _corners(shape: Shape) -> Iterator[Point]:
             yield from (point for part in parts for point in part)
         case CircleShape(at, radius) | ArcShape(at, radius):
             yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
-        case TextShape(at, words, style, anchor):
-            wide = text_width(words, STYLES[style].size)
+        case TextShape(at, text, style, anchor):
+            wide = text_width(text, STYLES[style].size)
             left = at.x - wide * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
             yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
 
@@ -162,5 +162,5 @@ def moved_shape(shape: Shape, by: Point) -> Shape:
             return CircleShape(at.plus(by), radius, style)
         case ArcShape(at, radius, begin, extent, style):
             return ArcShape(at.plus(by), radius, begin, extent, style)
-        case TextShape(at, words, style, anchor):
-            return TextShape(at.plus(by), words, style, anchor)
+        case TextShape(at, text, style, anchor):
+            return TextShape(at.plus(by), text, style, anchor)

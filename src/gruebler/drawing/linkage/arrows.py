@@ -91,10 +91,10 @@ def scale_bars(context: LayerContext, layers: Sequence[str]) -> list[Shape]:
         start = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
         end = start.plus(_RIGHT, number * bar.pixels / bar.most)
         ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (start, end)]
-        words = as_text(number, bar.unit, context.lang)
+        text = as_text(number, bar.unit, context.lang)
         shapes += [
             Polylines(((start, end), *ends), bar.style),
-            TextShape(end.plus(_RIGHT, 9.0), words, "value", "start"),
+            TextShape(end.plus(_RIGHT, 9.0), text, "value", "start"),
         ]
     return shapes
 

@@ -409,5 +409,5 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
             return CircleShape(put(at), radius, style)
         case ArcShape(at, radius, begin, extent, style):
             return ArcShape(put(at), radius, begin - cmath.phase(turn), extent, style)
-        case TextShape(at, words, style, anchor):
-            return TextShape(put(at), words, style, anchor)
+        case TextShape(at, text, style, anchor):
+            return TextShape(put(at), text, style, anchor)

@@ -94,7 +94,7 @@ def _tips(run: PlotRun, path: Complexes, near: float) -> list[PointMarker]:
     spots: list[PointMarker] = []
     for drive, z in zip(run.round_drives, path, strict=True):
         if np.isfinite(z):
-            named = [spot for spot in spots if spot.words]
+            named = [spot for spot in spots if spot.text]
             apart = all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in named)
             spots.append(PointMarker(z.real, z.imag, run.value(drive) if apart else ""))
     return spots

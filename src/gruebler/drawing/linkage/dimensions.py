@@ -53,8 +53,8 @@ def dimension_lines(context: LayerContext) -> list[Shape]:
     posed = context.posed
     shapes: list[Shape] = []
     for measure in _measures(posed):
-        words = as_text(measure.length, posed.linkage.unit, context.lang)
-        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), words, [*context.drawn, *shapes])
+        text = as_text(measure.length, posed.linkage.unit, context.lang)
+        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), text, [*context.drawn, *shapes])
     return shapes
 
 
@@ -135,11 +135,11 @@ class _LinePlacement(NamedTuple):
     part: float
 
 
-def _dimension(a: Point, b: Point, words: str, drawn: Sequence[Shape]) -> list[Shape]:
+def _dimension(a: Point, b: Point, text: str, drawn: Sequence[Shape]) -> list[Shape]:
     """Two extension lines, the line between them with a head at both ends, and the number in it, or beside it."""
     along = b.minus(a)
     u, v = along.unit, along.unit.across
-    wide = text_width(words, STYLES["value"].size)
+    wide = text_width(text, STYLES["value"].size)
     half = _gap(u, wide)
     number_fits = along.length > 2 * (half + _HEAD[0])
     shift = max(0.0, 0.5 - (half + _HEAD[0] + 2.0) / max(along.length, 1.0))
@@ -160,8 +160,8 @@ def _dimension(a: Point, b: Point, words: str, drawn: Sequence[Shape]) -> list[S
         lines.append((first.plus(u, -beyond), last.plus(u, beyond)))
         heads = heads if inside else [(at, Point(-direction.x, -direction.y)) for at, direction in heads]
     shapes: list[Shape] = [Polylines(tuple(lines), "dimension"), *(_head(at, direction) for at, direction in heads)]
-    text = TextShape(middle, words, "value") if number_fits else note_near(middle, words, "value", [*drawn, *shapes])
-    return [*shapes, text]
+    number = TextShape(middle, text, "value") if number_fits else note_near(middle, text, "value", [*drawn, *shapes])
+    return [*shapes, number]
 
 
 def _extension(foot: Point, outward: Point, off: float, room: Obstacles) -> tuple[Point, Point]:

@@ -137,7 +137,7 @@ def pole_marks(context: LayerContext) -> list[Shape]:
     for z, group in groups:
         at = posed.local(z)
         shapes.append(CircleShape(at, 3.0, "dot") if any(pole.permanent for pole in group) else cross(at))
-    words: list[tuple[Point, str]] = [
+    labels: list[tuple[Point, str]] = [
         (posed.local(z), ", ".join(_name(pole, numbers) for pole in group)) for z, group in groups
     ]
     for pole in poles:
@@ -145,8 +145,8 @@ def pole_marks(context: LayerContext) -> list[Shape]:
             for start, text in _far(context, pole, poles, _name(pole, numbers)):
                 tip = _tip(posed, pole, start)
                 shapes += arrow(posed.local(start), tip, "dead", "dot")
-                words.append((tip, text))
-    for at, text in words:
+                labels.append((tip, text))
+    for at, text in labels:
         shapes.append(note_near(at, text, "value", [*context.drawn, *shapes]))
     return shapes
 

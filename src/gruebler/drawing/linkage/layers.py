@@ -254,7 +254,7 @@ def layer(name: str) -> Layer:
     """A layer by name; `LinkageError` for an unknown name."""
     if name not in LAYERS:
         raise LinkageError(
-            "there is no {name!r} to be shown{suggestion}; there are {layers}",
+            "there is no layer {name!r}{suggestion}; there are {layers}",
             name=name,
             suggestion=nearest(name, LAYERS),
             layers=", ".join(LAYERS),

@@ -72,9 +72,9 @@ def transfer_plot(
         values = np.where(np.abs(values) < _least(run, output_quantity, max(order, 1)), 0.0, values)
         scale = angles if output_quantity.turning and order == 0 else decimals
         axis = Axis(_order_words(run, output_quantity, order), scale(*run.bulk(values), few=6))
-        shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
+        shown = marks if order == 0 else tuple(mark._replace(text="") for mark in marks)
         curves = (Curve(run.x, values, "", LINES[0]),)
-        named = dwells if order == 0 else tuple(dwell._replace(words="") for dwell in dwells)
+        named = dwells if order == 0 else tuple(dwell._replace(text="") for dwell in dwells)
         panels.append(
             Panel(run.across, axis, curves, marks=shown, dwells=named, size=_LOW, marked=translate("dead centre", lang))
         )
@@ -110,7 +110,7 @@ def _check(run: PlotRun, output: Output, requested: str | None) -> None:
 
 def _described(run: PlotRun, marks: tuple[AxisMarker, ...], dwells: tuple[DwellMarker, ...]) -> str:
     """The dead centres and dwells as text."""
-    values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
+    values = ", ".join(dict.fromkeys(mark.text for mark in marks if mark.text))
     centres = " " + translate("Dead centres at {values}.", run.lang, values=values) if values else ""
     to = math.radians if run.cycle.turning_drive else float
     ranges = ", ".join(f"{run.value(to(dwell.low))} – {run.value(to(dwell.high))}" for dwell in dwells)
@@ -130,8 +130,8 @@ def _order_words(run: PlotRun, output: Output, order: int) -> str:
         (False, False): "" if order == 1 else f"1/{run.unit}",
     }
     unit = units[output.turning, run.cycle.turning_drive]
-    words = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
-    return f"{words} in {unit}" if unit else words
+    text = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
+    return f"{text} in {unit}" if unit else text
 
 
 def _least(run: PlotRun, output: Output, order: int) -> float:

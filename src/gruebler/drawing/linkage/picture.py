@@ -55,7 +55,7 @@ _LAYER_NAMES = {
     "dimensions": message("dimensions"),
     "scale": message("scale"),
 }
-_MARKS = ("edge", "dot", "value")  # crosses, points and words of layers below
+_MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
 
@@ -240,9 +240,7 @@ def picture_notes(
         sentences.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))
     shown = [_layer_name(key, shapes, lang) for key, shapes in layer_shapes.items() if shapes or key == "scale"]
     empty = [_layer_name(key, (), lang) for key, shapes in layer_shapes.items() if not shapes and key != "scale"]
-    missing = (
-        [translate("Not there, or outside the picture: {layers}.", lang, layers=", ".join(empty))] if empty else []
-    )
+    missing = [translate("Missing, or outside the picture: {layers}.", lang, layers=", ".join(empty))] if empty else []
     sentences += [translate("Shown: {layers}.", lang, layers=", ".join(shown))] if shown else []
     return sentences, missing
 
@@ -250,6 +248,6 @@ def picture_notes(
 def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
     """The name of a layer; for an inflection circle with its poles that lie in the picture."""
     name = _LAYER_NAMES[key].in_language(lang)
-    words = {shape.words for shape in shapes if isinstance(shape, TextShape)}
-    poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in words]
+    text = {shape.text for shape in shapes if isinstance(shape, TextShape)}
+    poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in text]
     return f"{name} ({', '.join(poles)})" if poles else name

@@ -62,8 +62,8 @@ class PlotRun:
     def across(self) -> Axis:
         """The axis of the drive."""
         scale = angles if self.cycle.turning_drive else decimals
-        words = "φ in °" if self.cycle.turning_drive else f"s₁ in {self.unit}"
-        return Axis(words, scale(float(self.x.min()), float(self.x.max()), tight=True))
+        text = "φ in °" if self.cycle.turning_drive else f"s₁ in {self.unit}"
+        return Axis(text, scale(float(self.x.min()), float(self.x.max()), tight=True))
 
     def within(self, drive: float) -> float | None:
         """The first value of the same position in the plotted range; None if there is none."""

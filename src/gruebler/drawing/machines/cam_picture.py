@@ -217,10 +217,10 @@ def _pressure(cam: Cam, scale: float, at: float, lang: str) -> Iterator[Shape]:
     if abs(alpha) > 0.01:
         yield ArcShape(start, _ALPHA, -cmath.phase(motion), -alpha, "drive")
     beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
-    words = translate("α = {angle:.1f}°", lang, angle=math.degrees(alpha) + 0.0).replace("-", "−")
+    text = translate("α = {angle:.1f}°", lang, angle=math.degrees(alpha) + 0.0).replace("-", "−")
     anchor = "start" if beside.x >= 0 else "end"
     yield TextShape(
-        start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), words, "mark", anchor
+        start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), text, "mark", anchor
     )
 
 

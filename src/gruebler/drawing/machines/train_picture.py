@@ -160,8 +160,8 @@ def _bodies(shown: list[GearStage], motion: TrainMotion | None, teeth: bool, lan
         texts = _listed(stage, Point(left, size.y / 2 + 22.0), lang)
         all_bodies += [Body(body.shapes, (Shift((shift,)), *body.steps)) for body in bodies]
         all_bodies.append(Body(tuple(texts)))
-        words = bounds(texts, 0.0)[1].x
-        left += max(size.x, words) + _GAP
+        text = bounds(texts, 0.0)[1].x
+        left += max(size.x, text) + _GAP
     return all_bodies
 
 
@@ -185,4 +185,4 @@ def _listed(stage: GearStage, at: Point, lang: str) -> list[Shape]:
         if link not in sizes and link != "frame"
     ]
     rows += list(dict.fromkeys(others))
-    return [TextShape(at.plus(Point(0.0, _ROW * k)), words, "value", "start") for k, words in enumerate(rows)]
+    return [TextShape(at.plus(Point(0.0, _ROW * k)), text, "value", "start") for k, text in enumerate(rows)]

@@ -38,9 +38,9 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
         degrees = round(math.degrees(at % math.tau), 2)
         marks = (AxisMarker(degrees, number(degrees, lang, "g") + "°"),)
     panels = []
-    for k, (words, y) in enumerate(rows):
-        axis = Axis(words, decimals(float(y.min()), float(y.max()), few=4))
-        shown = tuple(mark._replace(words=mark.words if k == 0 else "") for mark in marks)
+    for k, (text, y) in enumerate(rows):
+        axis = Axis(text, decimals(float(y.min()), float(y.max()), few=4))
+        shown = tuple(mark._replace(text=mark.text if k == 0 else "") for mark in marks)
         curves = (Curve(np.degrees(x), y, "", LINES[0]),)
         panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
     return draw_panels(panels, title, "", lang)
