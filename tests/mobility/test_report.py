@@ -94,13 +94,13 @@ def test_explanations_of_the_seeds_two_chains():
         mobility_report(Chain.parse(VEE)).explain("fr")
 
 
-def test_a_tangle_too_large_to_take_apart_is_handed_back_whole():
+def test_a_part_too_large_to_decompose_is_returned_undivided():
     import networkx as nx
 
     report = mobility_report(Chain.from_edges(nx.complete_graph(20).edges))
     assert report.redundancy == 2 * 190 - 57
     assert [part.minimal for part in report.overconstrained] == [False]
-    assert "not taken apart" in report.explain()
+    assert "not decomposed" in report.explain()
 
 
 def test_a_chain_of_very_many_links_is_refused_with_its_size_unless_it_is_wanted(monkeypatch):
