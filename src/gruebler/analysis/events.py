@@ -16,18 +16,16 @@ from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output
 from gruebler.arrays import Reals
 from gruebler.assur import SolvedGroup
+from gruebler.events import ChangePoint, DeadCentre
 from gruebler.kinematics.circuits import Circuit, circuit
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Dyad
-from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.redundancy import ReferenceConditions
 from gruebler.kinematics.root_finding import Zero, bracketed_root, find_zeros, vanishing
 
 __all__ = [
     "Crossing",
     "Dwell",
-    "GroupChangePoint",
-    "OutputDeadCentre",
     "change_points",
     "crossings",
     "dead_centres",
@@ -52,20 +50,6 @@ _TOGETHER = 1e-8  # radians or sizes: change points that are nearer are one
 _LOST = 1e-6  # of the largest singular value: less is zero
 _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
 _STEP = 0.02  # radians, or parts of the size
-
-
-class OutputDeadCentre(NamedTuple):
-    """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
-
-    drive: float
-    """The drive's value; of full turns in 0 to the period."""
-    output: float
-    kind: str
-    """``maximum`` or ``minimum`` of the output, or ``flat``: it goes on in the same direction."""
-    flat: bool
-    """Whether the second derivative vanishes as well, so that the output dwells."""
-    side: str
-    """``inner`` or ``outer`` for the two extreme ones, else empty."""
 
 
 class Dwell(NamedTuple):
@@ -101,16 +85,6 @@ class Crossing(NamedTuple):
     """The transfer function of one order less: the extreme, if the order is 1 or more; for order 0 the slope."""
     kind: str
     """``maximum``, ``minimum`` or ``flat`` of that function; for order 0 ``rising``, ``falling`` or ``touching``."""
-
-
-class GroupChangePoint(NamedTuple):
-    """Where the assembly modes of a group meet and the motion goes on through."""
-
-    drive: float
-    links: tuple[str, ...]
-    form: str
-    several: bool = False
-    """Whether more than two curves of positions meet there, or two that touch one another."""
 
 
 def transfer_function(cycle: DriveCycle, output: Output, drives: Reals, order: int = 0) -> Reals:
@@ -168,7 +142,7 @@ def _inside(cycle: DriveCycle, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
     return tuple(sorted(found, key=lambda zero: cycle.span.wrapped(zero.at)))
 
 
-def dead_centres(cycle: DriveCycle, output: Output) -> tuple[OutputDeadCentre, ...]:
+def dead_centres(cycle: DriveCycle, output: Output) -> tuple[DeadCentre, ...]:
     """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
 
     A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
@@ -189,7 +163,7 @@ def dwells(cycle: DriveCycle, output: Output) -> tuple[Dwell, ...]:
     return stops(cycle, output)[1]
 
 
-def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ...], tuple[Dwell, ...]]:
+def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
     """`dead_centres` and `dwells`."""
 
     def jet(drives: Reals) -> Reals:
@@ -201,12 +175,11 @@ def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ..
     resting = vanishing(jet, samples, least) if cycle.joints else ()
     values = transfer_function(cycle, output, np.array([zero.at for zero in zeros])) if zeros else np.empty(0)
     centres = [
-        OutputDeadCentre(
+        DeadCentre(
             cycle.span.wrapped(zero.at),
             float(value),
             "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
-            zero.multiplicity > 1,
-            "",
+            flat=zero.multiplicity > 1,
         )
         for zero, value in zip(zeros, values, strict=True)
     ]
@@ -245,7 +218,7 @@ def _way(cycle: DriveCycle, output: Output, edge: float, joint: float) -> int:
     return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
 
 
-def _sides(cycle: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre | Dwell]) -> list[str]:
+def _sides(cycle: DriveCycle, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
     """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
     sides = [""] * len(stops)
     turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
@@ -320,7 +293,7 @@ def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | N
     return None
 
 
-def change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
+def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     """Where the motion goes through a position in which two assembly modes of a group meet.
 
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
@@ -332,11 +305,11 @@ def change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
     return _meetings(cycle, [*larger, *dyad_change_points(cycle)])
 
 
-def _meetings(cycle: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[GroupChangePoint, ...]:
+def _meetings(cycle: DriveCycle, found: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
     near = _TOGETHER * (1 if cycle.turning_drive else cycle.plan.lower.size)
 
-    def gap(one: GroupChangePoint, other: GroupChangePoint) -> float:
+    def gap(one: ChangePoint, other: ChangePoint) -> float:
         way = abs(one.drive - other.drive)
         return min(way, abs(cycle.span.period - way))
 
@@ -350,7 +323,7 @@ def _meetings(cycle: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[Gro
     )
 
 
-def dyad_change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
+def dyad_change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     """Those of dyads alone."""
     found = []
     roots = cycle.at(cycle.grid, 0).roots
@@ -363,26 +336,29 @@ def dyad_change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
     return _meetings(cycle, found)
 
 
-def _of_larger_groups(cycle: DriveCycle) -> Iterator[GroupChangePoint]:
-    made = circuit(cycle.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]))
-    for change in made.change_points:
-        groups = list(_singular(cycle, made, change.pose))
+def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:
+    whole = circuit(cycle.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]))
+    angles = {link: whole.poses_at_change_points.angle(link) for link in whole.system.bodies}
+    for row, change in enumerate(whole.change_points):
+        groups = list(_singular(cycle, whole, row))
         for turn in range(cycle.span.turns) if cycle.span.full else range(-1, 2) if cycle.turning_drive else (0,):
             drive = float(change.drive % (2 * pi) + 2 * pi * turn if cycle.turning_drive else change.drive)
             if cycle.span.low <= drive <= cycle.span.high or cycle.span.full:
                 motion = cycle.at(np.array([drive]), 0)
-                away = [motion.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
+                away = [motion.angle(link)[0] - angle[row] for link, angle in angles.items()]
                 if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
                     for group in groups:
-                        yield GroupChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
+                        yield ChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
 
 
-def _singular(cycle: DriveCycle, circuit: Circuit, pose: Poses) -> Iterator[SolvedGroup]:
-    """The larger groups that can move there while everything before them stands."""
+def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedGroup]:
+    """The larger groups that can move in a change point of the circuit while everything before them stands."""
     plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.plan.lower.size
+    poses = circuit.poses_at_change_points
     rows = [
-        (z.real / size, z.imag / size, angle[0])
-        for z, angle in ((pose.places[0, 0, pose._link(link)], pose.angle(link)) for link in bodies)
+        (z.real / size, z.imag / size, angle)
+        for link in bodies
+        for z, angle in [(poses.places[0, row, poses._link(link)], poses.angle(link)[row])]
     ]
     _, matrix = circuit.system.linearised(np.array(rows).ravel())
     _, values, vectors = np.linalg.svd(matrix)
@@ -398,7 +374,7 @@ def _singular(cycle: DriveCycle, circuit: Circuit, pose: Poses) -> Iterator[Solv
         known = max(known, rank)
 
 
-def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoint:
+def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> ChangePoint:
     span = cycle.span
     step = _STEP * (1 if cycle.turning_drive else cycle.plan.lower.size)
 
@@ -416,7 +392,7 @@ def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoin
             break
         at += room * float(min(near, key=abs))
     group = cycle.plan.decomposition.groups[dyad.group]
-    return GroupChangePoint(span.wrapped(at), group.links, group.form())
+    return ChangePoint(span.wrapped(at), group.links, group.form())
 
 
 _SINGULAR = 1e-6  # of the largest singular value: poses at change points are known to some 1e-8 only

@@ -7,10 +7,10 @@ from math import degrees
 from typing import NamedTuple
 
 from gruebler.analysis.drive_cycle import CycleSpan
-from gruebler.analysis.events import Dwell, GroupChangePoint, OutputDeadCentre
-from gruebler.analysis.transmission import TransmissionExtremes
+from gruebler.analysis.events import Dwell
 from gruebler.assur.forms import form_message
 from gruebler.errors import GrueblerError
+from gruebler.events import ChangePoint, DeadCentre, TransmissionExtremes
 from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.text import Message, joined, message
 
@@ -109,7 +109,7 @@ def output_lines(
         yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
 
 
-def dead_centre_message(units: MeasureUnits, centre: OutputDeadCentre) -> Message:
+def dead_centre_message(units: MeasureUnits, centre: DeadCentre) -> Message:
     """Where the output turns back, or pauses."""
     text = _DEAD_CENTRES["flat" if centre.kind == "flat" else centre.side]
     return text.filled(drive=units.drive(centre.drive), output=units.output(centre.output))
@@ -157,7 +157,7 @@ def dwell_share_message(share: float) -> Message:
     return message("The output rests for {share:.9g} % of the drive's motion.", share=100 * share)
 
 
-def change_point_message(units: MeasureUnits, point: GroupChangePoint) -> Message:
+def change_point_message(units: MeasureUnits, point: ChangePoint) -> Message:
     """Where a group may change its assembly mode."""
     line = message(
         "Change point of {form} {{{links}}} at {drive}.",

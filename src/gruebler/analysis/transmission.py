@@ -6,7 +6,7 @@ that point relative to what drives the group. Definitions and proofs: docs/theor
 
 from __future__ import annotations
 
-from math import pi, radians
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -17,24 +17,19 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.assur import SolvedGroup
 from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
+from gruebler.events import Transmission, TransmissionExtremes
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.root_finding import find_zeros
 
 __all__ = [
-    "GOOD",
     "NoTransmissionAngleError",
     "PushingLink",
-    "TransmissionExtremes",
-    "TransmissionExtremum",
     "deviation_angle",
     "measure_transmission",
     "pushing_links",
     "transmission_angle",
 ]
-
-GOOD = radians(40)
-"""The rule of thumb: the transmission angle should not fall below."""
 
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
@@ -61,38 +56,6 @@ class PushingLink(NamedTuple):
     """The link that it pushes."""
     guide: tuple[str, Element] | None
     """How the pushed link hangs on the frame, if by one joint: R or P, and the joint on the frame."""
-
-
-class TransmissionExtremum(NamedTuple):
-    """The transmission angle somewhere."""
-
-    drive: float
-    mu: float
-    """At most pi/2."""
-    links: tuple[str, ...]
-    """The driving leg."""
-
-    @property
-    def deviation(self) -> float:
-        """The deviation angle alpha, pi/2 less the transmission angle."""
-        return pi / 2 - self.mu
-
-
-class TransmissionExtremes(NamedTuple):
-    """The extremes of the transmission angle."""
-
-    extremes: tuple[TransmissionExtremum, ...]
-    """All local extremes and the values at the ends of a range, leg by leg, in the order of the drive."""
-    smallest: TransmissionExtremum
-    largest: TransmissionExtremum
-    """The largest for the leg that has the smallest."""
-    legs: tuple[tuple[str, ...], ...]
-    """The driving legs; with several the smallest angle counts."""
-
-    @property
-    def good(self) -> bool:
-        """Whether it nowhere falls below 40 degrees."""
-        return self.smallest.mu >= GOOD
 
 
 def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
@@ -282,10 +245,10 @@ def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtre
         places, ends = _stationary(cycle, leg)
         values = _folded(_lines(cycle.at(places, 2), leg)) if len(places) else places
         found += [
-            TransmissionExtremum(cycle.span.wrapped(float(x)), float(mu), leg.links)
+            Transmission(cycle.span.wrapped(float(x)), float(mu), leg.links)
             for x, mu in zip(places, values, strict=True)
         ]
-        found += [TransmissionExtremum(x, mu, leg.links) for x, mu in ends]
+        found += [Transmission(x, mu, leg.links) for x, mu in ends]
     smallest = min(found, key=lambda extreme: extreme.mu)
     extrema = [extreme for extreme in found if extreme.links == smallest.links]
     largest = max(extrema, key=lambda extreme: extreme.mu)

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from gruebler.cams import (
     LAWS,
     Cam,
-    CamExtremum,
     Flat,
     Follower,
     LiftSegment,
@@ -29,6 +28,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
+from gruebler.events import Extremum
 from gruebler.text import message
 
 __all__ = ["add", "run"]
@@ -251,7 +251,7 @@ def _print(cam: Cam, table: list[list[float]] | None, words: dict[str, Any]) -> 
         print(words["jump"].format(at=_degrees(jump.at), what=what, size=size, square=square, effect=effect))
     print()
     report = cam.findings()
-    lines: list[tuple[str, CamExtremum | None, bool]] = [
+    lines: list[tuple[str, Extremum | None, bool]] = [
         ("pressure_least", report.pressure[0], True),
         ("pressure_greatest", report.pressure[1], True),
         ("convex", report.convex, False),
@@ -280,7 +280,7 @@ def _said(value: float, angle: bool) -> str:
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
 
-    def told(one: CamExtremum | None, angle: bool = False) -> dict[str, float] | None:
+    def told(one: Extremum | None, angle: bool = False) -> dict[str, float] | None:
         return one and {"value": math.degrees(one.value) if angle else one.value, "at_deg": math.degrees(one.at)}
 
     document: dict[str, Any] = {

@@ -156,7 +156,7 @@ def _say(four_bar: FourBar, lang: str) -> None:
     rows = [("limits", arcs)]
     if (centres := four_bar.dead_centres) is not None:
         rows += [("swing", f"{math.degrees(centres.travel):.4f}°"), ("time_ratio", f"{centres.time_ratio:.6f}")]
-    rows.append(("mu", f"{math.degrees(four_bar.transmission_angle.smallest):.4f}°"))
+    rows.append(("mu", f"{math.degrees(four_bar.transmission_angle.smallest.mu):.4f}°"))
     for key, value in rows:
         print(f"{words[key]}: {value}")
 
@@ -183,5 +183,5 @@ def _document(four_bar: FourBar) -> dict[str, object]:
         document["swing_deg"] = math.degrees(centres.travel)
         document["time_ratio"] = centres.time_ratio
     if four_bar.limits:
-        document["smallest_transmission_angle_deg"] = math.degrees(four_bar.transmission_angle.smallest)
+        document["smallest_transmission_angle_deg"] = math.degrees(four_bar.transmission_angle.smallest.mu)
     return document

@@ -232,7 +232,7 @@ def _change_point(random: Random) -> Given:
 def _good_rocker(given: Given) -> bool:
     """A crank-rocker that is no change point, with a transmission angle worth a task."""
     size = _four_bar(given)
-    return size.type.key == "crank_rocker" and size.transmission_angle.smallest > 0.35
+    return size.type.key == "crank_rocker" and size.transmission_angle.smallest.mu > 0.35
 
 
 def _grashof(random: Random, level: int) -> _Draft:

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.events import ChangePoint, Extremum
 from gruebler.kinematics.configuration_curve import (
     ClosureSystem,
     TracedCurve,
@@ -33,7 +34,7 @@ from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
 from gruebler.text import message
 
-__all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
+__all__ = ["Circuit", "MonotonePiece", "circuit"]
 
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
@@ -45,27 +46,6 @@ _SINGULAR = 1e-3  # a start with a smaller gauge is taken only if there is no be
 _SHAKY = 1e-4  # a shaky linkage moves less, within what counts as closed joints
 _TRIALS = 1024  # values of the drive that are tried for a start
 _REACH = 4.0  # ways of a driven slide up to that many sizes are tried
-
-
-class Extremum(NamedTuple):
-    """A place where something is largest or smallest."""
-
-    arc: float
-    value: float
-    largest: bool
-    """Whether it is a maximum."""
-
-
-class ChangePoint(NamedTuple):
-    """A position in which another curve of positions crosses: the linkage can go on in another way."""
-
-    arc: float
-    drive: float
-    """The drive value there; NaN without a drive."""
-    pose: Poses
-    """The position, exactly."""
-    several: bool = False
-    """Whether more than two curves meet there, or two that touch one another."""
 
 
 class MonotonePiece(NamedTuple):
@@ -224,7 +204,8 @@ class Circuit(Brief):
         zeros = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
         arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
         values = quantity(self.at(arcs), 0)
-        return tuple(sorted(Extremum(at, float(v), not z.rises) for at, z, v in zip(arcs, zeros, values, strict=True)))
+        kinds = ["minimum" if zero.rises else "maximum" for zero in zeros]
+        return tuple(sorted(map(Extremum, arcs, values.tolist(), kinds)))
 
     def _wrapped(self, arc: float) -> float:
         """The same place of a closed circuit, from 0 to its length."""
@@ -246,7 +227,7 @@ class Circuit(Brief):
     @property
     def monotone_pieces(self) -> tuple[MonotonePiece, ...]:
         """The pieces between limits of the drive, in order; the first one contains the first sample."""
-        ends = [limit.arc for limit in self.drive_limits]
+        ends = [limit.at for limit in self.drive_limits]
         if not self.closed:
             ends = [0.0, *ends, self.length]
         elif ends:
@@ -260,19 +241,28 @@ class Circuit(Brief):
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
         """Where other curves of positions cross this one; it goes straight on there."""
-        return tuple(self._change_points())
+        poses = self.poses_at_change_points
+        driven = bool(len(poses) and self.system.lower.mechanism.drives)
+        drives = poses.drive().tolist() if driven else [float("nan")] * len(poses)
+        crossing_several = [several for _, _, several in self.traced.changes]
+        return tuple(
+            ChangePoint(drive, several=several, arc=arc)
+            for drive, several, arc in zip(drives, crossing_several, poses.arcs.tolist(), strict=True)
+        )
 
-    def _change_points(self) -> Iterator[ChangePoint]:
-        traced = self.traced
-        for pose, k, several in traced.changes:
+    @cached_property
+    def poses_at_change_points(self) -> Poses:
+        """The positions at `change_points`, a row for each, exactly."""
+        traced, bodies = self.traced, self.system.bodies
+        exact = np.array([pose for pose, _, _ in traced.changes]).reshape(-1, self.system.unknowns)
+        arcs, slopes = np.zeros(len(exact)), np.zeros_like(exact)
+        for row, (pose, k, _) in enumerate(traced.changes):
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
-            arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
-            slopes = np.zeros((1, self.system.unknowns))
-            slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
-            poses = self._poses(np.array([arc]), pose[None], slopes)
-            driven = bool(self.system.lower.mechanism.drives)
-            yield ChangePoint(arc, float(poses.drive()[0]) if driven else float("nan"), poses, several)
+            arcs[row] = traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k])
+        if len(exact):
+            slopes[:, : 3 * len(bodies)] = self.at(arcs).tangents(bodies)
+        return self._poses(arcs, exact, slopes)
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
