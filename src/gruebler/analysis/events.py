@@ -358,7 +358,7 @@ def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedG
     rows = [
         (z.real / size, z.imag / size, angle)
         for link in bodies
-        for z, angle in [(poses.places[0, row, poses._link(link)], poses.angle(link)[row])]
+        for z, angle in [(poses.places[0, row, poses.link_index(link)], poses.angle(link)[row])]
     ]
     _, matrix = circuit.system.linearised(np.array(rows).ravel())
     _, values, vectors = np.linalg.svd(matrix)
@@ -403,7 +403,7 @@ def _is_regular(motion: Motion, row: int) -> bool:
     conditions = ReferenceConditions(motion.linkage)
     x = []
     for link in conditions.bodies:
-        k = motion._link(link)
+        k = motion.link_index(link)
         z = motion.places[0, row, k] / motion.linkage.size
         x += [z.real, z.imag, float(np.angle(motion.turns[row, k]))]
     pose = np.array(x)

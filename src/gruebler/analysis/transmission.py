@@ -18,9 +18,11 @@ from gruebler.assur import SolvedGroup
 from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
 from gruebler.events import Transmission, TransmissionExtremes
+from gruebler.jets import turn_derivative
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.root_finding import find_zeros
+from gruebler.linkages import LinkPoint
 
 __all__ = [
     "NoTransmissionAngleError",
@@ -178,16 +180,15 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
 
 def _point(motion: Motion, element: Element) -> tuple[Complexes, Complexes, Complexes]:
     """Position, velocity and acceleration of a joint."""
-    k = motion.plan.lower.mechanism.chain.index(element[0])
-    arm, w = motion.turns[:, k] * element[1], motion.rates[0, :, k]
-    spin = 1j * motion.rates[1, :, k] - w**2
-    return motion.places[0, :, k] + arm, motion.places[1, :, k] + 1j * w * arm, motion.places[2, :, k] + spin * arm
+    place = LinkPoint(element[0], element[1].real, element[1].imag)
+    position, velocity, acceleration = (motion.complex_point(place, order) for order in range(3))
+    return position, velocity, acceleration
 
 
 def _normal(motion: Motion, element: Element) -> tuple[Complexes, Complexes]:
-    k = motion.plan.lower.mechanism.chain.index(element[0])
+    k = motion.link_index(element[0])
     normal = 1j * motion.turns[:, k] * element[2]
-    return normal, 1j * motion.rates[0, :, k] * normal
+    return normal, turn_derivative(motion.rates[:, :, k], 1) * normal
 
 
 def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Complexes]) -> tuple[Complexes, Complexes]:

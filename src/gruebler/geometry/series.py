@@ -10,7 +10,6 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import link_numbers
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line, Linkage, LinkPoint
 
@@ -26,20 +25,20 @@ class TaylorSeries:
 
     motion: Motion
     places: Complexes
-    """(rows, links, order + 1): of the links' origins."""
+    """(order + 1, rows, links): of the links' origins."""
     turns: Complexes
-    """(rows, links, order + 1): of cosine + i sine of the links' angles."""
+    """(order + 1, rows, links): of cosine + i sine of the links' angles."""
 
     @property
     def order(self) -> int:
         """The highest power."""
-        return int(self.places.shape[2]) - 1
+        return len(self.places) - 1
 
-    def point(self, name: str | LinkPoint) -> Complexes:
-        """The coefficients of a named point or joint, as x + iy; (rows, order + 1)."""
+    def complex_point(self, name: str | LinkPoint) -> Complexes:
+        """The coefficients of a named point or joint, as x + iy; (order + 1, rows)."""
         place = name if isinstance(name, LinkPoint) else self.motion.linkage.points_named(name)[-1]
-        (k,) = link_numbers(self.motion, [place.link])
-        out: Complexes = self.places[:, k] + self.turns[:, k] * complex(place.x, place.y)
+        k = self.motion.link_index(place.link)
+        out: Complexes = self.places[..., k] + self.turns[..., k] * complex(place.x, place.y)
         return out
 
 
@@ -66,7 +65,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
     >>> from gruebler.kinematics import move
     >>> from gruebler.fourbar import SliderCrank
     >>> found = taylor_series(move(SliderCrank(1, 1).linkage(), [0.0]), 6)  # the slider at 2 cos(phi)
-    >>> (found.point("R(coupler-slider)")[0].real.round(12) + 0.0).tolist()
+    >>> (found.complex_point("R(coupler-slider)")[:, 0].real.round(12) + 0.0).tolist()
     [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= _HIGHEST:
@@ -102,8 +101,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
         z[:, bodies, k] = found[..., 0] + 1j * found[..., 1]
         angle[:, bodies, k] = found[..., 2]
         turn[:, bodies, k] += 1j * found[..., 2] * turn[:, bodies, 0]
-    places: Complexes = z * lower.size
-    return TaylorSeries(motion, places, turn)
+    return TaylorSeries(motion, np.moveaxis(z * lower.size, -1, 0), np.moveaxis(turn, -1, 0))
 
 
 def _conditions(lower: Linkage) -> list[_Condition]:

@@ -144,13 +144,13 @@ class Circuit(Brief):
     def _poses(self, arcs: Reals, x: Reals, t: Reals) -> Poses:
         lower = self.system.lower
         links = lower.mechanism.chain.links
-        places, turns = np.zeros((2, len(arcs), len(links)), np.complex128), np.zeros((2, len(arcs), len(links)))
+        places, angles = np.zeros((2, len(arcs), len(links)), np.complex128), np.zeros((2, len(arcs), len(links)))
         for body, link in enumerate(self.system.bodies):
             k = links.index(link)
             for order, part in enumerate((x, t)):
                 places[order, :, k] = lower.size * (part[:, 3 * body] + 1j * part[:, 3 * body + 1])
-                turns[order, :, k] = part[:, 3 * body + 2]
-        return Poses(self.linkage, lower, arcs, places, turns, self.turned)
+                angles[order, :, k] = part[:, 3 * body + 2]
+        return Poses(self.linkage, lower, arcs, places, np.exp(1j * angles[0]), angles[1:], angles[0], self.turned)
 
     # --- along it ------------------------------------------------------------------------------------
 
@@ -406,7 +406,7 @@ def _assembled(
         return None
     rows = []
     for link in system.bodies:
-        k = motion._link(link)
+        k = motion.link_index(link)
         z = motion.places[0, 0, k] / system.lower.size
         rows.append((z.real, z.imag, float(np.angle(motion.turns[0, k]))))
     return system.with_arms(np.array(rows).ravel())

@@ -73,7 +73,7 @@ class DesignClosure:
         for link, c in self.column.items():
             k = found.lower.mechanism.chain.links.index(link)
             z = found.places[0, :, k]
-            out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.turns[0, :, k]
+            out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.angles[:, k]
         return out
 
     def _carried(self, key: tuple[int, str], q: Reals, p: Reals) -> tuple[Complexes, Complexes, Complexes]:
