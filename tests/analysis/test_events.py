@@ -47,7 +47,7 @@ def dwell_six_bar() -> tuple[Linkage, float]:
 
 def locked_rows(motion: Motion, row: int, links: tuple[str, str], joint: int | None) -> np.ndarray:
     """The Jacobian of all closing conditions of a linkage of turning joints and slides, one freedom locked."""
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     chain, frame = lower.mechanism.chain, lower.mechanism.frame
     moving = [link for link in chain.links if link != frame]
     rows: list[np.ndarray] = []

@@ -30,7 +30,7 @@ def test_rivals_up_to_the_third_order(name):
         exact = motion.complex_point("K", k)
         assert abs(found.complex_point("K")[k] * factorial(k) - exact).max() < 1e-12 * abs(exact).max()
     assert found.order == 3
-    k = motion.plan.lower.mechanism.chain.links.index(one)
+    k = motion.link_index(one)
     assert np.allclose(found.turns[1, :, k], 1j * motion.angular(one) * motion.turns[:, k], atol=1e-13)
 
 
@@ -123,7 +123,7 @@ def test_no_normal_acceleration_on_the_inflection_circle(name):
     linkage, rows, one, _ = MOVING[name]
     motion = move(linkage, rows[::60], speed=1.3, acceleration=0.7, order=2)
     circle = inflection_circle(motion, one)
-    k = motion.plan.lower.mechanism.chain.links.index(one)
+    k = motion.link_index(one)
     for row in range(len(motion)):
         for angle in (0.3, 1.4, 2.6, 4.0, 5.5):
             on = circle.pole[row] - 0.5j * circle.shift[row] * (1 - np.exp(1j * angle))

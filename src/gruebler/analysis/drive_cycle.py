@@ -100,6 +100,21 @@ class DriveCycle(Brief):
         return self.plan.linkage
 
     @property
+    def lower_linkage(self) -> Linkage:
+        """The linkage as it is solved: with lower pairs, and the links that replace higher ones."""
+        return self.plan.lower
+
+    @property
+    def size(self) -> float:
+        """A length of the order of the linkage as it is solved."""
+        return self.plan.lower.size
+
+    @property
+    def drive_size(self) -> float:
+        """What counts as much as a radian of a turning drive: 1, or the size for a sliding one."""
+        return 1.0 if self.turning_drive else self.size
+
+    @property
     def turning_drive(self) -> bool:
         """Whether the drive turns; else it slides."""
         return _turns(self.plan)
@@ -317,7 +332,7 @@ def _grid(cycle: DriveCycle) -> Reals:
     def drive(s: Reals) -> Reals:
         return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
 
-    least = _STILL / (1 if cycle.turning_drive else cycle.plan.lower.size)
+    least = _STILL / cycle.drive_size
     suspect = np.ones(len(s) - 1, bool)
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
@@ -378,7 +393,7 @@ def _merged(places: list[float], near: float, period: float) -> tuple[float, ...
 
 def _direction(motion: Motion, condition: Condition) -> Complexes:
     """The argument of a law as a direction, as in the kernel `closure`."""
-    plan, chain = motion.plan, motion.plan.lower.mechanism.chain
+    plan, chain = motion.plan, motion.lower_linkage.mechanism.chain
     points, lines = plan.element_arrays(plan.lower)
     turns, places, along = [], [], []
     for side in condition.sides:

@@ -94,8 +94,7 @@ def transfer_function(cycle: DriveCycle, output: Output, drives: Reals, order: i
 
 def natural_speed(cycle: DriveCycle, output: Output) -> float:
     """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
-    size = cycle.plan.lower.size
-    return (1.0 if output.turning else size) / (1.0 if cycle.turning_drive else size)
+    return (1.0 if output.turning else cycle.size) / cycle.drive_size
 
 
 def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, ...]:
@@ -104,8 +103,7 @@ def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, 
     Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
     """
     least = (_EVEN if order > 1 else _STILL) * natural_speed(cycle, output)
-    if not cycle.turning_drive:
-        least /= cycle.plan.lower.size ** max(order - 1, 0)
+    least /= cycle.drive_size ** max(order - 1, 0)
 
     def jet(drives: Reals) -> Reals:
         motion = cycle.at(drives)
@@ -234,7 +232,7 @@ def _sides(cycle: DriveCycle, output: Output, stops: Sequence[DeadCentre | Dwell
 
     top, bottom = first(high), first(low)
     far = _distances(cycle, output, np.array([stops[top].drive, stops[bottom].drive]))
-    if far is None or abs(far[0] - far[1]) < _EQUAL * cycle.plan.lower.size:
+    if far is None or abs(far[0] - far[1]) < _EQUAL * cycle.size:
         top_is_outer = not output.turning
     else:
         top_is_outer = bool(far[0] > far[1])
@@ -256,7 +254,7 @@ def output_turns(cycle: DriveCycle, output: Output) -> int:
 
 def drive_pivot(cycle: DriveCycle) -> complex | None:
     """Where a turning drive has its axis in the frame; None for any other drive."""
-    lower = cycle.plan.lower
+    lower = cycle.lower_linkage
     first, _ = lower.reference(0)
     if first != lower.mechanism.frame or not cycle.turning_drive:
         return None
@@ -270,7 +268,7 @@ def _distances(cycle: DriveCycle, output: Output, drives: Reals) -> Reals | None
     if pivot is None or place is None:
         return None
     motion = cycle.at(drives, 0)
-    k = cycle.plan.lower.mechanism.chain.index(place[0])
+    k = cycle.start.link_index(place[0])
     point = motion.places[0, :, k] + motion.turns[:, k] * place[1]
     return np.asarray(np.abs(point - pivot))
 
@@ -307,7 +305,7 @@ def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
 
 def _meetings(cycle: DriveCycle, found: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
-    near = _TOGETHER * (1 if cycle.turning_drive else cycle.plan.lower.size)
+    near = _TOGETHER * cycle.drive_size
 
     def gap(one: ChangePoint, other: ChangePoint) -> float:
         way = abs(one.drive - other.drive)
@@ -353,7 +351,7 @@ def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:
 
 def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedGroup]:
     """The larger groups that can move in a change point of the circuit while everything before them stands."""
-    plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.plan.lower.size
+    plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.size
     poses = circuit.poses_at_change_points
     rows = [
         (z.real / size, z.imag / size, angle)
@@ -376,7 +374,7 @@ def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedG
 
 def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> ChangePoint:
     span = cycle.span
-    step = _STEP * (1 if cycle.turning_drive else cycle.plan.lower.size)
+    step = _STEP * cycle.drive_size
 
     def root(drives: Reals) -> Reals:
         return cycle.at(drives, 0).roots[:, dyad.number]

@@ -412,7 +412,7 @@ def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:
     """The difference of the largest and the smallest output among its stops and ends."""
     if not values:  # it goes nowhere, or its motion has no end: what the grid shows
         track = transfer_function(cycle, output, cycle.grid)
-        least = _STILL * (1.0 if output.turning else cycle.plan.lower.size)
+        least = _STILL * (1.0 if output.turning else cycle.size)
         return float(np.ptp(track)) if np.ptp(track) > least else 0.0
     return max(values) - min(values)
 

@@ -193,14 +193,12 @@ def _normal(motion: Motion, element: Element) -> tuple[Complexes, Complexes]:
 
 def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Complexes]) -> tuple[Complexes, Complexes]:
     """The velocity of the place of a link where a point is, with its rate; at rest the way it leaves."""
-    k = motion.plan.lower.mechanism.chain.index(link)
+    k = motion.link_index(link)
     w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
     origin, speed, change = (motion.places[m, :, k] for m in range(3))
     way = speed + 1j * w * (point[0] - origin)
     rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
-    fastest = np.maximum(
-        np.abs(motion.places[1]).max(axis=1), motion.plan.lower.size * np.abs(motion.rates[0]).max(axis=1)
-    )
+    fastest = np.maximum(np.abs(motion.places[1]).max(axis=1), motion.size * np.abs(motion.rates[0]).max(axis=1))
     rest = np.abs(way) < _SLOW * fastest
     return np.where(rest, rate, way), np.where(rest, 0, rate)
 
@@ -274,7 +272,7 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
     def cosine(drives: Reals) -> Reals:
         return product(cycle.at(drives, 2)).real[None]
 
-    slow = _LEAST / (1 if cycle.turning_drive else cycle.plan.lower.size)
+    slow = _LEAST / cycle.drive_size
     angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
     constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
     places = [

@@ -72,7 +72,7 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
         raise LinkageError(
             "the order of a series is a whole number from 1 to {highest}, not {order!r}", highest=_HIGHEST, order=order
         )
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     if len(lower.mechanism.drives) != 1:
         raise LinkageError("a series is by one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
     roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])

@@ -127,7 +127,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
     chain = linkage.mechanism.chain
     rows = []
     for link in chain.links:
-        k = motion.plan.lower.mechanism.chain.index(link)
+        k = motion.link_index(link)
         z, turn = motion.places[0, 0, k] / linkage.size, motion.turns[0, k]
         rows.append(_matrix(z.real, z.imag, float(np.angle(turn))))
     return _centred(closing, _settled(closing, np.array(rows)))
