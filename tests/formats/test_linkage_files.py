@@ -337,7 +337,7 @@ def test_what_is_no_file(tmp_path):
         ),
         ('unit = "mm"\nfour_bar = {a=1, b=1, c=1}', "the key 'd' is missing", "der Schlüssel 'd' fehlt"),
         ('unit = "mm"\nfour_bar = [', "is not TOML", "kein gültiges TOML"),
-        ('unit = "mm"\npoints.K = {link="x", at=[0]}\nfour_bar = {a=1, b=1, c=1, d=1}', "no link 'x'", "ein Glied 'x'"),
+        ('unit = "mm"\npoints.K = {link="x", at=[0]}\nfour_bar = {a=1, b=1, c=1, d=1}', "no link 'x'", "Glied 'x'"),
     ],
 )
 def test_refusals_can_be_read_in_german(tmp_path, text, english, german):

@@ -32,7 +32,7 @@ __all__ = [
 ]
 
 
-_RANK = 1e-8  # of the largest singular value: the same threshold as that of `gruebler freedoms`
+_RANK = 1e-8  # of the largest singular value: the same threshold as that of `screws.freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
 _ROUNDING = 1e-14  # sizes and radians: a step of Newton's method that is shorter changes nothing
 _STRESSED = 1e-7  # of a unit vector of forces: a null space decided at 1e-8 is known to some 1e-16/1e-8
@@ -94,7 +94,8 @@ def independent_part(linkage: Linkage) -> Independent:
     if linkage.reference_pose is None:
         raise LinkageError(
             "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) it "
-            "is moved along the conditions that are independent there. `gruebler freedoms` says what its sizes allow."
+            "is moved along the conditions that are independent there. `gruebler check --explain` says what its "
+            "sizes allow."
         )
     conditions = ReferenceConditions(linkage)
     x = conditions.settled()
@@ -106,7 +107,7 @@ def independent_part(linkage: Linkage) -> Independent:
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
             "In the given position its joints leave mobility {freedoms}, less than the number of drives "
-            "({count}); the drives are blocked by {joints}. `gruebler freedoms` analyses its mobility with "
+            "({count}); the drives are blocked by {joints}. `gruebler check --explain` analyses its mobility with "
             "these dimensions.",
             freedoms=freedoms,
             count=len(drives),
@@ -115,7 +116,7 @@ def independent_part(linkage: Linkage) -> Independent:
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
             "Its home position is a change point, or its drives leave something free there: give it another one. "
-            "`gruebler freedoms` says which velocities there are."
+            "`gruebler check --explain` says which velocities there are."
         )
     chosen = _simplest(linkage, list(_releases(conditions, x)), forces)
     return Independent(_released(linkage, chosen), tuple(sorted({_release.joint for _release in chosen})))
