@@ -399,7 +399,7 @@ def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
         return ()
     grid = cycle.grid
     motion = cycle.at(grid, 0)
-    found: list[float] = []
+    joints: list[float] = []
     for condition in laws:
         seen = _direction(motion, condition)
         for angle in sorted({joint % (2 * pi) for joint in condition.law.joints}):
@@ -411,18 +411,18 @@ def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
             def off(drives: Reals, condition: Condition = condition, angle: float = angle) -> Reals:
                 return np.asarray((_direction(cycle.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
 
-            found += bracketed_root(off, low, high).tolist() if len(cells) else []
-    return _merged(sorted(found), _SAME * cycle.span.width, cycle.span.period)
+            joints += bracketed_root(off, low, high).tolist() if len(cells) else []
+    return _merged(sorted(joints), _SAME * cycle.span.width, cycle.span.period)
 
 
 def _merged(places: list[float], near: float, period: float) -> tuple[float, ...]:
-    out: list[float] = []
+    merged: list[float] = []
     for place in places:
-        if not out or place - out[-1] > near:
-            out.append(place)
-    if len(out) > 1 and out[0] + period - out[-1] <= near:
-        out.pop()
-    return tuple(out)
+        if not merged or place - merged[-1] > near:
+            merged.append(place)
+    if len(merged) > 1 and merged[0] + period - merged[-1] <= near:
+        merged.pop()
+    return tuple(merged)
 
 
 def _direction(motion: Motion, condition: Condition) -> Complexes:

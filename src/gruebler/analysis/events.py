@@ -129,15 +129,15 @@ def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, 
     )
 
 
-def _before(cycle: DriveCycle, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
-    if not found:
+def _before(cycle: DriveCycle, output: Output, zeros: tuple[Zero, ...], order: int) -> Reals:
+    if not zeros:
         return np.empty(0)
-    return transfer_function(cycle, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
+    return transfer_function(cycle, output, np.array([zero.at for zero in zeros]), order - 1 if order else 1)
 
 
-def _inside(cycle: DriveCycle, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+def _inside(cycle: DriveCycle, zeros: tuple[Zero, ...]) -> tuple[Zero, ...]:
     """The zeros in the order in which they are reported."""
-    return tuple(sorted(found, key=lambda zero: cycle.span.wrapped(zero.at)))
+    return tuple(sorted(zeros, key=lambda zero: cycle.span.wrapped(zero.at)))
 
 
 def dead_centres(cycle: DriveCycle, output: Output) -> tuple[DeadCentre, ...]:
@@ -277,14 +277,14 @@ def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | N
     """The one pin by which the rest of its group takes hold of the output link."""
     plan = cycle.plan
     for group in plan.decomposition.groups:
-        mine = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
-        if not mine:
+        own = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
+        if not own:
             continue
-        inner = [(n, m) for n, m in group.joints if not m.outer and mine[0] in m.links]
+        inner = [(n, m) for n, m in group.joints if not m.outer and own[0] in m.links]
         if len(inner) != 1 or inner[0][1].pair.name != "revolute":
             return None
         number = inner[0][0]
-        body = (*group.bodies[mine[0]], *group.carried[mine[0]])
+        body = (*group.bodies[own[0]], *group.carried[own[0]])
         link = next(link for link in plan.lower.mechanism.chain.joints[number].links if link in body)
         e = plan.lower.elements[number, link]
         return link, complex(e.x, e.y)
@@ -303,15 +303,15 @@ def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     return _meetings(cycle, [*larger, *dyad_change_points(cycle)])
 
 
-def _meetings(cycle: DriveCycle, found: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
+def _meetings(cycle: DriveCycle, change_points: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
     near = _TOGETHER * cycle.drive_size
 
-    def gap(one: ChangePoint, other: ChangePoint) -> float:
-        way = abs(one.drive - other.drive)
-        return min(way, abs(cycle.span.period - way))
+    def gap(first: ChangePoint, other: ChangePoint) -> float:
+        distance = abs(first.drive - other.drive)
+        return min(distance, abs(cycle.span.period - distance))
 
-    ordered = sorted(found)
+    ordered = sorted(change_points)
     return tuple(
         change_point._replace(
             several=change_point.several
@@ -323,15 +323,15 @@ def _meetings(cycle: DriveCycle, found: Iterable[ChangePoint]) -> tuple[ChangePo
 
 def dyad_change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     """Those of dyads alone."""
-    found = []
+    meetings = []
     roots = cycle.at(cycle.grid, 0).roots
     for dyad in (dyad for dyad in cycle.plan.dyads if dyad.branching):
-        mine = roots[:, dyad.number]
-        for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
-            found.append(_change_point(cycle, dyad, cycle.grid[cell : cell + 2]))
-    if cycle.plan.released and found:  # one of the independent part may be none of the linkage
-        found = [point for point in found if not _is_regular(cycle.at(np.array([point.drive]), 0), 0)]
-    return _meetings(cycle, found)
+        dyad_roots = roots[:, dyad.number]
+        for cell in np.flatnonzero(np.sign(dyad_roots[:-1]) * np.sign(dyad_roots[1:]) < 0):
+            meetings.append(_change_point(cycle, dyad, cycle.grid[cell : cell + 2]))
+    if cycle.plan.released and meetings:  # one of the independent part may be none of the linkage
+        meetings = [point for point in meetings if not _is_regular(cycle.at(np.array([point.drive]), 0), 0)]
+    return _meetings(cycle, meetings)
 
 
 def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:

@@ -114,11 +114,11 @@ def _is_driven(plan: Plan, group: SolvedGroup, body: int) -> bool:
 
 
 def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
-    mine = [(n, m) for n, m in group.joints if body in m.links]
-    outer, inner = ([(n, m) for n, m in mine if m.outer == side] for side in (True, False))
+    joints = [(n, m) for n, m in group.joints if body in m.links]
+    outer, inner = ([(n, m) for n, m in joints if m.outer == side] for side in (True, False))
     if len(outer) != 1 or len(inner) != 1:
         return None
-    if any(member.pair.name not in ("revolute", "prismatic") for _, member in mine):
+    if any(member.pair.name not in ("revolute", "prismatic") for _, member in joints):
         return None  # a wheel or cam
     links = _bodies(group)
     other = next(k for k in inner[0][1].links if k != body)
@@ -239,19 +239,19 @@ def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtre
     Raises `LinkageError` if there is no transmission angle, with the reason.
     """
     legs = pushing_links(cycle.plan, output)
-    found = []
+    extremes = []
     for leg in legs:
         places, ends = _stationary(cycle, leg)
         values = _folded(_lines(cycle.at(places, 2), leg)) if len(places) else places
-        found += [
+        extremes += [
             Transmission(cycle.span.wrapped(float(x)), float(mu), leg.links)
             for x, mu in zip(places, values, strict=True)
         ]
-        found += [Transmission(x, mu, leg.links) for x, mu in ends]
-    smallest = min(found, key=lambda extreme: extreme.mu)
-    extrema = [extreme for extreme in found if extreme.links == smallest.links]
+        extremes += [Transmission(x, mu, leg.links) for x, mu in ends]
+    smallest = min(extremes, key=lambda extreme: extreme.mu)
+    extrema = [extreme for extreme in extremes if extreme.links == smallest.links]
     largest = max(extrema, key=lambda extreme: extreme.mu)
-    return TransmissionExtremes(tuple(sorted(found)), smallest, largest, tuple(leg.links for leg in legs))
+    return TransmissionExtremes(tuple(sorted(extremes)), smallest, largest, tuple(leg.links for leg in legs))
 
 
 def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
@@ -259,8 +259,8 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
 
     def product(motion: Motion) -> Complexes:
         lines = _lines(motion, leg)
-        out: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
-        return out
+        normed: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
+        return normed
 
     def turning(drives: Reals) -> Reals:
         lines = _lines(cycle.at(drives, 2), leg)

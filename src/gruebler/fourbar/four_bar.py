@@ -167,8 +167,8 @@ class FourBar:
         >>> round(math.degrees(centres.inner_line), 4), round(math.degrees(centres.outer_line), 4)
         (50.4788, 23.1918)
         """
-        found = self.grashof
-        if "a" not in found.turning or found.shortest != ("a",):
+        grashof = self.grashof
+        if "a" not in grashof.turning or grashof.shortest != ("a",):
             return None
         inner, outer = (
             (triangle_angle(reach, self.d, self.c), math.pi - triangle_angle(self.c, self.d, reach))

@@ -71,22 +71,22 @@ class Motions(Brief):
     @property
     def complete(self) -> NDArray[np.bool_]:
         """(designs,): which followed the whole path."""
-        out: NDArray[np.bool_] = self.reached == len(self.drives)
-        return out
+        complete: NDArray[np.bool_] = self.reached == len(self.drives)
+        return complete
 
     def angle(self, link: str) -> Reals:
         """Angles of a link's x axis against the frame's, in radians; (designs, rows).
 
         Without jumps as long as the link turns by less than half a turn from row to row.
         """
-        out: Reals = np.unwrap(np.angle(self.turns[..., self.link_index(link)]), axis=1)
-        return out
+        angles: Reals = np.unwrap(np.angle(self.turns[..., self.link_index(link)]), axis=1)
+        return angles
 
     def angular(self, link: str, order: int = 1) -> Reals:
         """Angular velocities (1), accelerations (2) or jerks (3) of a link; (designs, rows)."""
         self._ordered(order, 1)
-        out: Reals = self.rates[order - 1, :, :, self.link_index(link)]
-        return out
+        rates: Reals = self.rates[order - 1, :, :, self.link_index(link)]
+        return rates
 
     def point(self, joint: str, order: int = 0) -> Reals:
         """A joint as a point of the first of its links that was kept, or its derivative; (designs, rows, 2)."""
@@ -183,8 +183,8 @@ def _of_lengths(kind: Callable[..., FourBar | SliderCrank | InvertedSliderCrank]
     points = rest + sum(lengths[name][:, None] * steps[name] for name in base)
     count = len(points)
     sizes = np.max([np.abs(values) for values in lengths.values()], axis=0)
-    one = partial(_design, kind, lengths)
-    return Designs(plan, np.ascontiguousarray(points), np.tile(lines, (count, 1)), sizes, one)
+    design = partial(_design, kind, lengths)
+    return Designs(plan, np.ascontiguousarray(points), np.tile(lines, (count, 1)), sizes, design)
 
 
 def _design(
@@ -255,8 +255,8 @@ def move_many(
     >>> motions.angle("rocker").shape, motions.complete.all()
     ((5, 100), np.True_)
     """
-    made = many if isinstance(many, Designs) else designs(many)
-    plan, count = made.plan, len(made)
+    batch = many if isinstance(many, Designs) else designs(many)
+    plan, count = batch.plan, len(batch)
     path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
@@ -270,15 +270,17 @@ def move_many(
                 "there is no link {link!r}; the links are {links}", link=link, links=", ".join(chain.links)
             )
     shape = (count, len(kept), len(path))
-    out = (
+    results = (
         np.empty((upto + 1, *shape), np.complex128),
         np.empty(shape, np.complex128),
         np.empty((upto, *shape)),
         np.empty(count, np.int64),
     )
-    _run(made, path, speeds, _starts(made, path, branch), np.array([chain.index(k) for k in kept]), out, threads)
-    places, turns, rates, reached = out  # the kernel writes the rows last
-    return Motions(made, branch, path, kept, places.swapaxes(2, 3), turns.swapaxes(1, 2), rates.swapaxes(2, 3), reached)
+    _run(batch, path, speeds, _starts(batch, path, branch), np.array([chain.index(k) for k in kept]), results, threads)
+    places, turns, rates, reached = results  # the kernel writes the rows last
+    return Motions(
+        batch, branch, path, kept, places.swapaxes(2, 3), turns.swapaxes(1, 2), rates.swapaxes(2, 3), reached
+    )
 
 
 def _starts(designs: Designs, path: Reals, branch: str | None) -> tuple[Reals, Reals]:

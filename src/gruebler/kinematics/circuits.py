@@ -129,11 +129,11 @@ class Circuit(Brief):
             curve, n = SampleBuffer(*traced[:3], np.zeros(0)), self.system.unknowns
             near, slopes = np.empty((2, len(between), n))
             evaluated = for_work(evaluate_pose, sampling(n, len(between)))
-            found = evaluated(
+            count = evaluated(
                 self.system.conditions, curve, place[between], segments[between], near, slopes, self.system.room
             )
-            if found < len(between):
-                where = place[between[found]]
+            if count < len(between):
+                where = place[between[count]]
                 raise LinkageError(
                     "the position at {where:.9g} of the circuit cannot be found: it is singular there", where=where
                 )
@@ -236,7 +236,7 @@ class Circuit(Brief):
             ends = [0.0, self.length]
         values = self.at(ends).drive().tolist()
         pairs = itertools.pairwise(zip(ends, values, strict=True))
-        return tuple(MonotonePiece(one, two, (v, w)) for (one, v), (two, w) in pairs)
+        return tuple(MonotonePiece(first, second, (v, w)) for (first, v), (second, w) in pairs)
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
@@ -322,10 +322,10 @@ def circuit(
         raise LinkageError("a circuit has one drive at most, but this linkage has {count}", count=count)
     system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, system, branch, drive)
-    found = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
+    start = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0
     if lower.mechanism.drives:
-        value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
+        value, ahead = float(start.drive[0]), float(start.samples.drive(1)[0])
         tangent = -tangent if ahead < 0 else tangent
         if lower.mechanism.drives[0].turning:
             turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))

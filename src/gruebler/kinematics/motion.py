@@ -108,14 +108,14 @@ class Motion(LinkPoses, Brief):
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
         k = self.link_index(link)
-        out: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
-        return out
+        angles: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
+        return angles
 
     def angular(self, link: str, order: int = 1) -> Reals:
         """The angular velocity (1), acceleration (2) or jerk (3) of a link; (rows,)."""
         self.check_order(order)
-        out: Reals = self.rates[order - 1, :, self.link_index(link)] if order else self.angle(link)
-        return out
+        rates: Reals = self.rates[order - 1, :, self.link_index(link)] if order else self.angle(link)
+        return rates
 
     @cached_property
     def closure_error(self) -> float:
@@ -234,7 +234,7 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
     The linkage is that of the motion, or the one with lower pairs.
     """
     joint = linkage.mechanism.chain.joints[number]
-    out = np.zeros(len(motion))
+    openings = np.zeros(len(motion))
     for first, other in ((joint.links[0], other) for other in joint.links[1:]):
         if not isinstance(linkage.elements[number, first], Line):
             first, other = other, first  # noqa: PLW2901
@@ -243,12 +243,14 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
         if isinstance(one, Line):
             line = motion.turns[:, motion.link_index(first)] * rect(1, one.angle)
             if joint.pair.name != "double_slide":
-                out = np.maximum(out, np.abs((np.conj(line) * gap).imag))
+                openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
             if isinstance(two, Line):
-                out = np.maximum(out, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, two.angle) - line))
+                openings = np.maximum(
+                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, two.angle) - line)
+                )
         else:
-            out = np.maximum(out, np.abs(gap))
-    return out
+            openings = np.maximum(openings, np.abs(gap))
+    return openings
 
 
 def _point_at(motion: Motion, link: str, x: float, y: float) -> Complexes:

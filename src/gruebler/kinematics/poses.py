@@ -76,9 +76,9 @@ class Poses(LinkPoses, Brief):
 
     def tangents(self, bodies: Sequence[str]) -> Reals:
         """The derivatives of x, y (in sizes) and angle of links by the arc; (rows, 3 links)."""
-        out = np.empty((len(self), 3 * len(bodies)))
+        slopes = np.empty((len(self), 3 * len(bodies)))
         for body, link in enumerate(bodies):
             k = self.link_index(link)
             z = self.places[1, :, k] / self.lower.size
-            out[:, 3 * body], out[:, 3 * body + 1], out[:, 3 * body + 2] = z.real, z.imag, self.rates[0, :, k]
-        return out
+            slopes[:, 3 * body], slopes[:, 3 * body + 1], slopes[:, 3 * body + 2] = z.real, z.imag, self.rates[0, :, k]
+        return slopes

@@ -168,7 +168,7 @@ def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> 
 def _assembled(closing: Closing) -> Reals:
     """A pose with closed joints: of some the most movable, with the drives and most joints moving, the most regular."""
     random = np.random.default_rng(20_261_121)
-    found: list[tuple[int, tuple[bool, int], float, Reals]] = []
+    candidates: list[tuple[int, tuple[bool, int], float, Reals]] = []
     driven = {drive.joint for drive in closing.mechanism.drives}
     least = np.inf
     frame = closing.mechanism.chain.index(closing.mechanism.frame)
@@ -185,13 +185,13 @@ def _assembled(closing: Closing) -> Reals:
         instant = instant_mobility(closing, pose, RANK)
         margin = float(instant.values[instant.rank - 1]) / closing.unknowns
         moving = driven.isdisjoint(instant.immobile), -len(instant.immobile)
-        found.append((instant.mobility, moving, margin, pose))
-        if len(found) >= _ENOUGH or (not instant.redundancy and not instant.immobile and margin > _GOOD):
+        candidates.append((instant.mobility, moving, margin, pose))
+        if len(candidates) >= _ENOUGH or (not instant.redundancy and not instant.immobile and margin > _GOOD):
             break
-    if not found:
+    if not candidates:
         raise LinkageError(
             "no position was found in which the joints can be closed: they stay open by {least:.1e} of the "
             "linkage's size at least",
             least=least,
         )
-    return _centred(closing, refined_at_double_root(closing, max(found, key=lambda one: one[:3])[3]))
+    return _centred(closing, refined_at_double_root(closing, max(candidates, key=lambda candidate: candidate[:3])[3]))

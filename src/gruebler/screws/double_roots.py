@@ -61,6 +61,6 @@ def refined_at_double_root(closing: Closing, pose: Reals) -> Reals:
         point = excess(k)
     if point is None:
         return pose
-    found = closing.moved(pose, point.motion)
-    closed = _gap(closing, found) <= _WORSE * _gap(closing, pose)
-    return found if closed and instant_mobility(closing, found, _ZERO).rank == loose.rank else pose
+    refined = closing.moved(pose, point.motion)
+    closed = _gap(closing, refined) <= _WORSE * _gap(closing, pose)
+    return refined if closed and instant_mobility(closing, refined, _ZERO).rank == loose.rank else pose

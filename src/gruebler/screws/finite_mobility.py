@@ -142,28 +142,28 @@ def _zeros(
     One of each pair of opposite directions, and of each group of near ones or of such as F does not tell apart.
     """
     starts = directions(np.einsum("pi,sij,qj->spq", basis, forms, basis), random, _STARTS)
-    out: list[Reals] = []
+    zeros: list[Reals] = []
     # where forms have a double zero, F may have zeros beside it on one side only: a cusp
     beside = [sign * k + 0.1 * random.normal(size=len(k)) for k in starts for sign in (1, -1)]
     for start in [*starts, *(-k for k in starts), *beside]:
         k = _on_sphere(excess, basis, radius * start / np.linalg.norm(start))
-        if k is not None and not any(_same(excess, k, other) for other in out):
-            out.append(k)
-            if len(out) >= most:
+        if k is not None and not any(_same(excess, k, other) for other in zeros):
+            zeros.append(k)
+            if len(zeros) >= most:
                 break
-    return out
+    return zeros
 
 
-def _same(excess: ObstructionMap, one: Reals, other: Reals) -> bool:
+def _same(excess: ObstructionMap, first: Reals, other: Reals) -> bool:
     """Whether two zeros lie in about the same direction, or F is below its threshold all the way between them."""
-    radius = float(np.linalg.norm(one))
-    cosine = float(one @ other) / radius**2
+    radius = float(np.linalg.norm(first))
+    cosine = float(first @ other) / radius**2
     if abs(cosine) >= _APART:
         return True
     if abs(cosine) < _BESIDE:
         return False
     for part in (0.25, 0.5, 0.75):
-        between = (1 - part) * one + part * np.sign(cosine) * other
+        between = (1 - part) * first + part * np.sign(cosine) * other
         point = excess(radius * between / np.linalg.norm(between))
         if point is None or abs(point.value).max() >= _closed(excess, radius):
             return False
@@ -179,7 +179,7 @@ def _dimensions(excess: ObstructionMap, ends: list[Reals], random: np.random.Gen
     """The dimension of the set of positions at each of these zeros; alike ones are looked at only a few times."""
     closing = excess.instant.closing
     known: dict[tuple[int, int], list[int]] = {}
-    out = []
+    dimensions = []
     for k in ends:
         point = excess(k)
         assert point is not None  # k is a zero of F
@@ -188,8 +188,8 @@ def _dimensions(excess: ObstructionMap, ends: list[Reals], random: np.random.Gen
         seen = known.setdefault((there.mobility, there.redundancy), [])
         if len(seen) < _ALIKE:
             seen.append(_dimension(there, random))
-        out.append(max(seen))
-    return out
+        dimensions.append(max(seen))
+    return dimensions
 
 
 def _dimension(instant: InstantMobility, random: np.random.Generator) -> int:

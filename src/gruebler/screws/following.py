@@ -70,14 +70,14 @@ def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: 
                 "{joint}: only a revolute or prismatic joint of two links is driven",
                 joint=chain.joint_names()[joint],
             )
-    now, out = np.array([joint_value(closing, pose, joint) for joint in joints]), []
+    now, poses = np.array([joint_value(closing, pose, joint) for joint in joints]), []
     for row in values:
         steps = max(1, int(np.ceil(abs(row - now).max() / _STEP)))
         for target in np.linspace(now, row, steps + 1)[1:]:
             pose = _reached(closing, pose, joints, target)
         now = row
-        out.append(pose)
-    return out
+        poses.append(pose)
+    return poses
 
 
 def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals) -> Reals:
@@ -115,10 +115,10 @@ def _driving_row(closing: Closing, joint: int) -> Callable[[Reals], Reals]:
         else:
             far = (pose[tie.second] @ tie.on_second)[:3, 3]
             functional[:3], functional[3:] = np.cross(far, frame[:3, 0]), frame[:3, 0]
-        out = np.zeros((len(pose), len(closing.columns)))
-        out[tie.second] += functional[closing.columns]
-        out[tie.first] -= functional[closing.columns]
-        flat: Reals = out[closing.moving].ravel()
+        by_link = np.zeros((len(pose), len(closing.columns)))
+        by_link[tie.second] += functional[closing.columns]
+        by_link[tie.first] -= functional[closing.columns]
+        flat: Reals = by_link[closing.moving].ravel()
         return flat
 
     return row

@@ -74,24 +74,24 @@ class InstantMobility(Brief):
     @cached_property
     def redundant(self) -> dict[int, int]:
         """For each joint that holds redundant constraints, how many of its own could be left out."""
-        out = {}
+        redundant = {}
         for joint in np.unique(self.closing.joint_of_row).tolist():
-            mine = self.stresses[:, self.closing.joint_of_row == joint]
-            many = int(np.linalg.matrix_rank(mine, tol=_STILL)) if mine.size else 0
+            stresses = self.stresses[:, self.closing.joint_of_row == joint]
+            many = int(np.linalg.matrix_rank(stresses, tol=_STILL)) if stresses.size else 0
             if many:
-                out[joint] = many
-        return out
+                redundant[joint] = many
+        return redundant
 
     @cached_property
     def immobile(self) -> tuple[int, ...]:
         """The joints between links that have the same velocity in every motion."""
-        out = []
+        immobile = []
         twists = np.array([self.closing.twists(motion) for motion in self.motions])
         for joint in range(len(self.closing.mechanism.chain.joints)):
             ties = [tie for tie in self.closing.ties if tie.joint == joint]
             if not len(twists) or all(abs(twists[:, t.first] - twists[:, t.second]).max() < _STILL for t in ties):
-                out.append(joint)
-        return tuple(out)
+                immobile.append(joint)
+        return tuple(immobile)
 
 
 def instant_mobility(closing: Closing, pose: Reals, tolerance: float) -> InstantMobility:

@@ -59,7 +59,7 @@ class ObstructionMap:
         if any(nearby_pose is None or other is None for nearby_pose, other in ahead):
             return None
         slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
-        out = np.stack(slopes, axis=2)
-        out = (out + np.swapaxes(out, 1, 2)) / 2
-        out[abs(out) < _NOISE] = 0.0
-        return out
+        forms = np.stack(slopes, axis=2)
+        forms = (forms + np.swapaxes(forms, 1, 2)) / 2
+        forms[abs(forms) < _NOISE] = 0.0
+        return forms

@@ -50,12 +50,12 @@ def directions(forms: Reals, random: np.random.Generator, many: int) -> list[Rea
     Where the forms are all zero these are random directions.
     """
     size = float(abs(forms).max())
-    out: list[Reals] = []
+    zeros: list[Reals] = []
     for start in _starts(random, forms.shape[1], many):
         k = _zero(forms / size, start) if size > 0 else start
-        if k is not None and all(abs(abs(k @ other) - 1) > _DIFFERENT for other in out):
-            out.append(k)
-    return out
+        if k is not None and all(abs(abs(k @ other) - 1) > _DIFFERENT for other in zeros):
+            zeros.append(k)
+    return zeros
 
 
 def _zero(forms: Reals, k: Reals) -> Reals | None:

@@ -123,12 +123,12 @@ def _place(stage: GearStage) -> None:
 
 def _reach(stage: GearStage) -> dict[str, float]:
     """The greatest radius of each link."""
-    found: dict[str, float] = {}
+    reach: dict[str, float] = {}
     for mesh in stage.meshes:
         for link, size in wheels_of(mesh):
             radius = abs(size) * _PER_SIZE.get(mesh.kind, 0.5)
-            found[link] = max(found.get(link, 0.0), radius)
-    return found
+            reach[link] = max(reach.get(link, 0.0), radius)
+    return reach
 
 
 def _beside(stage: GearStage, mesh: Mesh) -> complex:
@@ -180,7 +180,7 @@ def _clear(stage: GearStage, near: Mesh, known: str, link: str) -> complex:
 
 def _wheels(stage: GearStage) -> None:
     """A wheel for every side of a mesh, each once, its teeth where those of its partner leave room."""
-    made: dict[tuple[str, float, complex], StageWheel] = {}
+    wheels: dict[tuple[str, float, complex], StageWheel] = {}
     for mesh in stage.meshes:
         sides = wheels_of(mesh)
         for copy in range(stage.copies if stage.central else 1):
@@ -195,15 +195,15 @@ def _wheels(stage: GearStage) -> None:
                 (link, round(radius, 6), complex(round(at.real, 6), round(at.imag, 6)))
                 for (link, _), radius, at in zip(sides, radii, places, strict=True)
             ]
-            known = [made.get(key) for key in keys]
+            known = [wheels.get(key) for key in keys]
             for k, ((link, size), radius, at) in enumerate(zip(sides, radii, places, strict=True)):
                 if known[k] is None and mesh.kind != "screw":
                     mate = known[1 - k] if len(sides) > 1 else None
                     phase = _phase(mate, size, at) if mate and mesh.kind == "gear" else 0.0
                     planet = bool(stage.central) and link not in stage.central
-                    known[k] = made[keys[k]] = StageWheel(link, size, radius, at, phase, planet)
+                    known[k] = wheels[keys[k]] = StageWheel(link, size, radius, at, phase, planet)
             stage.placed.append(PlacedMesh(mesh, places[0], places[-1], (radii[0], radii[-1])))
-    stage.wheels = list(made.values())
+    stage.wheels = list(wheels.values())
 
 
 def _phase(mate: StageWheel, size: float, at: complex) -> float:
