@@ -18,7 +18,7 @@ from gruebler.kinematics.circuits import Circuit, MonotonePiece, circuit
 from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.solve import all_branches, assembly_modes, move
+from gruebler.kinematics.solve import all_branches, move
 
 __all__ = [
     "Circuit",
@@ -29,7 +29,6 @@ __all__ = [
     "Poses",
     "Stop",
     "all_branches",
-    "assembly_modes",
     "circuit",
     "designs",
     "four_bars",
