@@ -16,10 +16,11 @@ from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
 from gruebler.cams.lift import Lift
+from gruebler.events import Extremum
 from gruebler.notebook import Brief
 from gruebler.text import message
 
-__all__ = ["Cam", "CamExtremum", "CamReport"]
+__all__ = ["Cam", "CamReport"]
 
 
 class _Contact(NamedTuple):
@@ -36,26 +37,19 @@ class _Contact(NamedTuple):
     """The pitch curve: the roller's centre; for a face the contact itself."""
 
 
-class CamExtremum(NamedTuple):
-    """A value and the cam's angle where it occurs, in radians."""
-
-    value: float
-    at: float
-
-
 @dataclass(frozen=True, slots=True)
 class CamReport:
     """The quality measures of a cam; extremes are exact, with one-sided values at jumps of acceleration."""
 
-    pressure: tuple[CamExtremum, CamExtremum]
+    pressure: tuple[Extremum, Extremum]
     """The least and the greatest signed pressure angle in radians: from the follower's motion to the normal."""
-    convex: CamExtremum | None
+    convex: Extremum | None
     """The smallest radius of curvature where the profile is convex."""
-    hollow: CamExtremum | None
+    hollow: Extremum | None
     """The smallest radius of curvature where it is hollow, if it is: the greatest radius of a grinding wheel."""
-    room: CamExtremum
+    room: Extremum
     """Not positive: undercut. 1 - r k for a roller on a pitch curve of curvature k; for a face the radius."""
-    face: tuple[CamExtremum, CamExtremum]
+    face: tuple[Extremum, Extremum]
     """The length of a flat face that is needed to both sides (0 for rollers)."""
 
     @property
@@ -132,15 +126,16 @@ class Cam(Brief):
     def findings(self) -> CamReport:
         """All extremes over a turn."""
 
-        def both(pick: Callable[[_Contact], Reals], scale: float = 0.0) -> tuple[CamExtremum, CamExtremum]:
-            places: list[CamExtremum] = []
+        def both(pick: Callable[[_Contact], Reals], scale: float = 0.0) -> tuple[Extremum, Extremum]:
+            places: list[tuple[float, float]] = []
             for span in self.lift.spans():
 
                 def value(phi: Reals, span: object = span) -> Reals:
                     return pick(self._contact(phi, *(order(phi) for order in span.orders[:3])))  # type: ignore[attr-defined]
 
-                places += [CamExtremum(y, x) for x, y in extremes(value, span.start, span.end, scale)]
-            return min(places), max(places)
+                places += [(y, x) for x, y in extremes(value, span.start, span.end, scale)]
+            (least, low_at), (most, high_at) = min(places), max(places)
+            return Extremum(low_at, least, "minimum"), Extremum(high_at, most, "maximum")
 
         low, high = both(lambda contact: contact.shape)
         convex, hollow, room = _radii(self.follower, low, high)
@@ -167,16 +162,14 @@ class Cam(Brief):
             return _flat_contact(self.follower, phi, self.start + s, s1, s2)
 
 
-def _radii(
-    follower: Follower, low: CamExtremum, high: CamExtremum
-) -> tuple[CamExtremum | None, CamExtremum | None, CamExtremum]:
+def _radii(follower: Follower, low: Extremum, high: Extremum) -> tuple[Extremum | None, Extremum | None, Extremum]:
     """The least convex and hollow radius and the clearance, from the extremes of the shape."""
     if isinstance(follower, Flat):
         return (low if low.value > 0 else None), None, low
     # The radius 1 / k - r of the profile grows as the pitch curve's curvature k falls, on either side of k = 0.
-    r, room = follower.radius, CamExtremum(1 - follower.radius * high.value, high.at)
-    convex = CamExtremum(1 / high.value - r, high.at) if high.value > 0 and room.value > 0 else None
-    hollow = CamExtremum(r - 1 / low.value, low.at) if low.value < -1e-12 * abs(high.value) else None
+    r, room = follower.radius, Extremum(high.at, 1 - follower.radius * high.value, "minimum")
+    convex = Extremum(high.at, 1 / high.value - r, "minimum") if high.value > 0 and room.value > 0 else None
+    hollow = Extremum(low.at, r - 1 / low.value, "minimum") if low.value < -1e-12 * abs(high.value) else None
     return convex, hollow, room
 
 

@@ -132,7 +132,7 @@ def stroke_table(
     _add_dead_centres(builder, size)
     centres = size.dead_centres
     assert centres is not None  # _add_dead_centres raises for the others
-    start = centres.outer.phi if centres.outer.phi < pi else centres.outer.phi - 2 * pi
+    start = centres.outer.drive if centres.outer.drive < pi else centres.outer.drive - 2 * pi
     low = "" if not e else " - e" if e > 0 else " + e"
     builder.say(
         message("The slider's way at every crank angle, counted from below the crank's pivot:"),
@@ -146,7 +146,7 @@ def stroke_table(
     title = message("Transfer function s(φ), from the outer dead centre")
     headers = ("Δφ [°]", "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]")
     builder.table(title, headers, rows, decimals=3)
-    inner = (centres.inner.phi - centres.outer.phi) % (2 * pi)
+    inner = (centres.inner.drive - centres.outer.drive) % (2 * pi)
     name = message("crank angle from the outer to the inner dead centre")
     builder.keep("inner_at", name, degrees(inner), unit="°", symbol="Δφ(Ti)")
     moved = move(size.linkage(), [radians(row[1]) for row in rows])

@@ -232,7 +232,7 @@ def _change_point(random: Random) -> Given:
 def _good_rocker(given: Given) -> bool:
     """Whether it is a crank-rocker without change point and with a good transmission angle."""
     size = _four_bar(given)
-    return size.type.key == "crank_rocker" and size.transmission_angle.smallest > 0.35
+    return size.type.key == "crank_rocker" and size.transmission_angle.smallest.mu > 0.35
 
 
 def _grashof(random: Random, level: int) -> _Draft:

@@ -170,9 +170,9 @@ def _add_vectors(builder: SolutionBuilder, moved: Motion) -> None:
     a, b = pins.values()
     va, vb = (moved.complex_point(p, 1)[0] for p in (a, b))
     aa, ab = (moved.complex_point(p, 2)[0] for p in (a, b))
-    arm = moved.turns[0, moved.plan.lower.mechanism.chain.links.index("rocker")]
+    arm = moved.turns[0, moved.link_index("rocker")]
     along = arm * (ab * np.conj(arm)).real
-    coupler = moved.turns[0, moved.plan.lower.mechanism.chain.links.index("coupler")]
+    coupler = moved.turns[0, moved.link_index("coupler")]
     relative = coupler * ((ab - aa) * np.conj(coupler)).real
     rows = [
         ("v_A", va),

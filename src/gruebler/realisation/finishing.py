@@ -62,7 +62,7 @@ def _moved(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) ->
 def motion_quality(motion: Motion, *, full: bool) -> float:
     """The smallest measure of a motion; 0 if it does not reach its end, or, for a full turn, does not close."""
     plan = motion.plan
-    if not motion.complete or (full and not returns_to_start(motion.places[0], motion.turns, plan.lower.size)):
+    if not motion.complete or (full and not returns_to_start(motion.places[0], motion.turns, motion.size)):
         return 0.0
     return float(conditioning(plan, plan.program, motion.places[0], motion.turns, motion.roots).min())
 

@@ -138,7 +138,7 @@ def _foot(lower: Linkage, link: str, line: Line) -> complex:
 
 def _seen(path: Motion, link: str, other: str, point: complex) -> np.ndarray:
     """A point of another link in coordinates of a link, along a path."""
-    k, m = (path.plan.lower.mechanism.chain.index(name) for name in (link, other))
+    k, m = (path.link_index(name) for name in (link, other))
     place = path.places[0, :, m] + path.turns[:, m] * point
     relative: np.ndarray = (place - path.places[0, :, k]) * path.turns[:, k].conj()
     return relative

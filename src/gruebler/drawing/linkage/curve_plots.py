@@ -212,7 +212,7 @@ def _paths(
 
 def _skeleton(motion: Motion, row: int, places: Iterable[LinkPoint]) -> list[Complexes]:
     """The lines between the joints of every moving link in a pose, and from one of them to each point of the link."""
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     lines = []
     for k, link in enumerate(lower.mechanism.chain.links):
         pins = list(dict.fromkeys(complex(e.x, e.y) for (_, owner), e in lower.elements.items() if owner == link))

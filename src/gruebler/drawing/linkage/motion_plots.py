@@ -94,7 +94,7 @@ def _check(run: PlotRun, output: Output, requested: str | None) -> None:
     frame = linkage.mechanism.frame
     moving = [link for link in linkage.mechanism.chain.links if link != frame]
     outputs = {link: find_output(linkage, link) for link in moving}
-    sizes = {link: 1.0 if outputs[link].turning else run.cycle.plan.lower.size for link in moving}
+    sizes = {link: 1.0 if outputs[link].turning else run.cycle.size for link in moving}
     still = {link: np.ptp(outputs[link].values(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
     others = ", ".join(link for link in moving if not still[link])
     if output.link == frame:
@@ -136,7 +136,7 @@ def _order_words(run: PlotRun, output: Output, order: int) -> str:
 
 def _least(run: PlotRun, output: Output, order: int) -> float:
     """The size of a derivative below which it is rounding error."""
-    by = 1.0 if run.cycle.turning_drive else run.cycle.plan.lower.size ** (order - 1)
+    by = run.cycle.drive_size ** (order - 1)
     return _NOISE * natural_speed(run.cycle, output) / by
 
 

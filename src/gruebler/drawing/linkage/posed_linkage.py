@@ -101,7 +101,7 @@ def posed_along_motion(motion: Motion) -> PosedLinkage:
         unknowns=motion.unknowns[:1],
         unbounded=(),
     )
-    return PosedLinkage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
+    return PosedLinkage(motion.lower_linkage, None, first, motion, _scale(motion.lower_linkage, motion))
 
 
 def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
@@ -136,7 +136,9 @@ def posed_linkage(
     if drives is not None:
         along = path_cycle(linkage, drives, branch)
         path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
-        return PosedLinkage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
+        return PosedLinkage(
+            along.lower_linkage, along, along.at(np.array([1 / 3]), 2), path, _scale(along.lower_linkage, path)
+        )
     if len(linkage.mechanism.drives) == 1:
         try:
             cycle = drive_cycle(linkage, branch)
@@ -144,7 +146,7 @@ def posed_linkage(
             return _one_position(linkage, values, branch, error)
         path = cycle.at(drive_rows(cycle, between), 0)
         pose = cycle.at(np.array([_value(cycle, values, path.drives[:, 0])]), 2)
-        return PosedLinkage(plan.lower, cycle, pose, path, _scale(plan.lower, path))
+        return PosedLinkage(cycle.lower_linkage, cycle, pose, path, _scale(cycle.lower_linkage, path))
     if values is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
         values = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
@@ -156,7 +158,7 @@ def posed_linkage(
 
 def _posed(pose: Motion) -> PosedLinkage:
     """One pose without a range."""
-    return PosedLinkage(pose.plan.lower, None, pose, pose, _scale(pose.plan.lower, pose))
+    return PosedLinkage(pose.lower_linkage, None, pose, pose, _scale(pose.lower_linkage, pose))
 
 
 def _one_position(
@@ -201,7 +203,7 @@ def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, co
     if between is None and span.full:
         return np.linspace(low, high, count * span.turns + 1)
     if not cycle.turning_drive:
-        middle, room = float(cycle.start.drives[0, 0]), _ENDLESS * cycle.plan.lower.size
+        middle, room = float(cycle.start.drives[0, 0]), _ENDLESS * cycle.size
         low = low if span.stops[0] is not None else max(low, middle - room)
         high = high if span.stops[1] is not None else min(high, middle + room)
     low, high = low + _INSIDE * (high - low), high - _INSIDE * (high - low)
@@ -219,7 +221,7 @@ def _value(cycle: DriveCycle, values: Reals | None, rows: Reals) -> float:
     """The drive value of the pose."""
     if values is None:
         start = float(cycle.start.drives[0, 0])
-        if cycle.plan.lower.reference_pose is not None and rows[0] <= start <= rows[-1]:
+        if cycle.lower_linkage.reference_pose is not None and rows[0] <= start <= rows[-1]:
             return start
         return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
     if values.shape != (1,) or not np.isfinite(values).all():

@@ -81,7 +81,7 @@ def _face(posed: PosedLinkage, joint: int, link: str, line: elements.Line) -> tu
             wide = 0.7 * element.base * element.scale
             if not element.distance:
                 return -wide, wide
-            k = posed.pose._link(link)
+            k = posed.pose.link_index(link)
             axis = complex(posed.pose.complex_point(elements.LinkPoint(owner, element.x, element.y))[0])
             relative = (axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k] - complex(line.x, line.y)
             offset = float((relative * cmath.rect(1, -line.angle)).real)

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from gruebler.gears import Mesh, Train
+from gruebler.gears.stages import WHEEL_PAIRS, central_links, mesh_groups, wheels_of
 
 __all__ = ["GearStage", "PlacedMesh", "StageWheel", "gear_stages"]
 
@@ -20,7 +21,6 @@ FRAME = "frame"
 _APART = 1.7  # sums of radii: the distance of the axes of a belt
 _CLOSE = 1e-6
 _PER_SIZE = {"rack by pitch": 1 / math.tau, "rack": 1.0, "winch": 1.0}  # radius by size; of toothed wheels a half
-_FLAT = ("gear", "friction", "belt", "chain", "crossed", "bevel")
 
 
 class StageWheel(NamedTuple):
@@ -78,65 +78,17 @@ def gear_stages(train: Train, planets: Mapping[str, int]) -> list[GearStage]:
     >>> [(wheel.link, round(wheel.radius, 9), round(abs(wheel.at), 9)) for wheel in stage.wheels][:3]
     [('sun', 12.0, 0.0), ('planet', 9.0, 21.0), ('planet', 9.0, 21.0)]
     """
-    stages = [*_grouped(train.meshes)]
+    stages = [GearStage(meshes[0].carrier, meshes) for meshes in mesh_groups(train.meshes)]
     for stage in stages:
         stage.copies = max((planets.get(link, 1) for mesh in stage.meshes for link in (mesh.a, mesh.b)), default=1)
-        stage.central = _central(stage, train)
+        stage.central = central_links(stage.meshes, train)
         _place(stage)
         _wheels(stage)
     return stages
 
 
-def _grouped(meshes: Iterable[Mesh]) -> Iterator[GearStage]:
-    """Meshes with the same carrier that their links connect."""
-    groups: list[GearStage] = []
-    for mesh in dict.fromkeys(meshes):
-        links = {mesh.a, mesh.b} - {FRAME}
-        bevel = mesh.kind == "bevel"
-        connected = [
-            group
-            for group in groups
-            if group.carrier == mesh.carrier
-            and group.is_bevel == bevel
-            and any(links & {other.a, other.b} for other in group.meshes)
-        ]
-        merged = GearStage(mesh.carrier, [earlier for group in connected for earlier in group.meshes] + [mesh])
-        spot = groups.index(connected[0]) if connected else len(groups)
-        groups = [group for group in groups if group not in connected]
-        groups.insert(spot, merged)
-    yield from groups
-
-
-def _central(stage: GearStage, train: Train) -> set[str]:
-    """The links whose axis is that of the moving carrier."""
-    if stage.carrier == FRAME or stage.is_bevel:
-        return set()
-    mates: dict[str, list[str]] = {}
-    for mesh in stage.meshes:
-        mates.setdefault(mesh.a, []).append(mesh.b)
-        mates.setdefault(mesh.b, []).append(mesh.a)
-    other_meshes = [mesh for mesh in train.meshes if mesh not in stage.meshes]
-    sure = {FRAME, *(link for mesh in other_meshes for link in (mesh.a, mesh.b, mesh.carrier))}
-    sure |= {link for mesh in stage.meshes for link, size in _sides(mesh) if size < 0}
-    planets = {mate for link in sure for mate in mates.get(link, ())} - sure
-    central = sure & set(mates)
-    central |= {
-        link for link in mates if link not in planets and (len(mates[link]) == 1 or planets.issuperset(mates[link]))
-    }
-    for mesh in stage.meshes:
-        if {mesh.a, mesh.b} <= central:
-            central.discard(mesh.a if mesh.b in sure and mesh.a not in sure else mesh.b)
-    return central or {stage.meshes[0].a}
-
-
-def _sides(mesh: Mesh) -> tuple[tuple[str, float], ...]:
-    """Links with their wheels; only one where the second link slides."""
-    both = ((mesh.a, float(mesh.size_a)), (mesh.b, float(mesh.size_b)))
-    return both if mesh.kind in _FLAT else both[:1]
-
-
 def _distance(mesh: Mesh) -> float:
-    a, b = (abs(size) / 2 for _, size in _sides(mesh))
+    a, b = (abs(size) / 2 for _, size in wheels_of(mesh))
     if mesh.kind in ("belt", "chain", "crossed"):
         return _APART * (a + b)
     return a + b if mesh.kind == "bevel" else abs(float(mesh.size_a + mesh.size_b)) / 2
@@ -149,9 +101,9 @@ def _place(stage: GearStage) -> None:
     """All axes, one after another, each beside its mesh partners."""
     axes = stage.axes
     axes |= dict.fromkeys(sorted(stage.central) or [stage.meshes[0].a], 0j)
-    flat = [mesh for mesh in stage.meshes if mesh.kind in _FLAT]
+    flat = [mesh for mesh in stage.meshes if mesh.kind in WHEEL_PAIRS]
     leads = _leads(stage, flat)
-    while unplaced := [mesh for mesh in stage.meshes if any(link not in axes for link, _ in _sides(mesh))]:
+    while unplaced := [mesh for mesh in stage.meshes if any(link not in axes for link, _ in wheels_of(mesh))]:
         near = next((mesh for mesh in flat if (mesh.a in axes) != (mesh.b in axes)), None)
         if near is None:
             axes[unplaced[0].a] = _beside(stage, unplaced[0])
@@ -173,7 +125,7 @@ def _reach(stage: GearStage) -> dict[str, float]:
     """The greatest radius of each link."""
     reach: dict[str, float] = {}
     for mesh in stage.meshes:
-        for link, size in _sides(mesh):
+        for link, size in wheels_of(mesh):
             radius = abs(size) * _PER_SIZE.get(mesh.kind, 0.5)
             reach[link] = max(reach.get(link, 0.0), radius)
     return reach
@@ -230,7 +182,7 @@ def _wheels(stage: GearStage) -> None:
     """A wheel for every side of a mesh, each once, its teeth in the spaces of its partner."""
     wheels: dict[tuple[str, float, complex], StageWheel] = {}
     for mesh in stage.meshes:
-        sides = _sides(mesh)
+        sides = wheels_of(mesh)
         for copy in range(stage.copies if stage.central else 1):
             turn = cmath.exp(2j * math.pi * copy / stage.copies)
             places = [
