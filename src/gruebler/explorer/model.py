@@ -20,7 +20,6 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.linkage.wheels import round_parts
 from gruebler.formats import linkage_to_json
 from gruebler.kinematics.branches import labelled_groups
-from gruebler.kinematics.kernel_calls import run_rows
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import CENTRED, Line, direction
@@ -258,28 +257,3 @@ def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
 def _short(value: float) -> float:
     """Seven digits: outlines are for the eye."""
     return float(f"{value:.7g}")
-
-
-def golden_record(linkage: Linkage, rows: np.ndarray, signs: np.ndarray, unknowns: np.ndarray) -> dict[str, Any]:
-    """A path and what the kernel finds along it with velocities and accelerations, for the tests of the page's kernel."""
-    from gruebler.kinematics.solve import cached_plan
-
-    plan = cached_plan(linkage)
-    speeds = np.zeros((2, *rows.shape))
-    speeds[0] = 1
-    found = run_rows(plan.program, plan, rows, speeds, 2, signs, unknowns)
-    idle = np.tile(plan.held, (len(rows), 1))
-    return {
-        "program": program_record(plan),
-        "path": np.concatenate([rows, idle], axis=1).ravel().tolist(),
-        "speeds": [np.concatenate([s, np.zeros_like(idle)], axis=1).ravel().tolist() for s in speeds],
-        "signs": signs.tolist(),
-        "unknowns": unknowns.tolist(),
-        "status": int(found.status),
-        "reached": int(found.reached),
-        "at": float(found.at),
-        "places": _parts(found.places.ravel()),
-        "turns": _parts(found.turns.ravel()),
-        "rates": found.rates.ravel().tolist(),
-        "roots": found.roots.ravel().tolist(),
-    }
