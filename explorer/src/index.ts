@@ -1,2 +1,3 @@
 export { Kernel } from "./kernel";
+export { Machine } from "./machine";
 export { programOf } from "./program";
