@@ -480,6 +480,7 @@ export class Machine {
         for (const cylinder of cylinders) this.straighten(poses, cylinder, joint, x, y);
         for (const [link, axis] of this.axes.entries()) if (axis) this.align(poses, link, axis);
         this.writeSizes();
+        this.placeBlocks(poses);
         this.readState(poses);
       },
       () => this.solve(this.drives, this.state, 2),
@@ -719,6 +720,71 @@ export class Machine {
       return [name, [this.pose.places[2 * link]!, this.pose.places[2 * link + 1]!, degrees(Math.atan2(s, c))]];
     }));
     return out;
+  }
+
+  /** Take sizes and pose from the document of a linkage of the same structure. */
+  apply(document: LinkageDocument, drive?: number): void {
+    const { model } = this;
+    const degrees = Math.PI / 180;
+    const numbers = (raw: unknown, count: number): number[] => {
+      if (!Array.isArray(raw) || raw.length !== count || !raw.every((v) => typeof v === "number" && Number.isFinite(v))) throw new Refused(null);
+      return raw as number[];
+    };
+    const poses = oneRow(this.pose, 0);
+    if (drive !== undefined && Number.isFinite(drive)) this.drives[this.active] = drive;
+    this.change(
+      () => {
+        model.elements.forEach((e, k) => {
+          if (e.kind === "round") return;
+          const raw = numbers(document.elements?.[model.links[e.link]!]?.[model.joints[e.joint]!.name], e.kind === "line" ? 3 : 2);
+          this.at[2 * k] = raw[0]!;
+          this.at[2 * k + 1] = raw[1]!;
+          if (e.kind === "line") this.angles[k] = raw[2]! * degrees;
+        });
+        this.points = Object.entries(document.points ?? {}).map(([name, { link, at }]) => {
+          const [x, y] = numbers(at, 2) as [number, number];
+          const number = model.links.indexOf(link);
+          if (number < 0 || number >= model.own) throw new Refused(null);
+          return { name, link: number, at: [x, y] };
+        });
+        this.writeSizes();
+        model.links.slice(0, model.own).forEach((name, link) => {
+          const [x, y, angle] = numbers(document.home?.[name], 3) as [number, number, number];
+          poses.places[2 * link] = x;
+          poses.places[2 * link + 1] = y;
+          poses.turns[2 * link] = Math.cos(angle * degrees);
+          poses.turns[2 * link + 1] = Math.sin(angle * degrees);
+        });
+        this.placeBlocks(poses);
+        this.readState(poses);
+      },
+      () => this.solve(this.drives, this.state, 2),
+    );
+  }
+
+  /** Where the blocks of pins in slots lie when the other links are placed: at the pin, turned with the slot. */
+  private placeBlocks(poses: Rows): void {
+    const p = this.program, { model } = this;
+    for (let block = model.own; block < model.links.length; block++) {
+      const mine = model.sources.flatMap((source, e) => (source < 0 && p.links[e] === block ? [e] : []));
+      const name = model.links[block]!.replace(/^block /, "");
+      const joint = model.joints.findIndex((j) => j.name === name);
+      if (joint < 0 || !mine.length) continue;
+      const [k, m] = this.elementsOf(joint).sort((a, b) => Number(model.elements[b]!.kind === "line") - Number(model.elements[a]!.kind === "line"));
+      const slot = this.turn(poses, 0, model.elements[k!]!.link);
+      const [x, y] = this.elementAt(k!, poses), [px, py] = this.elementAt(m!, poses);
+      let [u, v] = [px, py];
+      if (model.elements[m!]!.kind === "line") {
+        const a = this.angles[k!]!;
+        const lx = slot[0] * Math.cos(a) - slot[1] * Math.sin(a), ly = slot[0] * Math.sin(a) + slot[1] * Math.cos(a);
+        const way = lx * (px - x) + ly * (py - y);
+        [u, v] = [x + way * lx, y + way * ly];
+      }
+      poses.turns[2 * block] = slot[0];
+      poses.turns[2 * block + 1] = slot[1];
+      poses.places[2 * block] = u;
+      poses.places[2 * block + 1] = v;
+    }
   }
 
   // --- measures ------------------------------------------------------------------------------------------------------

@@ -1,0 +1,10 @@
+import type { App, View } from "./app";
+import { h } from "./dom";
+
+export class CatalogView implements View {
+  readonly element = h("div", { class: "view" });
+  constructor(private readonly app: App) {}
+  arrange(): void {
+    void this.app;
+  }
+}
