@@ -41,7 +41,7 @@ export class MotionView {
   private readonly sizes = h("div", { class: "rows" });
   private readonly plots = h("div", {});
   private readonly checked = h("p", { class: "note" });
-  private plotParts: { plot: Plot; make: () => Series }[] = [];
+  private plotParts: { plot: Plot; make: (rows: number[]) => Series }[] = [];
   private opened = new Set(["sizes", "measures", "plots"]);
   /** Milliseconds of the last frames in which something was drawn. */
   readonly frames: number[] = [];
@@ -489,30 +489,37 @@ export class MotionView {
 
   // --- plots ---------------------------------------------------------------------------------------------------------
 
-  private plotted(drive: number): number {
+  /** The rows of the cycle in the order in which they are plotted: of full turns from 0 on. */
+  private plottedRows(): { drives: Float64Array; rows: number[] } {
     const { cycle } = this.machine;
-    if (!cycle.full) return drive;
-    const period = cycle.turns * TURN;
-    return cycle.low + ((((drive - cycle.low) % period) + period) % period);
+    const count = cycle.values.length;
+    if (!cycle.full) return { drives: cycle.values, rows: Array.from({ length: count }, (_, row) => row) };
+    const rows = Array.from({ length: count - 1 }, (_, row) => row).sort((a, b) => this.plotted(cycle.values[a]!) - this.plotted(cycle.values[b]!));
+    const drives = Float64Array.from([...rows.map((row) => this.plotted(cycle.values[row]!)), TURN * cycle.turns + this.plotted(cycle.values[rows[0]!]!)]);
+    return { drives, rows: [...rows, rows[0]!] };
+  }
+
+  private plotted(drive: number): number {
+    return this.track.wrapped(drive);
   }
 
   private makePlots(): void {
     const { machine } = this;
     const output = machine.model.outputs[0];
     this.plotParts = [];
-    const add = (make: () => Series) => this.plotParts.push({ plot: new Plot(machine.drive?.turning ? TURN / 360 : 1, (value) => this.pick(value)), make });
-    const along = (f: (row: number) => number) => Float64Array.from({ length: this.machine.cycle.values.length }, (_, row) => f(row));
+    const add = (make: (rows: number[]) => Series) => this.plotParts.push({ plot: new Plot(machine.drive?.turning ? TURN / 360 : 1, (value) => this.pick(value)), make });
+    const along = (rows: number[], f: (row: number) => number) => Float64Array.from(rows, f);
     if (output) {
       const turning = output.joint === null;
       const name = machine.model.links[output.link]!;
-      add(() => ({ title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${machine.model.unit}]`), colour: "--motion", values: unwound(along((row) => machine.output(machine.cycle.rows, row)[0]), turning) }));
-      add(() => ({ title: t("Its velocity by the drive"), colour: "--green", values: along((row) => machine.output(machine.cycle.rows, row)[1]) }));
-      add(() => ({ title: t("Its acceleration by the drive"), colour: "--purple", values: along((row) => machine.output(machine.cycle.rows, row)[2]) }));
-      if (output.legs.length) add(() => ({ title: t("Transmission angle") + " [°]", colour: "--accent", floor: 40, values: along((row) => (machine.transmission(machine.cycle.rows, row) * 360) / TURN) }));
+      add((rows) => ({ title: t("Output {name}", { name }) + (turning ? " [°]" : ` [${machine.model.unit}]`), colour: "--motion", values: unwound(along(rows, (row) => machine.output(machine.cycle.rows, row)[0]), turning) }));
+      add((rows) => ({ title: t("Its velocity by the drive"), colour: "--green", values: along(rows, (row) => machine.output(machine.cycle.rows, row)[1]) }));
+      add((rows) => ({ title: t("Its acceleration by the drive"), colour: "--purple", values: along(rows, (row) => machine.output(machine.cycle.rows, row)[2]) }));
+      if (output.legs.length) add((rows) => ({ title: t("Transmission angle") + " [°]", colour: "--accent", floor: 40, values: along(rows, (row) => (machine.transmission(machine.cycle.rows, row) * 360) / TURN) }));
     }
-    machine.points.forEach((point) => add(() => ({
+    machine.points.forEach((point) => add((rows) => ({
       title: t("Speed of {name} by the drive", { name: point.name }), colour: "--ink",
-      values: along((row) => Math.hypot(...machine.place(machine.cycle.rows, row, point.link, point.at[0], point.at[1], 1))),
+      values: along(rows, (row) => Math.hypot(...machine.place(machine.cycle.rows, row, point.link, point.at[0], point.at[1], 1))),
     })));
     const note = output?.note[currentLanguage()];
     this.plots.replaceChildren(...this.plotParts.map(({ plot }) => plot.element), ...(note ? [h("p", { class: "note" }, note)] : []));
@@ -522,8 +529,9 @@ export class MotionView {
   private drawPlots(): void {
     const { cycle, drives, active } = this.machine;
     if (cycle.values.length < 2) return;
+    const shown = this.plottedRows();
     for (const { plot, make } of this.plotParts) {
-      plot.show(cycle.values, make());
+      plot.show(shown.drives, make(shown.rows));
       plot.at(this.plotted(drives[active]!));
     }
   }

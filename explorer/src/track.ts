@@ -65,7 +65,7 @@ export class Track {
       if (cycle.stops[1]) line(high, this.to, "hatched");
     }
     line(low, high, "free");
-    const wrap = (value: number) => (cycle.full ? ((value % high) + high) % high : value);
+    const wrap = (value: number) => this.wrapped(value);
     const mark = (value: number, style: string, d: string, title: string) => {
       const here = wrap(value);
       if (here < this.from || here > this.to) return;
@@ -93,7 +93,8 @@ export class Track {
   wrapped(value: number): number {
     if (!this.cycle?.full) return value;
     const period = this.cycle.turns * TURN;
-    return ((value % period) + period) % period;
+    const rest = ((value % period) + period) % period;
+    return period - rest < 1e-9 ? 0 : rest;
   }
 
   set(value: number): void {
