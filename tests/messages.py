@@ -26,6 +26,27 @@ HELP = frozenset({"help", "description", "epilog", "title"})
 """Keywords of argparse whose values are messages."""
 
 
+ARGPARSE = (
+    "usage: ",
+    "positional arguments",
+    "options",
+    "show this help message and exit",
+    "%(prog)s: error: %(message)s\n",
+    "argument %(argument_name)s: %(message)s",
+    "the following arguments are required: %s",
+    "one of the arguments %s is required",
+    "not allowed with argument %s",
+    "expected one argument",
+    "expected at least one argument",
+    "expected at most one argument",
+    "invalid choice: %(value)r (choose from %(choices)s)",
+    "invalid %(type)s value: %(value)r",
+    "ignored explicit argument %r",
+    "ambiguous option: %(option)s could match %(matches)s",
+)
+"""What argparse itself says, found by gettext in our catalog; it comes with Python, not from our sources."""
+
+
 class Found(NamedTuple):
     """A message in the code."""
 
@@ -95,7 +116,12 @@ def in_file(path: Path) -> Iterator[Found | Unreadable]:
 
 def messages() -> list[Found | Unreadable]:
     """All messages of the library, file by file."""
-    return [entry for path in sorted(SOURCES.rglob("*.py")) for entry in in_file(path)]
+    ours = [entry for path in sorted(SOURCES.rglob("*.py")) for entry in in_file(path)]
+    return [
+        *ours,
+        *(Found("argparse", 0, text) for text in ARGPARSE),
+        Found("argparse", 0, "expected %s argument", "expected %s arguments"),
+    ]
 
 
 def catalog_path(lang: str) -> Path:

@@ -25,6 +25,7 @@ from gruebler.errors import GrueblerError, shortened
 
 __all__ = [
     "LANGUAGES",
+    "LOCALE",
     "Message",
     "Text",
     "arity",
@@ -43,7 +44,8 @@ __all__ = [
 LANGUAGES = ("en", "de")
 """The languages there are: that of the code, then one for each folder in `locale`."""
 
-_FOLDER = Path(__file__).parent / "locale"
+LOCALE = Path(__file__).parent / "locale"
+"""Where the catalogs of the other languages stand."""
 _DECIMAL_COMMA = str.maketrans(".,", ",.")
 _COMMA_LANGUAGES = frozenset({"de"})
 
@@ -56,7 +58,7 @@ def _catalog(lang: str) -> gettext.NullTranslations:
         raise GrueblerError(
             "expected a language ({known}), but found {found!r}", known=", ".join(LANGUAGES), found=lang
         )
-    return gettext.translation("gruebler", _FOLDER, [lang])
+    return gettext.translation("gruebler", LOCALE, [lang])
 
 
 def number(value: Any, lang: str = "en", form: str = ".6g") -> str:

@@ -1,31 +1,18 @@
 """`gruebler catalog search` and `catalog show --full` as a user meets them."""
 
-import argparse
 import json
-from importlib import import_module
 
 import pytest
 
-from gruebler import GrueblerError
 from gruebler.catalog import entries
-from gruebler.cli import catalog_commands
+from tests.commands import run_command
 
 SHEET = ("--links", "4", "--drives", "1", "--drives-at-frame", "1", "--output-links-at-frame", "0")
 SHEET += ("--pairs", "D:4", "--binary", "4")
 
 
 def run(capsys, *arguments):
-    parser = argparse.ArgumentParser()
-    catalog_commands.add(parser.add_subparsers())
-    try:
-        made = parser.parse_args(["catalog", *arguments])
-        status = import_module(made.run).run(made)
-    except GrueblerError as error:
-        return 2, "", str(error)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
+    return run_command(capsys, "catalog", *arguments)
 
 
 def test_features_in_both_languages(capsys):

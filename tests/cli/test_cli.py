@@ -9,6 +9,8 @@ import pytest
 
 from gruebler.catalog import entries
 from gruebler.cli import main
+from gruebler.cli.commands import command as command_named
+from gruebler.cli.commands import command_names
 
 FOUR_BAR = "R(frame-crank) R(crank-rod) R(rod-rocker) R(rocker-frame)"
 KEYS = {
@@ -102,6 +104,40 @@ def test_files(capsys, tmp_path):
     assert [one["counted"] for one in json.loads(out)] == [1, -3, 0]
 
 
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["help"], ["-h"]])
+def test_the_overview_names_every_command_in_a_group(capsys, arguments):
+    status, out, _ = run(capsys, *arguments)
+    assert status == 0
+    assert [line for line in out.splitlines() if line == "Pictures"]
+    assert all(f"\n  {name} " in out for name in command_names())
+
+
+@pytest.mark.parametrize("words", [["help", "curve"], ["curve", "--help"], ["--lang", "en", "curve", "-h"]])
+def test_help_of_a_command(capsys, words):
+    status, out, _ = run(capsys, *words)
+    assert status == 0
+    assert out.startswith("usage: gruebler curve ")
+    assert "--contact VALUE" in out
+
+
+def test_every_command_has_a_module_with_add_and_run():
+    for name in command_names():
+        parser = command_named(name).parser()
+        assert parser.description, name
+        assert callable(command_named(name).module().run), name
+
+
+def test_the_language_of_the_environment(capsys, monkeypatch):
+    monkeypatch.setenv("GRUEBLER_LANG", "de")
+    assert "Urteil: zwangläufig" in run(capsys, "check", FOUR_BAR, "--explain")[1]
+    assert "Urteil: zwangläufig" not in run(capsys, "check", FOUR_BAR, "--explain", "--lang", "en")[1]
+    monkeypatch.setenv("GRUEBLER_LANG", "fr")
+    assert run(capsys, "check", FOUR_BAR)[::2] == (
+        2,
+        "gruebler check: GRUEBLER_LANG: expected en or de, but found 'fr'\n",
+    )
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -114,11 +150,13 @@ def test_files(capsys, tmp_path):
         (["check", "vcomp", "--b", "9"], "1 to 6"),
         (["check", "vcomp", "--b", "x"], "invalid int value"),
         (["check", "--lang", "fr"], "invalid choice"),
-        (["check", "--nonsense"], "unrecognized arguments"),
+        (["check", "--nonsense"], "unknown arguments: --nonsense"),
+        (["check", "--explian", "vcomp"], "did you mean '--explain'?"),
+        (["chek"], "there is no command 'chek'; did you mean 'check'?"),
+        (["help", "chek"], "did you mean 'check'?"),
         (["catalog"], "required"),
         (["catalog", "show", "nothing"], "no entry 'nothing'"),
         (["catalog", "search", "--pair", "revolut"], "did you mean 'revolute'"),
-        ([], "required"),
     ],
 )
 def test_wrong_usage_is_one_sentence_and_status_2(capsys, arguments, words):

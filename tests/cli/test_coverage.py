@@ -1,6 +1,5 @@
 """The table of concepts and machines: nothing of the seeds is missing, and everything in it works."""
 
-import argparse
 import json
 import shlex
 
@@ -8,8 +7,8 @@ import pytest
 
 from gruebler import CatalogError
 from gruebler.catalog import entries
-from gruebler.cli import coverage, coverage_commands
-from gruebler.cli.parser import build_parser
+from gruebler.cli import coverage
+from gruebler.cli.commands import command as command_named
 
 # REFERENCE A1, row by row: where in the seeds, and a word of its name.
 CONCEPTS = (
@@ -33,10 +32,7 @@ E1 Übungsbeispiele|001 Getriebebeschreibung|001 Zugriffsmerkmale|001 Gleichsche
 @pytest.fixture
 def run(capsys):
     def call(*arguments):
-        parser = argparse.ArgumentParser()
-        coverage_commands.add(parser.add_subparsers())
-        made = parser.parse_args(["coverage", *arguments])
-        status = coverage.run(made)
+        status = coverage.run(command_named("coverage").parser().parse_args(arguments))
         return status, capsys.readouterr().out
 
     return call
@@ -64,11 +60,11 @@ def test_every_function_is_there():
 
 def test_every_command_is_understood():
     """Parsed without being run, so that a word that no parser knows fails in the fast tests."""
-    parser = build_parser()
     for row in coverage.coverage_rows():
         for command, wanted in row.commands:
             if wanted != 2:
-                parser.parse_args(shlex.split(command))
+                name, *arguments = shlex.split(command)
+                command_named(name).parser().parse_args(arguments)
 
 
 @pytest.mark.slow

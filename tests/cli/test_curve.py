@@ -1,6 +1,5 @@
 """`gruebler curve` as a user meets it."""
 
-import argparse
 import csv
 import json
 import math
@@ -9,20 +8,13 @@ import numpy as np
 import pytest
 
 from gruebler.catalog import entry
-from gruebler.cli import curve, curve_commands
-from gruebler.errors import GrueblerError
 from gruebler.kinematics import move
+from tests.commands import run_command
 
 
 def run(capsys, *arguments):
-    parser = argparse.ArgumentParser()
-    curve_commands.add(parser.add_subparsers())
-    made = parser.parse_args(["curve", *arguments])
-    try:
-        status = curve.run(made)
-    except GrueblerError as error:
-        return 2, str(error)
-    return status, capsys.readouterr().out
+    status, out, err = run_command(capsys, "curve", *arguments)
+    return status, out or err
 
 
 def test_a_path_in_words(capsys):

@@ -5,7 +5,8 @@ import json
 import pytest
 
 from gruebler.cli import main
-from gruebler.cli.exercise_commands import _KINDS, _TABLES
+from gruebler.cli.exercise import _KINDS
+from gruebler.cli.table import _TABLES
 from gruebler.exercises import KINDS, TABLES
 
 

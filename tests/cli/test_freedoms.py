@@ -1,28 +1,17 @@
 """`gruebler freedoms` as a user meets it."""
 
-import argparse
 import json
 
 import pytest
 
 from gruebler import GrueblerError
 from gruebler.catalog import check_entry, entry
-from gruebler.cli import freedoms_commands
-from gruebler.cli.freedoms import run as run_freedoms
 from gruebler.formats import read_entry
+from tests.commands import run_command
 
 
 def run(capsys, *arguments):
-    parser = argparse.ArgumentParser()
-    freedoms_commands.add(parser.add_subparsers())
-    try:
-        status = run_freedoms(parser.parse_args(["freedoms", *arguments]))
-    except GrueblerError as error:
-        return 2, "", str(error)
-    except SystemExit as stop:
-        status = stop.code
-    out, err = capsys.readouterr()
-    return status, out, err
+    return run_command(capsys, "freedoms", *arguments)
 
 
 def test_an_entry_in_both_languages(capsys):

@@ -1,29 +1,15 @@
 """`gruebler plot`, and what `draw` and `animate` have learned, as a user meets them."""
 
-import argparse
-from importlib import import_module
-
 import pytest
 
-from gruebler.cli import linkage_commands, plot_commands
 from gruebler.drawing.linkage import animation_frames
-from gruebler.errors import GrueblerError
+from tests.commands import run_command
 
 FOUR_BAR = "four-bar:25,70,40,70"
 
 
 def run(capsys, *arguments):
-    parser = argparse.ArgumentParser()
-    commands = parser.add_subparsers()
-    plot_commands.add(commands)
-    linkage_commands._add_draw(commands)
-    linkage_commands._add_animate(commands)
-    made = parser.parse_args(arguments)
-    try:
-        status = import_module(made.run).run(made)
-    except GrueblerError as error:
-        return 2, "", str(error)
-    return status, *capsys.readouterr()
+    return run_command(capsys, *arguments)
 
 
 @pytest.mark.parametrize(
@@ -64,7 +50,7 @@ def test_the_speed_is_in_turns_a_minute(capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([FOUR_BAR, "--point", "K"], "--point goes with --kind hodograph or curves or ratio, not with transfer"),
+        ([FOUR_BAR, "--point", "K"], "--point goes with --kind hodograph, curves or ratio, not with transfer"),
         ([FOUR_BAR, "--kind", "curves"], "no named points; name one of its joints"),
         ([FOUR_BAR, "--kind", "family", "--from=1,2"], "--from and --to go together"),
         ([FOUR_BAR, "--kind", "family", "--from=1", "--to=2,3"], "--from: expected two numbers U,V"),

@@ -1,30 +1,15 @@
 """`gruebler sheet` and `gruebler guidance` as a user meets them."""
 
-import argparse
 import json
 import re
 
 import pytest
 
-from gruebler.cli import guidance, guidance_commands, sheet, sheet_commands
-from gruebler.errors import GrueblerError
-
-MODULES = {"sheet": sheet, "guidance": guidance}
+from tests.commands import run_command
 
 
 def run(capsys, *arguments):
-    parser = argparse.ArgumentParser()
-    commands = parser.add_subparsers(dest="command")
-    sheet_commands.add(commands)
-    guidance_commands.add(commands)
-    try:
-        made = parser.parse_args(arguments)
-        status = MODULES[made.command].run(made)
-    except SystemExit as stop:
-        status = stop.code
-    except GrueblerError as error:
-        return 2, "", str(error)
-    return status, *capsys.readouterr()
+    return run_command(capsys, *arguments)
 
 
 def test_list(capsys):

@@ -1,24 +1,16 @@
 """`gruebler statics` as a user meets it."""
 
-import argparse
 import csv
 import json
 
 import pytest
 
-from gruebler.cli import main, statics, statics_commands
-from gruebler.errors import GrueblerError
+from gruebler.cli import main
+from tests.commands import run_command
 
 
 def run(capsys, *arguments):
-    parser = argparse.ArgumentParser()
-    statics_commands.add(parser.add_subparsers())
-    made = parser.parse_args(["statics", *arguments])
-    try:
-        status = statics.run(made)
-    except GrueblerError as error:
-        return 2, "", str(error)
-    return status, *capsys.readouterr()
+    return run_command(capsys, "statics", *arguments)
 
 
 def document(capsys, *arguments):

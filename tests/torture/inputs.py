@@ -18,7 +18,7 @@ from pathlib import Path
 
 from gruebler import FourBar
 from gruebler.catalog import entries
-from gruebler.cli.parser import build_parser
+from gruebler.cli.commands import command as command_named
 from gruebler.formats.linkages import linkage_to_json, linkage_to_toml
 from gruebler.isomorphism import code
 from tests.torture.processes import Outcome, partial_files, run, warm
@@ -320,8 +320,8 @@ def _with_damage(case: Case, chance: random.Random) -> Case:
 @cache
 def _options(command: tuple[str, ...]) -> list[tuple[str, bool]]:
     """The options of a command, each with whether it takes a value."""
-    parser: argparse.ArgumentParser = build_parser()
-    for word in command:
+    parser: argparse.ArgumentParser = command_named(command[0]).parser()
+    for word in command[1:]:
         inner = [one for one in parser._actions if isinstance(one, argparse._SubParsersAction)]
         if not inner or word not in inner[0].choices:
             break

@@ -12,9 +12,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from gruebler.cli.parser import build_parser
+from gruebler.cli.commands import command, command_names, overview
+from gruebler.cli.parser import argparse_in_language, wanted_language
 from gruebler.errors import GrueblerError
-from gruebler.text import error_in_language
+from gruebler.text import LANGUAGES, error_in_language, translate
 
 __all__ = ["main"]
 
@@ -22,38 +23,68 @@ __all__ = ["main"]
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command; returns the exit status."""
     _prepare_streams()
-    arguments = build_parser().parse_args(argv)
-    from importlib import import_module
-
-    from gruebler.cli.compiling_progress import show_compiling
-
+    words = list(sys.argv[1:] if argv is None else argv)
+    lang = LANGUAGES[0]
     try:
-        show_compiling(getattr(arguments, "lang", "en"))
-        status = int(import_module(arguments.run).run(arguments))
-        sys.stdout.flush()
+        lang = wanted_language(words)
+        words = _with_command_first(words)
+        return _run(words, lang)
     except GrueblerError as error:
-        print(
-            f"gruebler {arguments.command}: {error_in_language(error, getattr(arguments, 'lang', 'en'))}",
-            file=sys.stderr,
-        )
-        return 2
+        return _complain(words, error_in_language(error, lang))
     except MemoryError:
-        print(f"gruebler {arguments.command}: this needs more memory than there is", file=sys.stderr)
-        return 2
+        return _complain(words, translate("this needs more memory than there is", lang))
     except BrokenPipeError:
         # The reader has gone (| head): what is still buffered has nowhere to go.
         _forget_output()
         return 0
     except OSError as error:
         _forget_output()
-        print(f"gruebler {arguments.command}: cannot write the output: {error.strerror or error}", file=sys.stderr)
-        return 2
+        problem = error.strerror or str(error)
+        return _complain(words, translate("cannot write the output: {problem}", lang, problem=problem))
+
+
+def _run(words: list[str], lang: str) -> int:
+    if not words:
+        print(overview(lang))
+        return 0
+    if words[0] == "--version":
+        from gruebler import __version__
+
+        print(f"gruebler {__version__}")
+        return 0
+    chosen = command(words[0])
+    with argparse_in_language(lang):
+        arguments = chosen.parser(lang).parse_args(words[1:])
+    from gruebler.cli.compiling_progress import show_compiling
+
+    show_compiling(lang)
+    try:
+        status = int(chosen.module().run(arguments))
+        sys.stdout.flush()
     except KeyboardInterrupt:
-        kept = getattr(arguments, "checkpoint", None)
-        again = f"; the same command goes on from {kept}" if kept else ""
-        print(f"\ngruebler: stopped{again}", file=sys.stderr)
+        folder = getattr(arguments, "checkpoint", None)
+        stopped = translate("stopped; the same command goes on from {folder}", lang, folder=folder)
+        print(f"\ngruebler: {stopped if folder else translate('stopped', lang)}", file=sys.stderr)
         return 130
     return status
+
+
+def _with_command_first(words: list[str]) -> list[str]:
+    """The words with the command in front: `help X` is `X --help`, and `--lang de X` is `X --lang de`."""
+    before: list[str] = []
+    while words and words[0].startswith("--lang"):
+        size = 1 if "=" in words[0] else 2
+        before, words = before + words[:size], words[size:]
+    if words[:1] in (["help"], ["-h"], ["--help"]):
+        words = [*words[1:], "--help"] if words[1:] and not words[1].startswith("-") else []
+    return [words[0], *before, *words[1:]] if words else []
+
+
+def _complain(words: list[str], text: str) -> int:
+    """Say what is wrong with a command; returns its exit status."""
+    known = words[:1] if words and words[0] in command_names() else []
+    print(f"{' '.join(['gruebler', *known])}: {text}", file=sys.stderr)
+    return 2
 
 
 def _prepare_streams() -> None:

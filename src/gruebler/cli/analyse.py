@@ -6,6 +6,7 @@ import argparse
 import math
 from collections.abc import Sequence
 from itertools import islice
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from gruebler.cli.analysis_table import Column, as_csv, check_csv, columns, show
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError, LinkageError
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
     from gruebler.analysis.rotatability import Rotatability
     from gruebler.kinematics.circuits import Circuit
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 
 _MOST_BRANCHES = 16
@@ -57,6 +59,63 @@ _WORDS = {
         "mu": "Übertragungswinkel",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Measures of a linkage with one drive, then a table of poses, rates and transmission angles; of "
+        "several drives the table.",
+        epilog="Examples: gruebler analyse four-bar:25,70,40,70 --speed 60; gruebler analyse lambda --point C "
+        "--drive 90:270:10. Exit status: 0 all well, 1 it cannot be assembled or not be moved all the way, 2 wrong "
+        "usage or unreadable input.",
+    )
+    parser.add_argument(
+        "linkage",
+        metavar="FILE|ID|LENGTHS",
+        help="a .toml or .json file, the id of a catalog entry with dimensions, or four-bar:A,B,C,D, "
+        "slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
+    )
+    parser.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="rows of the table, in degrees or the unit; for several drives once each, one number holds a drive still "
+        "(default: a full turn by 15 degrees, or the whole range)",
+    )
+    parser.add_argument("--at", action="append", type=float, default=[], metavar="VALUE", help="one row only")
+    parser.add_argument(
+        "--speed",
+        action="append",
+        type=float,
+        default=[],
+        metavar="N",
+        help="turns a minute; of a slide, lengths a second; of several drives once each",
+    )
+    for option, unit, order in (("--acceleration", "s²", "second"), ("--jerk", "s³", "third")):
+        parser.add_argument(
+            option,
+            action="append",
+            type=float,
+            default=[],
+            metavar="A" if order == "second" else "J",
+            help=f"with --speed: radians per {unit}; of a slide, lengths per {unit}; of several drives once each"
+            + ("; rates of the third order are told too" if order == "third" else ""),
+        )
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    parser.add_argument(
+        "--point", action="append", default=[], metavar="K", help="a named point, a joint, or LINK:X,Y; repeatable"
+    )
+    parser.add_argument("--output", action="append", default=[], metavar="LINK", help="the link looked at; repeatable")
+    parser.add_argument(
+        "--poles", action="store_true", help="the instant centres of all pairs of links; with --at a list"
+    )
+    parser.add_argument(
+        "--curvature", action="store_true", help="radius and centre of curvature of each --point; inflection circles"
+    )
+    parser.add_argument("--json", action="store_true", help="an object with linkage, measures, columns and rows")
+    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the table as CSV, units in its header")
 
 
 def run(arguments: argparse.Namespace) -> int:

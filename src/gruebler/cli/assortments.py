@@ -6,6 +6,7 @@ import argparse
 import json
 from collections.abc import Iterator
 
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_long_table, print_table
 from gruebler.enumeration import (
     assortment_number,
@@ -16,7 +17,7 @@ from gruebler.enumeration import (
 )
 from gruebler.errors import GrueblerError
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _LINKS = {
     "en": ("binary", "ternary", "quaternary"),
@@ -44,6 +45,20 @@ _NUMBERED_AT_ONCE = 2_000  # links: the number of assortments grows with the lin
 _TABLE = 10_000  # rows that a terminal gets as one drawn table
 
 _Row = tuple[tuple[int, ...], tuple[int, ...]]
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Number synthesis: the link assortments of closed chains of revolute joints.",
+    )
+    parser.add_argument("links", type=int, metavar="N", help="number of links")
+    parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
+    parser.add_argument("--fractionated", action="store_true", help="also degrees that only these have")
+    parser.add_argument("--multiple-joints", action="store_true", help="with joints of more than two links")
+    parser.add_argument("--count", action="store_true", help="only how many")
+    parser.add_argument("--yes", action="store_true", help="begin even if it will be long")
+    parser.add_argument("--json", action="store_true", help="an object with a list of assortments")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -11,15 +11,38 @@ from gruebler.assur.listing import expected_seconds_of_groups
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Mechanism
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _GROUPS = {"en": ("form", "class", "order", "group"), "de": ("Form", "Klasse", "Ordnung", "Gruppe")}
 _PROGRESS = {"en": "{n} groups, {seconds:.0f} s", "de": "{n} Gruppen, {seconds:.0f} s"}
 _CHOICES = {"en": ("drive", "class", "formula"), "de": ("Antrieb", "Klasse", "Formel")}
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Drives and Assur groups in solving order, with form, class and order; without a drive: how they "
+        "change with it.",
+        epilog="Exit status: 0 determined, 1 something stays undetermined, 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument(
+        "mechanism",
+        nargs="?",
+        metavar="MECHANISM",
+        help="a text with '; frame=..; drive=..', a code, g6:CODE or the id of a catalog entry",
+    )
+    parser.add_argument("--frame", metavar="LINK", help="the link that stands still")
+    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
+    parser.add_argument("--anywhere", action="store_true", help="without a drive: drives between moving links too")
+    parser.add_argument("--list", type=int, metavar="N", help="all groups with N links instead")
+    parser.add_argument("--count", action="store_true", help="only how many")
+    parser.add_argument("--yes", action="store_true", help="with --list: begin even if it will be long")
+    parser.add_argument("--json", action="store_true", help="an object with count and items")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -23,14 +23,15 @@ from gruebler.cams import (
     motion_law,
     read_lift,
 )
-from gruebler.cli.machine_pictures import angle_of, refuse_picture, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, angle_of, refuse_picture, write_picture
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
 from gruebler.text import message
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS = {
     "en": {
@@ -74,6 +75,41 @@ _WORDS = {
         "contour": ("Kurve", "Abtrieb", "Geschwindigkeit", "Beschleunigung"),
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="A disc cam that turns counter-clockwise. LIFT is a row of 'rise LIFT ANGLE [LAW]', 'fall LIFT "
+        "ANGLE [LAW]', 'dwell [ANGLE]' with angles in degrees (the lift of a swinging follower too); instead of a law "
+        "boundary values per radian, such as v0=0 a0=0 v1=5 a1=0. Rates are told per radian of the cam.",
+        epilog="Example: gruebler cam 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell' --base 40 --roller 10 "
+        "-o cam.svg --plot. Exit status: 0 good, 1 undercut, 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument("lift", nargs="?", metavar="LIFT", help="the lift over a turn; one dwell may take the rest")
+    parser.add_argument("--laws", action="store_true", help="the laws of motion with C_v, C_a, C_j")
+    parser.add_argument(
+        "--contour", metavar="FILE", help="points x y of a given contour, one a line: the motion it gives"
+    )
+    parser.add_argument("--base", type=float, metavar="R", help="radius of the base circle")
+    parser.add_argument("--roller", type=float, metavar="R", help="a roller with this radius")
+    parser.add_argument("--knife", action="store_true", help="a knife edge")
+    parser.add_argument(
+        "--flat", type=float, nargs="?", const=0.0, metavar="E", help="a flat face; E: how far from its pivot"
+    )
+    parser.add_argument(
+        "--offset", type=float, default=0.0, metavar="E", help="the guide lies so far right of the axis"
+    )
+    parser.add_argument(
+        "--swing", type=float, nargs=2, metavar=("ARM", "D"), help="arm length (0 for a face) and distance of the pivot"
+    )
+    parser.add_argument("--step", type=float, metavar="DEG", help="a table of the turn in such steps")
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_argument(
+        "--at", type=float, metavar="DEG", help="with -o: the cam's angle (default: greatest pressure angle)"
+    )
+    parser.add_argument("--plot", action="store_true", help="with -o: lift, velocity and acceleration beneath")
+    add_picture_options(parser, "a turn")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -8,14 +8,16 @@ from typing import Any
 import msgspec
 
 from gruebler.catalog import entries, entry, exercises
+from gruebler.cli import search
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.documents import infinities_as_words
 from gruebler.formats import Entry, Exercise
 from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _HEADERS = {"en": ("id", "name", "n", "F", "source"), "de": ("Kennung", "Name", "n", "F", "Quelle")}
 _EXERCISE_HEADERS = {lang: (id, name, source) for lang, (id, name, _, _, source) in _HEADERS.items()}
@@ -37,9 +39,38 @@ _LABELS = {
 }
 
 
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(description="The machines and exercises of the teaching documents.")
+    listing = parser.add_command("list", help="all entries")
+    show = parser.add_command("show", help="one or several entries in full")
+    show.add_argument("ids", nargs="+", metavar="ID")
+    show.add_argument(
+        "--full",
+        action="store_true",
+        help="with all that is derived: mobility with its derivation, what really moves, features, measures, paths",
+    )
+    for action in (listing, show):
+        action.add_argument("--json", action="store_true", help="as JSON")
+    search.add(
+        parser.add_command(
+            "search",
+            help="machines with given words and access features; or every structure that has them",
+            description="Machines of the catalog with given words and access features: drives, output links, links and "
+            "joints with their numbers. With --enumerate every planar mechanism with these features, each once.",
+            epilog="Example: gruebler catalog search --links 4 --drives 1 --drives-at-frame 1 "
+            "--output-links-at-frame 0 --pairs D:4 --binary 4; gruebler catalog search --enumerate --links 6 "
+            "--pairs S:1 --drives 1 --limit 20. "
+            "Exit status: 0, 2 wrong usage or features that contradict each other.",
+        )
+    )
+
+
 def run(arguments: argparse.Namespace) -> int:
     """List or show."""
     match arguments.action:
+        case "search":
+            return search.run(arguments)
         case "list":
             _list(arguments)
         case "show":

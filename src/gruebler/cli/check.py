@@ -13,6 +13,7 @@ from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercis
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_from_word, is_text
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.documents import load_document
 from gruebler.errors import CatalogError, GrueblerError, NotationError
@@ -23,7 +24,7 @@ from gruebler.formats.screws import read_any_linkage, spatial_from_json
 from gruebler.mobility import mobility_report
 from gruebler.mobility.messages import verdict_word
 
-__all__ = ["explanation", "print_checked", "run"]
+__all__ = ["add", "explanation", "print_checked", "run"]
 
 _HEADERS = {
     "en": ("chain", "n", "joints", "F counted", "generic", "verdict", "special dimensions", "claims"),
@@ -48,6 +49,30 @@ _GROUP = {
 _WIDEST_NAME = 44
 
 _ENDINGS = (".toml", ".json", ".txt", ".g6")  # of files with chains; without an ending: one chain a line
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Count the freedoms of chains, check the count and name what is wrong. Without an argument: "
+        "every machine and exercise of the catalog.",
+        epilog="Exit status: 0 all good, 1 a claim of an entry fails, 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument(
+        "chains",
+        nargs="*",
+        metavar="CHAIN|ID|FILE",
+        help="a text such as 'R(0-1) R(1-2) R(2-3) R(3-0)', g6:CODE, the id of a catalog entry, a file (.toml entry, "
+        ".json chain or list of chains, .g6 lines, otherwise one chain a line), or - for lines on standard input",
+    )
+    parser.add_argument(
+        "--space", choices=("planar", "spherical", "spatial"), help="where texts live (default: planar)"
+    )
+    parser.add_argument("--b", type=int, metavar="B", help="motions of a free link for the count (2 for a screw group)")
+    parser.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
+    parser.add_argument("--explain", action="store_true", help="say in words, step by step")
+    parser.add_argument("--yes", action="store_true", help="begin even if it will be long or take much memory")
+    parser.add_argument("--json", action="store_true", help="a list of objects, one for each chain")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -7,14 +7,15 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from gruebler.cli.coupler_inputs import coupler_point, sizes
+from gruebler.cli.coupler_inputs import add_coupler_point, coupler_point, sizes
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry.roberts import Cognate, cognates, slider_cognates
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS = {
     "en": {
@@ -38,6 +39,19 @@ _WORDS = {
         "like": "{link} dreht sich wie die gegebene {other}",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The three cognates of a four-bar with a coupler point, or the two of a slider-crank: lengths, "
+        "coupler point, where they stand (A0 = 0, B0 on the x axis), which links turn with which.",
+        epilog="Example: gruebler cognates 25,70,40,70 45,40; gruebler cognates slider-crank:25,70,10 35,40. "
+        "A point with a negative U is written after two dashes: gruebler cognates 25,70,40,70 -- -10,40",
+    )
+    add_coupler_point(parser)
+    parser.add_argument("--at", type=float, metavar="DEG", help="crank angle of the pose that is told (home pose)")
+    parser.add_argument("--json", action="store_true", help="as JSON, with the pins of the pose")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -4,16 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError, nearest
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 
-__all__ = ["coupler_point", "numbers", "sizes"]
+__all__ = ["add_coupler_point", "coupler_point", "numbers", "sizes"]
 
 _KINDS: dict[str, tuple[Callable[..., FourBar | SliderCrank | InvertedSliderCrank], str, tuple[int, ...]]] = {
     "four-bar": (FourBar, "A,B,C,D", (4,)),
     "slider-crank": (SliderCrank, "A,B[,E]", (2, 3)),
     "inverted-slider-crank": (InvertedSliderCrank, "A,D[,E]", (2, 3)),
 }
+
+
+def add_coupler_point(command: Parser) -> None:
+    """Arguments for a coupler point of a linkage given by its lengths."""
+    command.add_argument("lengths", metavar="A,B,C,D", help="a four-bar; or slider-crank:A,B[,E]")
+    command.add_argument("point", metavar="U,V", help="the coupler point: U along the coupler, V to its left")
+    command.add_argument("--branch", type=int, choices=(1, -1), default=1, help="assembly branch (default: 1)")
 
 
 def sizes(word: str) -> FourBar | SliderCrank | InvertedSliderCrank:

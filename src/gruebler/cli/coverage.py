@@ -18,11 +18,12 @@ import msgspec
 
 from gruebler.catalog import catalog_folder, entries
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError
 
-__all__ = ["Outcome", "Row", "coverage_rows", "execute", "find_function", "run"]
+__all__ = ["Outcome", "Row", "add", "coverage_rows", "execute", "find_function", "run"]
 
 
 class Concept(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -159,6 +160,19 @@ _WORDS = {
         "ran": "{good} von {commands} Befehlen endeten wie gewollt, {there} von {functions} Funktionen sind da.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="A table of all concepts and machines of the seeds with the commands and functions that do them. "
+        "With --run every command is executed, every function looked up.",
+        epilog="Exit status: 0 nothing is missing, 1 a row has nothing that does it, a command fails or a function is "
+        "not there.",
+    )
+    parser.add_argument("words", nargs="*", metavar="WORD", help="only rows with these words or ids")
+    parser.add_argument("--run", dest="execute", action="store_true", help="execute every command, say how it ended")
+    parser.add_argument("--json", action="store_true", help="a list of objects")
 
 
 def run(arguments: argparse.Namespace) -> int:

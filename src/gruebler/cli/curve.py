@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,13 @@ from gruebler.cli.analysis_table import Column, as_csv, check_csv
 from gruebler.cli.drive_rows import driven_path
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 
 _WORDS = {
@@ -66,6 +68,36 @@ _WORDS = {
         "angle": "Winkel {angle:.6g}°",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The path of a point over a whole turn of the drive, or its whole range, with all that is on it; "
+        "drive values, places, radii.",
+        epilog="Example: gruebler curve four-bar:25,70,40,70 coupler:45,40; gruebler curve lambda C --contact 180. "
+        "A point whose link has another name is written LINK:X,Y in the coordinates of its link.",
+    )
+    parser.add_argument(
+        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    parser.add_argument("point", metavar="POINT|LINK:X,Y", help="a named point, a joint, or a point of a link")
+    parser.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="a straight path of the drives, in degrees or the unit, for several drives once each with as many steps; "
+        "one number holds a drive still (default: the whole motion of one drive)",
+    )
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    parser.add_argument("--direction", type=float, metavar="DEG", help="turning points along this, not along x and y")
+    parser.add_argument(
+        "--contact", type=float, action="append", default=[], metavar="VALUE", help="how the tangent touches there"
+    )
+    parser.add_argument("--tolerance", type=float, metavar="LENGTH", help="of the polygon (default: 1e-4 of the reach)")
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the polygon as CSV: drive, x, y, way")
 
 
 def run(arguments: argparse.Namespace) -> int:

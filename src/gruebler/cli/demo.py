@@ -6,11 +6,20 @@ import argparse
 
 from gruebler.catalog import check_all, check_entry, entry
 from gruebler.cli.check import explanation, print_checked
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_text
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _EXPLAINED = ("vcomp", "diff", "loco3", "quad_strut")
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Check the whole catalog and explain a V-compressor, a differential, a locomotive and a braced "
+        "four-bar.",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -6,11 +6,21 @@ import argparse
 
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_text
 from gruebler.isomorphism import code
 from gruebler.transformations import derive
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The dyads in order, or the core that is left when no dyad can be taken away.",
+    )
+    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    parser.add_argument("--json", action="store_true", help="an object with core, count, items and the derivation")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -19,6 +19,7 @@ from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_from_word, is_text, mechanism_of
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_svg, write_file
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.drawing.structure import draw, draw_contracted, draw_graph, draw_loops
@@ -28,7 +29,7 @@ from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.text import message
 
-__all__ = ["entry_of", "german", "linkage_and_range", "picture_suffix", "run", "subject", "told_picture"]
+__all__ = ["add", "entry_of", "german", "linkage_and_range", "picture_suffix", "run", "subject", "told_picture"]
 
 _VIEWS: dict[str, Callable[..., Figure]] = {
     "graph": draw_graph,
@@ -41,6 +42,63 @@ _OF_MOTION: Mapping[str, Any] = {"pose": None, "curve": [], "show": [], "ghosts"
 """Options that only linkages have."""
 _OF_A_LINK = ("dead-centres", "transmission", "centrodes", "inflection")
 """What is shown of the link named by --of."""
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The structure picture of a chain or mechanism: links as bodies, joints by their signs, the frame "
+        "hatched, drives as arrows. With --pose, --curve, --show or --ghosts, or of a linkage: to scale.",
+        epilog="Without -o the SVG goes to standard output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument(
+        "chain",
+        metavar="CHAIN|ID|FILE",
+        help="a text, a code, g6:CODE, the id of a catalog entry, the file of a linkage, or lengths such as "
+        "four-bar:25,70,40,70",
+    )
+    parser.add_argument(
+        "--pose",
+        nargs="?",
+        const="",
+        metavar="VALUE[,VALUE]",
+        help="to scale, at this drive value (degrees, or a way; --pose=-30,20 for several drives); alone: a good pose",
+    )
+    parser.add_argument(
+        "--curve", action="append", default=[], metavar="POINT", help="the path of a point or joint; repeatable"
+    )
+    parser.add_argument(
+        "--show",
+        action="append",
+        default=[],
+        choices=(
+            "dead-centres",
+            "transmission",
+            "velocities",
+            "accelerations",
+            "poles",
+            "centrodes",
+            "inflection",
+            "dimensions",
+            "scale",
+        ),
+        help="also show this; repeatable",
+    )
+    parser.add_argument("--ghosts", type=int, metavar="N", help="so many other positions thinly, for print")
+    parser.add_argument(
+        "--of", metavar="LINK", help="the link whose dead centres, transmission angle, centrodes, ... are shown"
+    )
+    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
+    parser.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
+    parser.add_argument("--frame", metavar="LINK", help="the link that stands still")
+    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
+    parser.add_argument("--labels", action="store_true", help="name the links")
+    parser.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; an SVG is on the reader's")
+    view = parser.add_mutually_exclusive_group()
+    view.add_argument("--graph", action="store_true", help="the link graph instead")
+    view.add_argument("--contracted", action="store_true", help="the contracted graph instead")
+    view.add_argument("--loops", action="store_true", help="mark the independent loops")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gruebler.arrays import Reals
+from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import degrees
 from gruebler.linkages import Linkage
@@ -16,11 +17,23 @@ from gruebler.linkages import Linkage
 if TYPE_CHECKING:
     from gruebler.analysis.drive_cycle import CycleSpan
 
-__all__ = ["default_rows", "driven_path", "given_rows", "turning_drives"]
+__all__ = ["add_drive_path", "default_rows", "driven_path", "given_rows", "turning_drives"]
 
 
 _MOST_ROWS = 1_000_000
 _STEP = 15.0  # degrees between the rows of a full turn
+
+
+def add_drive_path(command: Parser) -> None:
+    """The option for a path of the drives."""
+    command.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="a straight path of the drives, in degrees or the unit, for several drives once each with as many steps; "
+        "one number holds a drive still (default: the whole motion of one drive)",
+    )
 
 
 def turning_drives(linkage: Linkage) -> list[bool]:

@@ -16,6 +16,7 @@ from gruebler.atomic_files import atomic_file
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.long_work import time_text
 from gruebler.cli.output import print_json, say_written, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
@@ -24,7 +25,7 @@ from gruebler.enumeration.work_units import PieceListing
 from gruebler.enumeration.worker_pool import ProcessPools, Progress
 from gruebler.errors import GrueblerError, RunError
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _LONG = 900.0  # seconds; what takes longer, or fills more than the following, is told and asked for again
 _LARGE = 8 * 10**9
@@ -66,6 +67,35 @@ _WORDS = {
         "refused": "{what}; mit --yes wird trotzdem begonnen",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Planar chains of revolute joints without any rigid part, each once, listed or counted.",
+        epilog="Example: gruebler enumerate --links 8 --count --orbits. Killed at any moment, a run with --checkpoint "
+        "goes on when the same command is given again.",
+    )
+    parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
+    parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
+    parser.add_argument(
+        "--fractionated",
+        choices=("none", "link", "joint", "all"),
+        default="none",
+        help="chains that do not fall apart (default), that do at a link only, at some joint, or all of them",
+    )
+    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    parser.add_argument(
+        "--multiple-joints", default="0", metavar="K|any", help="exactly K, K to M (K-M), or any number (default: 0)"
+    )
+    parser.add_argument("--count", action="store_true", help="only how many, by assortment")
+    parser.add_argument("--orbits", action="store_true", help="with --count: inversions and driven mechanisms too")
+    parser.add_argument("--format", choices=("text", "graph6", "json"), help="of a list (default: text)")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="it appears whole or not at all")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes (default: 1)")
+    parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="where finished pieces are kept")
+    parser.add_argument("--yes", action="store_true", help="begin even if it will be long or large")
+    parser.add_argument("--json", action="store_true", help="the count, or the list, as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.exercises import (
@@ -28,7 +29,7 @@ from gruebler.exercises import (
 from gruebler.formats import Exercise
 from gruebler.text import Text
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _HEADERS = {"en": ("id", "name", "source"), "de": ("Kennung", "Name", "Quelle")}
 _MARKS = {
@@ -39,6 +40,38 @@ _MARKS = {
 _MISSING = Text("Not answered: {}", "Nicht beantwortet: {}")
 _SUMMARY = Text("{right} of {all} answers right.", "{right} von {all} Antworten richtig.")
 _MOST = 1000
+
+
+_KINDS = ("mobility", "grashof", "dead-centre", "transmission-angle", "dyad", "velocity")
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Exercises and worked examples, solved step by step and compared with what is printed; fresh "
+        "tasks from the enumeration and random dimensions.",
+        epilog="Example: gruebler exercise solve 15 --lang de; gruebler exercise new --kind mobility --level 2 "
+        "--seed 7; gruebler exercise check mobility-2-7 n=8 F=1. Exit status: 0 all well, 1 an answer is wrong, 2 "
+        "wrong usage.",
+    )
+    listing = parser.add_command("list", help="all exercises and worked examples")
+    show = parser.add_command("show", help="the task alone")
+    solve = parser.add_command("solve", help="the way to the answer, step by step, with a check by a second way")
+    for action in (show, solve):
+        action.add_argument(
+            "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a fresh task)"
+        )
+    new = parser.add_command("new", help="fresh tasks; the same seed gives the same task")
+    new.add_argument("--kind", choices=_KINDS, required=True, help="the theory")
+    new.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="1 easy to 3 (default: 1)")
+    new.add_argument("--seed", type=int, default=0, metavar="S", help="of the first task (default: 0)")
+    new.add_argument("--count", type=int, default=1, metavar="K", help="so many, with seeds S, S + 1, ... (default: 1)")
+    new.add_argument("--solutions", action="store_true", help="with their solutions")
+    check = parser.add_command("check", help="mark answers, with a hint on the likely mistake")
+    check.add_argument("id", metavar="ID")
+    check.add_argument("answers", nargs="+", metavar="KEY=ANSWER", help="such as H=40 phi_max=189,4 turns=yes")
+    for action in (listing, show, solve, new, check):
+        action.add_argument("--json", action="store_true", help="as JSON, both languages")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -8,16 +8,31 @@ from typing import Any
 from gruebler.chain import Chain
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.mobility import mobility_report
 from gruebler.transformations import Attachment, Extension, extend
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _HEADERS = {
     "en": ("chain", "F counted", "generic", "places", "joints that cannot move"),
     "de": ("Kette", "F gezählt", "generisch", "Stellen", "unbewegliche Gelenke"),
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Each structure once, with the places that give it.",
+    )
+    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    kind = parser.add_mutually_exclusive_group(required=True)
+    kind.add_argument("--dyad", nargs="?", const="RRR", metavar="FORM", help="RRR (default), RRP, RPR, PRP or RPP")
+    kind.add_argument("--coupler", nargs="?", const="RR", metavar="PAIRS", help="its two joints (default: RR)")
+    parser.add_argument("--at-joints", action="store_true", help="new links may join joints that are there")
+    parser.add_argument("--count", action="store_true", help="only how many")
+    parser.add_argument("--json", action="store_true", help="an object with count and items")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -9,13 +9,48 @@ from pathlib import Path
 from gruebler.catalog import entries
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_text
 from gruebler.errors import GrueblerError
 from gruebler.formats import read_entry
 from gruebler.linkages import Linkage
 from gruebler.screws import SpatialLinkage, freedoms
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Mobility of a linkage with its dimensions, in a plane, on a sphere or in space: by formula, for "
+        "almost all sizes, at a pose (rank, redundant joints) and finite (velocities followed), with the geometric "
+        "reason where it is known.",
+        epilog="Examples: gruebler freedoms winch_screw; gruebler freedoms four-bar:2,5,2,5 --at 0. Exit status: 0 it "
+        "moves, 1 it does not (rigid, or only shaky), 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument(
+        "linkage",
+        metavar="FILE|ID|LENGTHS",
+        help="a .toml or .json file with sizes or joint screws, a catalog entry that has either, or "
+        "four-bar:A,B,C,D, slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
+    )
+    parser.add_argument(
+        "--at",
+        action="append",
+        type=float,
+        metavar="VALUE",
+        help="the pose at this drive value, in degrees or the unit, of joint screws counted from home; for several "
+        "drives once each (default: home, else a regular pose)",
+    )
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as +-; write --branch=- for minus")
+    parser.add_argument(
+        "--tolerance",
+        type=float,
+        default=1e-8,
+        metavar="T",
+        help="singular values below that times the largest count as zero (default: 1e-8)",
+    )
+    parser.add_argument("--json", action="store_true", help="as JSON, with all singular values")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -14,6 +14,7 @@ from gruebler.chain import Chain
 from gruebler.cli.draw import german, subject
 from gruebler.cli.inputs import assortment_of, is_text, outputs_of
 from gruebler.cli.output import write_file
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Item, Section, gallery_html
 from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.structure import draw
@@ -24,7 +25,7 @@ from gruebler.errors import GrueblerError
 from gruebler.isomorphism import code
 from gruebler.mechanism.inversion import family, inversions
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _MOST = 3000  # chains on a page; a browser still scrolls through them
 
@@ -54,6 +55,32 @@ _WORDS = {
         "joints": "; Mehrfachgelenke: {k}",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="All chains of a request, or machines of the catalog, on one page.",
+        epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler variants --links 6 --prismatic 1 | "
+        "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument(
+        "ids",
+        nargs="*",
+        metavar="ID|CHAIN|FILE|-",
+        help="instead of a request: entries of the catalog, texts of chains and mechanisms, files with one a line, or "
+        "- for lines on standard input",
+    )
+    parser.add_argument("--links", type=int, metavar="N", help="number of links")
+    parser.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
+    parser.add_argument(
+        "--fractionated", choices=("none", "link", "joint", "all"), help="as for enumerate (default: none)"
+    )
+    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    parser.add_argument("--multiple-joints", metavar="K|any", help="as for enumerate (default: 0)")
+    parser.add_argument("--inversions", action="store_true", help="each chain with every frame that matters")
+    parser.add_argument("--labels", action="store_true", help="name the links")
+    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="a file .html or .pdf")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -7,8 +7,9 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from gruebler.cli.machine_pictures import is_few, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, is_few, write_picture
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.gears import (
@@ -26,7 +27,7 @@ from gruebler.gears import (
 from gruebler.gears.assembly import axes
 from gruebler.gears.messages import fraction_text, writable
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _HEADERS = {
     "en": ("link", "speed", "per turn of {drive}", "torque or force", "power"),
@@ -44,6 +45,23 @@ _UNITS = {
         Unit.PER_TURN: " (Länge, Drehung in Umdrehungen)",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Speeds of all links of a gear train from one linear system (Willis), exact; torques by virtual "
+        "work. A wheel is LINK:TEETH (or a radius), minus for internal toothing; wheels in a row mesh in turn; "
+        "'on ARM' names the carrier of their axes. Other kinds: belt, chain, crossed, friction, bevel, rack, screw, "
+        "winch. Then drive LINK=SPEED, hold LINK, load LINK=TORQUE; planets=N asks whether so many can be put in.",
+        epilog="Example: gruebler gears 'sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; "
+        "load arm=-50'; with -o train.html --animate --teeth it moves. Exit status: 0 determined (or nothing driven), "
+        "1 undetermined, contradicted or not to be assembled, 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument("train", metavar="TRAIN|FILE", help="a text, a file of statements (.txt) or a table (.toml)")
+    parser.add_argument("--json", action="store_true", help="an object; numbers as exact fractions and decimals")
+    parser.add_argument("--teeth", action="store_true", help="with -o: involute teeth instead of pitch circles")
+    add_picture_options(parser, "a turn of the fastest link")
 
 
 def run(arguments: argparse.Namespace) -> int:

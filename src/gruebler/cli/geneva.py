@@ -8,14 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from gruebler.cli.machine_pictures import angle_of, write_picture
+from gruebler.cli.machine_pictures import add_picture_options, angle_of, write_picture
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
 from gruebler.geneva import Geneva
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 # key: (English, German, unit)
 _ROWS = {
@@ -49,6 +50,25 @@ _TABLE = {
     "en": ("driver", "wheel", "ratio", "acceleration", "jerk", "dwell"),
     "de": ("Treiber", "Rad", "Übersetzung", "Beschleunigung", "Ruck", "Rast"),
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="A Geneva drive with radial slots that the pins enter without a blow.",
+        epilog="Examples: gruebler geneva 4 --distance 100 --speed 60 --step 15; gruebler geneva 6 --pins 2 --animate "
+        "-o geneva.html. PNG, PDF, GIF and WebP need matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument("slots", type=int, metavar="N", help="number of slots, at least 3")
+    parser.add_argument("--internal", action="store_true", help="the driver turns inside the wheel")
+    parser.add_argument("--pins", type=int, default=1, metavar="K", help="pins on the driver (default: 1)")
+    parser.add_argument("--distance", type=float, metavar="D", help="distance of the axes: lengths are told")
+    parser.add_argument("--speed", type=float, metavar="RPM", help="of the driver, turns a minute: times are told")
+    parser.add_argument("--step", type=float, metavar="DEG", help="a table of the driver's turn in such steps")
+    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_argument("--at", type=float, metavar="DEG", help="with -o: the driver's angle (default: 0)")
+    parser.add_argument("--plot", action="store_true", help="with -o: angle, ratio and acceleration beneath")
+    add_picture_options(parser, "a turn")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -7,13 +7,14 @@ import math
 from collections.abc import Sequence
 
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.fourbar.extremes import CrankRange
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS = {
     "en": {
@@ -45,6 +46,25 @@ _WORDS = {
 }
 
 _HEADERS = {"en": ("from", "to", "type", "below", "above"), "de": ("von", "bis", "Typ", "darunter", "darüber")}
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Crank A, coupler B, rocker C, frame D: type, links that turn fully, limits, swing, transmission "
+        "angle. With --free: the types (with --turns: only where that link turns fully) along one length, the others "
+        "given in order.",
+        epilog="Exit status: 0 yes, 1 not assemblable, the link does not turn or no value lets it, 2 wrong usage. "
+        "Example: gruebler grashof 25 40 70 --free d --turns a",
+    )
+    parser.add_argument(
+        "lengths", nargs="+", metavar="LENGTH", help="A B C D; with --free the other three, or all four"
+    )
+    parser.add_argument("--free", choices=("a", "b", "c", "d"), help="go through the values of this length")
+    parser.add_argument(
+        "--turns", choices=("a", "b", "c"), metavar="LINK", help="a, b or c: does it turn fully against the frame"
+    )
+    parser.add_argument("--json", action="store_true", help="one object; with --free its items")
 
 
 def run(arguments: argparse.Namespace) -> int:

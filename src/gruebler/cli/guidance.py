@@ -10,12 +10,13 @@ from typing import Any
 from gruebler.cli import capellen
 from gruebler.cli.measured import length_of, numbers_in_language, same_unit
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _GERMAN = {
     "frame": "Gestell",
@@ -54,6 +55,35 @@ _WORDS: dict[str, dict[str, Any]] = {
         "lengths": "Längen: {text}.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Straight-line linkages named after their finders. Without a name all of them; with one its "
+        "proportions, and with --length and --tolerance the size that is straight within the tolerance over the "
+        "length. With --lambda or --kappa Meyer zur Capellen's double rocker and the four-bar that replaces it.",
+        epilog="Example: gruebler guidance lambda --length 15cm --tolerance 0.75mm; gruebler guidance --kappa 20. Exit "
+        "status: 0, 1 no piece is so straight, 2 wrong usage.",
+    )
+    parser.add_argument("name", nargs="?", metavar="NAME", help="such as watt, lambda, peaucellier")
+    parser.add_argument("--length", metavar="L", help="of the straight line wanted, with or without unit: 15cm")
+    parser.add_argument("--tolerance", metavar="DY", help="the band allowed across the line: 0.75mm")
+    parser.add_argument(
+        "--lambda",
+        dest="ratio",
+        type=float,
+        metavar="X",
+        help="0.5 to 1.5: distance of the coupler from the tangent, by D",
+    )
+    parser.add_argument(
+        "--phi0", type=float, metavar="DEG", help="with --lambda: another angle than that of contact in six points"
+    )
+    parser.add_argument("--kappa", type=float, metavar="DEG", help="the line's angle against the frame: both lambda")
+    parser.add_argument(
+        "--diameter", type=float, metavar="D", help="with --lambda or --kappa: of the inflection circle (default: 1)"
+    )
+    parser.add_argument("--json", action="store_true", help="as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -7,16 +7,33 @@ from collections.abc import Sequence
 
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
 
-__all__ = ["item", "run"]
+__all__ = ["add", "item", "run"]
 
 _HEADERS = {
     "en": {"frame": "frame", "drive": "drive", "output": "output", "family": "family"},
     "de": {"frame": "Gestell", "drive": "Antrieb", "output": "Abtrieb", "family": "Familie"},
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="One mechanism for each orbit of frames, or of frames and drives, under the chain's symmetry.",
+    )
+    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    parser.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
+    parser.add_argument("--drives", action="store_true", help="driven mechanisms: frame and drive")
+    parser.add_argument("--anywhere", action="store_true", help="drives between moving links too")
+    parser.add_argument("--number", type=int, default=1, metavar="D", help="so many drives (default: 1)")
+    parser.add_argument("--output", action="store_true", help="choose an output link too")
+    parser.add_argument("--text", action="store_true", help="a mechanism a line, as other commands read it")
+    parser.add_argument("--count", action="store_true", help="only how many")
+    parser.add_argument("--json", action="store_true", help="an object with count and items")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 from gruebler.cli.output import write_file
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.files import SUFFIXES, picture_bytes, suffix_of
 from gruebler.drawing.canvas.moving_files import MOVING, moving_bytes
@@ -14,10 +16,20 @@ from gruebler.drawing.canvas.moving_picture import MovingPicture
 from gruebler.errors import GrueblerError
 from gruebler.text import Message, message
 
-__all__ = ["angle_of", "is_few", "refuse_picture", "write_picture"]
+__all__ = ["add_picture_options", "angle_of", "is_few", "refuse_picture", "write_picture"]
 
 _OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
 _FEW = ("gif", "webp", "png")
+
+
+def add_picture_options(machine: Parser, time: str) -> None:
+    """Options for the picture of a machine, besides its table."""
+    machine.add_argument("-o", "--output", type=Path, metavar="FILE", help="also a picture: .svg, .png or .pdf")
+    machine.add_argument(
+        "--animate", action="store_true", help="with -o: moving, as .svg, .html, .gif, .webp or .png (APNG)"
+    )
+    machine.add_argument("--seconds", type=float, metavar="S", help=f"with --animate: for {time} (default: 4)")
+    machine.add_argument("--dark", action="store_true", help="with -o: pictures and PDF on dark ground")
 
 
 def refuse_picture(arguments: argparse.Namespace, why: Message) -> None:

@@ -7,11 +7,13 @@ import cmath
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, told_picture
+from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
 from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
@@ -21,11 +23,56 @@ from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
 from gruebler.text import joined_by_or
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _LEAST, _MOST = 1e-6, 0.02  # Q_G that are shown
 _STEP, _WINDOWS = math.radians(3.0), 120  # of the windows in which the range is sought; how many are shown then
 _RATIO_TITLES = {"en": "{name}: relative deviation of {point}", "de": "{name}: bezogene Abweichung von {point}"}
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Plots of a linkage with one drive. transfer: the output and its derivatives of order 1 and 2, "
+        "with dead centres. transmission: the transmission angle, with the band below 40 degrees. hodograph: the tips "
+        "of velocity vectors. curves: paths of points. family: paths of points on a line of one link. ratio: Q_G and "
+        "L/l1 of a straight-line guidance over its crank angle.",
+        epilog="Examples: gruebler plot four-bar:25,70,40,70 --kind transmission -o mu.svg; gruebler plot lambda "
+        "--kind family --count 7; gruebler plot mzc --kind ratio --ratio 0.005. Without -o the SVG goes to standard "
+        "output. PNG and PDF need matplotlib: pip install 'gruebler[plot]'.",
+    )
+    parser.add_argument(
+        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    parser.add_argument(
+        "--kind",
+        choices=("transfer", "transmission", "hodograph", "curves", "family", "ratio"),
+        default="transfer",
+        help="what is plotted (default: transfer)",
+    )
+    parser.add_argument("--output", metavar="LINK", help="transfer, transmission: the link or sliding joint looked at")
+    parser.add_argument(
+        "--point",
+        action="append",
+        default=[],
+        metavar="K",
+        help="hodograph, curves, ratio: a named point or joint (default: all named points, for ratio the first); "
+        "repeatable",
+    )
+    parser.add_argument("--speed", type=float, metavar="N", help="hodograph: turns a minute; of a slide, lengths by s")
+    parser.add_argument("--link", metavar="LINK", help="family: the link that carries the points (default: a coupler)")
+    parser.add_argument("--from", dest="start", metavar="U,V", help="family: the first point, write --from=-10,5")
+    parser.add_argument(
+        "--to", dest="end", metavar="U,V", help="family: the last point (default: on a line of two pins)"
+    )
+    parser.add_argument("--count", type=int, default=5, metavar="K", help="family: points, 2 to 8 (default: 5)")
+    parser.add_argument(
+        "--centre", type=float, default=180.0, metavar="DEG", help="ratio: the middle of the windows (default: 180)"
+    )
+    parser.add_argument("--ratio", type=float, metavar="Q", help="ratio: mark the window with this Q_G")
+    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
+    parser.add_argument("--dark", action="store_true", help="PNG and PDF on dark ground; an SVG is on the reader's")
+    parser.add_argument("-o", dest="file", type=Path, metavar="FILE", help="a file .svg, .png or .pdf")
 
 
 def run(arguments: argparse.Namespace) -> int:

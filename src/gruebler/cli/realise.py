@@ -5,13 +5,31 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import replace
+from pathlib import Path
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.output import print_json, say_written
+from gruebler.cli.parser import Parser
 from gruebler.formats.linkages import check_linkage_path, linkage_to_json, linkage_to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Dimensions with which the mechanism assembles and its drives turn fully, or move over a wide "
+        "range. Without a drive: turning joints at the frame if possible.",
+        epilog="Exit status: 0 found, 1 none found or nothing to be moved, 2 wrong usage or unreadable input.",
+    )
+    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    parser.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
+    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
+    parser.add_argument("--seed", type=int, default=0, metavar="S", help="of the random numbers (default: 0)")
+    parser.add_argument("--tries", type=int, default=1500, metavar="N", help="drawings a search tries (default: 1500)")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="a .toml or .json file for the linkage")
+    parser.add_argument("--json", action="store_true", help="an object with the linkage, ranges and quality")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -25,13 +25,14 @@ from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inversions import item
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.mechanism.inversion import DrivenMechanism, family
 from gruebler.mobility import counted, mobility_report
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _HEADERS = {
     "en": ("id", "name", "n", "F", "moves", "drives (frame)", "outputs (frame)", "links", "joints"),
@@ -56,6 +57,39 @@ _WORDS = {
     },
 }
 _NAMED = {"binary": 2, "ternary": 3, "quaternary": 4}
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments of `gruebler catalog search`."""
+    parser.add_argument("words", nargs="*", metavar="WORD", help="must occur in a name, remark, source or link")
+    parser.add_argument("--text", action="append", default=[], metavar="WORD", help="another such word; repeatable")
+    _add_features(parser)
+    parser.add_argument("--joints", type=int, metavar="G", help="number of joints, multiple ones counted k - 1 times")
+    parser.add_argument("--pair", action="append", default=[], metavar="P", help="symbol or name of a pair; repeatable")
+    parser.add_argument("--drive", metavar="P", help="symbol or name of a driven pair")
+    parser.add_argument("--claims", action="store_true", help="only where what really moves differs from the count")
+    parser.add_argument("--enumerate", action="store_true", help="every structure, not only the machines")
+    parser.add_argument("--yes", action="store_true", help="with --enumerate: begin even if it will be long")
+    parser.add_argument("--limit", type=int, metavar="N", help="with --enumerate: end after so many")
+    parser.add_argument("--count", action="store_true", help="only how many")
+    parser.add_argument("--json", action="store_true", help="as JSON")
+
+
+def _add_features(parser: Parser) -> None:
+    parser.add_argument("--links", type=int, metavar="N", help="number of links")
+    parser.add_argument(
+        "--mobility", "--F", type=int, metavar="F", help="F by the count (with --enumerate 1 if left out)"
+    )
+    parser.add_argument("--drives", type=int, metavar="N", help="number of drive joints")
+    parser.add_argument("--drives-at-frame", type=int, metavar="N", help="so many of them at the frame")
+    parser.add_argument("--outputs", type=int, metavar="N", help="number of output links")
+    parser.add_argument("--output-links-at-frame", type=int, metavar="N", help="so many of them jointed to the frame")
+    parser.add_argument("--pairs", metavar="D:4,S:0", help="exactly so many joints of these kinds, in one alphabet")
+    parser.add_argument("--binary", type=int, metavar="N", help="number of binary links")
+    parser.add_argument("--ternary", type=int, metavar="N", help="number of ternary links")
+    parser.add_argument("--quaternary", type=int, metavar="N", help="number of quaternary links")
+    parser.add_argument("--link-kinds", metavar="N2,N3,...", help="numbers of binary, ternary, ... links, no others")
+    parser.add_argument("--multiple-joints", type=int, metavar="K", help="exactly so many joints of 3 and more links")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import argparse
 import math
+from pathlib import Path
 from typing import Any
 
 from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json, print_svg, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
 from gruebler.sheets.messages import LocalNumber, explanation_paragraphs
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS: dict[str, dict[str, Any]] = {
     "en": {
@@ -39,6 +41,34 @@ _WORDS: dict[str, dict[str, Any]] = {
         "printed": "Gedruckt: {text}.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="A collection sheet tells one mechanism: task, structure, access features, dimensions, how "
+        "straight a point runs. Everything but the words is derived from the model.",
+        epilog="Example: gruebler sheet draw mzc -o sheet.pdf --lang de; gruebler sheet size mzc --length 15cm "
+        "--ratio 0.005. Exit status: 0 all well, 1 a printed value differs (show) or no piece is so straight (size), "
+        "2 wrong usage or unreadable input.",
+    )
+    listing = parser.add_command("list", help="all sheets")
+    show = parser.add_command("show", help="one sheet in words: features, dimensions, what is printed and what is so")
+    show.add_argument("id", metavar="ID", help="of a sheet")
+    draw = parser.add_command("draw", help="one sheet as a page to be printed on A4")
+    draw.add_argument("id", metavar="ID", help="of a sheet")
+    draw.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="a file .svg, .html, .pdf or .png (default: SVG to output)"
+    )
+    size = parser.add_command("size", help="all lengths for a straight line of a length within a tolerance")
+    size.add_argument("id", metavar="ID", help="of a sheet")
+    size.add_argument("--length", required=True, metavar="L", help="with or without unit: 15cm")
+    wanted = size.add_mutually_exclusive_group(required=True)
+    wanted.add_argument("--ratio", type=float, metavar="Q", help="relative deviation Q_G: tolerance/length")
+    wanted.add_argument("--tolerance", metavar="DY", help="the band allowed across the line: 0.75mm")
+
+    for action in (listing, show, size):
+        action.add_argument("--json", action="store_true", help="as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,7 @@ from gruebler.cli.analysis_table import Column, as_csv, check_csv, shown
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
 from gruebler.cli.linkage_inputs import linkage_of
 from gruebler.cli.output import print_json, write_file
+from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
@@ -22,7 +24,7 @@ from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
 from gruebler.statics import Loads, Statics, slide_friction, statics
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _FROM_LIMITS = 1e-9  # of the range: a row at a limit of the drive is taken so far inside
 _NOISE = 1e-13  # of the loads: a smaller effort is none
@@ -56,6 +58,47 @@ _WORDS = {
         "agree": "Gleichgewicht und virtuelle Arbeit stimmen auf {part:.1e} der größten Last überein.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="What the drive and the joints carry when forces act at points and moments on links: equilibrium "
+        "of every link, and the drive's torque once more by virtual work. Torques are in force times the unit of the "
+        "linkage. Without inertia; friction of slides as an estimate.",
+        epilog="Example: gruebler statics slider-crank:20,50 --load 'R(coupler-slider)=-100,0' --friction 0.1. "
+        "Exit status: 0 all well, 1 it cannot be moved all the way or is not held in some pose, 2 wrong usage or "
+        "unreadable input.",
+    )
+    parser.add_argument(
+        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+    )
+    parser.add_argument(
+        "--load",
+        action="append",
+        default=[],
+        metavar="POINT=FX,FY",
+        help="a force at a point, a joint or LINK:X,Y; repeatable",
+    )
+    parser.add_argument(
+        "--moment", action="append", default=[], metavar="LINK=M", help="a moment on a link, left about; repeatable"
+    )
+    parser.add_argument(
+        "--mass", action="append", default=[], metavar="POINT=M", help="a mass that weighs M times 9.80665; repeatable"
+    )
+    parser.add_argument("--gravity", metavar="GX,GY", help="other than 0,-9.80665")
+    parser.add_argument("--friction", type=float, metavar="MU", help="coefficient: friction of slides, an estimate")
+    parser.add_argument(
+        "--drive",
+        action="append",
+        default=[],
+        metavar="FROM:TO:STEP",
+        help="rows, in degrees or the unit; for several drives once each (default: a full turn, or the whole range)",
+    )
+    parser.add_argument("--at", action="append", type=float, default=[], metavar="VALUE", help="one row only")
+    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
+    parser.add_argument("--json", action="store_true", help="an object with columns and rows, forces by components")
+    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the columns as CSV, units in its header")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 import math
 
-from gruebler.cli.coupler_inputs import coupler_point, sizes
+from gruebler.cli.coupler_inputs import add_coupler_point, coupler_point, sizes
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
 from gruebler.geometry.straight import PathPiece, coupler_path, longest_piece, path_piece, piece_of_ratio
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS = {
     "en": {
@@ -32,6 +33,23 @@ _WORDS = {
         "none": "Jedes Fenster bis zu einer vollen Umdrehung um {centre:g}° ist gerader als Q_G = {ratio:g}.",
     },
 }
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="The piece of a coupler curve symmetric about a crank angle that has a given relative deviation "
+        "Q_G = deviation/length; the longest piece in a band; or length and band of a given piece.",
+        epilog="Example: gruebler straight 20,50,50,40 100,0 --window 90 270 --direction 0; "
+        "gruebler straight 20,50,50,40 100,0 --band 0.2. Exit status: 0, 1 no such piece, 2 wrong usage.",
+    )
+    add_coupler_point(parser)
+    parser.add_argument("--ratio", type=float, metavar="Q", help="the window about --centre with this Q_G")
+    parser.add_argument("--band", type=float, metavar="WIDTH", help="the longest piece in a band of this width")
+    parser.add_argument("--window", type=float, nargs=2, metavar=("FROM", "TO"), help="the piece between two angles")
+    parser.add_argument("--centre", type=float, default=180.0, metavar="DEG", help="crank angle (default: 180)")
+    parser.add_argument("--direction", type=float, metavar="DEG", help="of the line (default: tangent, best line)")
+    parser.add_argument("--json", action="store_true", help="as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -11,6 +11,7 @@ from math import degrees, isnan, radians
 from pathlib import Path
 from typing import Any
 
+from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import SynthesisError
 from gruebler.formats.linkages import check_linkage_path, write_linkage
@@ -32,7 +33,7 @@ from gruebler.synthesis import (
 )
 from gruebler.synthesis.functions import Coordination, Minimax
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
 
 _WORDS: dict[str, dict[str, Any]] = {
     "en": {
@@ -73,6 +74,76 @@ _TASKS: dict[str, type[Task]] = {
 }
 
 
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="All linkages for a task, each with its verdict: one circuit, one branch, the order of the task, "
+        "full turn of the drive, minimum transmission angle.",
+        epilog="Example: gruebler synthesise positions five.csv -o best.toml --draw designs.html. Exit status: 0 there "
+        "is a design, 1 there is none, 2 wrong usage or unreadable input.",
+    )
+    positions = parser.add_command(
+        "positions",
+        help="a body carried through positions",
+        description="Four-bars, slider-cranks and inverted slider-cranks that carry a body through positions x, y, "
+        "angle: five and fewer exactly, more by least squares.",
+    )
+    positions.add_argument("task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y,angle")
+    function = parser.add_command(
+        "function",
+        help="input and output coordinated",
+        description="Linkages whose output is a function of the crank angle: pairs of a table, or an expression.",
+        epilog="Example: gruebler synthesise function 'log10(x)' --interval 1 2 --swings 60 60 --points 5 --minimax",
+    )
+    function.add_argument(
+        "task",
+        metavar="TASK|EXPRESSION",
+        help="a .toml, .json or .csv file (CSV input,output), or an expression such as 'log10(x)'",
+    )
+    function.add_argument("--interval", type=float, nargs=2, metavar=("FROM", "TO"), help="of x, for an expression")
+    function.add_argument(
+        "--swings", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="how far they turn, in degrees (or travel)"
+    )
+    function.add_argument("--starts", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="fixed starts (free)")
+    function.add_argument("--points", type=int, default=5, metavar="N", help="precision points (default: 5)")
+    function.add_argument("--travel", action="store_true", help="the output is a slider")
+    function.add_argument("--minimax", action="store_true", help="make the largest error as small as possible")
+    path = parser.add_command(
+        "path",
+        help="a coupler point through points, or along a curve",
+        description="Four-bars whose coupler point passes through points: nine points, five points and both fixed "
+        "pivots, five points with crank angles, mixed tasks, each with all solutions; whole curves by least squares.",
+    )
+    path.add_argument(
+        "task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y or x,y,crank or x,y,angle"
+    )
+    path.add_argument("--closed", action="store_true", help="the points are a closed curve")
+    path.add_argument("--structure", metavar="MECHANISM", help="fit this mechanism: a text or a catalog entry")
+    path.add_argument("--link", default="", metavar="LINK", help="with --structure: the link that carries the point")
+    dead = parser.add_command(
+        "dead-centres",
+        help="crank-rockers and slider-cranks with given dead centres",
+        description="Crank-rockers of a swing, or slider-cranks of a stroke, whose dead centres lie a crank angle "
+        "apart; the one with the best transmission angle first.",
+        epilog="Example: gruebler synthesise dead-centres --swing 60 --time-ratio 1.2",
+    )
+    dead.add_argument("task", nargs="?", metavar="TASK", help="a .toml, .json or .csv file, or options instead")
+    dead.add_argument("--swing", type=float, metavar="DEG", help="of the rocker")
+    dead.add_argument("--stroke", type=float, metavar="H", help="of the slider")
+    dead.add_argument("--crank-angle", type=float, metavar="DEG", help="between the dead centres")
+    dead.add_argument("--time-ratio", type=float, metavar="K", help="slow to quick travel")
+    for kind in (positions, function, path, dead):
+        kind.add_argument("--region", type=float, nargs=4, metavar=("X1", "Y1", "X2", "Y2"), help="for fixed pivots")
+        kind.add_argument("--crank", action="store_true", help="only with a drive that turns fully")
+        kind.add_argument("--transmission", type=float, default=0.0, metavar="DEG", help="minimum transmission angle")
+        kind.add_argument("--size-ratio", type=float, default=1e4, metavar="R", help="longest by shortest length")
+        kind.add_argument("--number", type=int, metavar="N", help="dyads or designs taken of infinitely many")
+        kind.add_argument("--rejected", action="store_true", help="also print the rejected designs with their reasons")
+        kind.add_argument("--json", action="store_true", help="as JSON, with all linkages")
+        kind.add_argument("-o", "--output", type=Path, metavar="FILE", help="the best linkage as .toml or .json")
+        kind.add_argument("--draw", type=Path, metavar="FILE", help="the designs: .html a page, .svg the best one")
+
+
 def run(arguments: argparse.Namespace) -> int:
     """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
     words = _WORDS[arguments.lang]
@@ -84,7 +155,7 @@ def run(arguments: argparse.Namespace) -> int:
     task = _task(arguments)
     result = _solved(arguments, task, demands)
     best = result.designs[0] if result.designs else None
-    optimum = _minimax(arguments, result) if arguments.kind == "function" and arguments.minimax else None
+    optimum = _minimax(arguments, result) if arguments.action == "function" and arguments.minimax else None
     if arguments.json:
         document = result.to_json()
         if optimum is not None:
@@ -128,17 +199,17 @@ def _demands(arguments: argparse.Namespace) -> Demands:
 
 def _task(arguments: argparse.Namespace) -> Task:
     """The task of the file or the options; `SynthesisError` for one of another kind."""
-    if arguments.kind == "dead-centres" and arguments.task is None:
+    if arguments.action == "dead-centres" and arguments.task is None:
         return DeadCentreTask(
             _radians(arguments.swing), arguments.stroke, _radians(arguments.crank_angle), arguments.time_ratio
         )
-    if arguments.kind == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
+    if arguments.action == "function" and Path(arguments.task).suffix.lower() not in (".toml", ".json", ".csv"):
         return _function_task(arguments)
     task = read_task(arguments.task)
-    if not isinstance(task, _TASKS[arguments.kind]):
+    if not isinstance(task, _TASKS[arguments.action]):
         kind = next(name for name, made in _TASKS.items() if isinstance(task, made))
         raise SynthesisError("{task}: this is a task for 'synthesise {kind}'", task=arguments.task, kind=kind)
-    if arguments.kind == "path" and arguments.closed and isinstance(task, PathTask):
+    if arguments.action == "path" and arguments.closed and isinstance(task, PathTask):
         from dataclasses import replace
 
         task = replace(task, closed=True)

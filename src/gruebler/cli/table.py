@@ -5,9 +5,25 @@ from __future__ import annotations
 import argparse
 
 from gruebler.cli.output import print_json
+from gruebler.cli.parser import Parser
 from gruebler.exercises import lines_of_table, table_as_dict, teaching_table
 
-__all__ = ["run"]
+__all__ = ["add", "run"]
+
+
+_TABLES = ("joints", "links", "inversions", "grashof", "transfer")
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="Tables for teaching, computed from the library: joints by freedom, links by joints and motion, "
+        "the four inversions of a four-bar chain, four-bars by Grashof's condition with the smallest whole lengths, "
+        "transfer functions of gears, linkages, cams and Geneva drives.",
+        epilog="Example: gruebler table grashof --lang de",
+    )
+    parser.add_argument("name", choices=_TABLES, metavar="NAME", help=", ".join(_TABLES))
+    parser.add_argument("--json", action="store_true", help="a list of objects with title, headers and rows")
 
 
 def run(arguments: argparse.Namespace) -> int:

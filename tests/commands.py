@@ -1,0 +1,16 @@
+"""Commands run inside the tests, without a process of their own."""
+
+from gruebler import GrueblerError
+from gruebler.cli.commands import command
+
+
+def run_command(capsys, name, *arguments):
+    """The exit status of a command, what it printed, and what it said on standard error or refused."""
+    chosen = command(name)
+    try:
+        status = chosen.module().run(chosen.parser().parse_args(arguments))
+    except SystemExit as stop:
+        status = stop.code
+    except GrueblerError as error:
+        return 2, "", str(error)
+    return status, *capsys.readouterr()
