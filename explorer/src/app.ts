@@ -47,7 +47,7 @@ export class App {
     this.host.style.height = model.get("host") === "notebook" ? `${Number(model.get("height") ?? 640)}px` : "100%";
     const shadow = this.host.attachShadow({ mode: "open" });
     const sheet = new CSSStyleSheet();
-    sheet.replaceSync(styles);
+    sheet.replaceSync(styles + String(model.get("styles") ?? ""));
     shadow.adoptedStyleSheets = [sheet];
     setLanguage(this.firstLanguage());
     this.setTheme(this.firstTheme());
@@ -59,8 +59,8 @@ export class App {
         structure: new StructureView(this), motion: this.motion, catalog: new CatalogView(this), exercises: new ExercisesView(this),
       };
     }
-    this.root = h("div", { class: "app" }, this.header, this.message, h("main", { class: "sr-less" }));
-    this.root.querySelector("main")!.replaceWith(...Object.values(this.views).map((view) => view.element));
+    for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
+    this.root = h("div", { class: "app" }, this.header, this.message, ...Object.values(this.views).map((view) => view.element));
     this.root.addEventListener("keydown", (event) => this.key(event));
     shadow.append(this.root);
     model.on("connection", ((on: boolean) => this.connection(on)) as (message: never) => void);

@@ -75,6 +75,7 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
         message("Pictures"),
         (
             Command("draw", message("draw a chain, a mechanism, or a linkage to scale")),
+            Command("explore", message("a page to pick a mechanism, drag its joints and see what that does")),
             Command("animate", message("a linkage that moves: SVG, an HTML page with a slider, GIF, WebP, APNG")),
             Command("plot", message("transfer functions, transmission angle, hodograph, coupler curves")),
             Command("gallery", message("draw all chains or mechanisms of a request on one page")),

@@ -11,7 +11,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-__all__ = ["module_text", "served_page", "single_file"]
+from gruebler.drawing.canvas.styles import STYLES
+
+__all__ = ["module_text", "picture_styles", "served_page", "single_file"]
 
 _STATIC = Path(__file__).parent / "static"
 
@@ -20,6 +22,21 @@ _STATIC = Path(__file__).parent / "static"
 def module_text() -> str:
     """The front end: one ES module, built from `explorer/` and shipped with the library."""
     return (_STATIC / "explorer.js").read_text(encoding="utf-8")
+
+
+def picture_styles() -> str:
+    """The rules of the library's pictures with the colours of the page, which the reader may turn dark."""
+    rules = [".gr{stroke-linecap:round;stroke-linejoin:round}"]
+    for name, style in STYLES.items():
+        parts = [f"fill:var(--{style.fill})" if style.fill else "fill:none"]
+        if style.stroke:
+            parts += [f"stroke:var(--{style.stroke})", f"stroke-width:{style.width:g}"]
+        if style.dash:
+            parts.append(f"stroke-dasharray:{' '.join(f'{length:g}' for length in style.dash)}")
+        if style.size:
+            parts.append(f"font-size:{style.size:g}px")
+        rules.append(f".gr-{name}{{{';'.join(parts)}}}")
+    return "".join(rules)
 
 
 def single_file(model: Mapping[str, Any], lang: str = "en") -> str:
@@ -53,7 +70,7 @@ def single_file(model: Mapping[str, Any], lang: str = "en") -> str:
 
 def served_page(model: Mapping[str, Any], lang: str = "") -> str:
     """The page of a server, which loads the module from beside it; its policy is sent as a header."""
-    values = {"lang": lang, "machine": model}
+    values = {"lang": lang, "machine": model, "styles": picture_styles()}
     return _page("gruebler", lang or "en", "server", values, '<script type="module" src="explorer.js"></script>', "")
 
 
