@@ -109,7 +109,14 @@ export class App {
     this.views[name]!.appeared?.();
   }
 
+  /** The name of the mechanism in the language of the page. */
+  private get name(): string {
+    const model = this.motion.machine?.model;
+    return model?.names[currentLanguage()] ?? model?.name ?? "";
+  }
+
   private arrangeHeader(): void {
+    this.host.lang = currentLanguage();
     const names: Record<string, string> = { structure: t("Structure"), motion: t("Motion"), catalog: t("Catalog"), exercises: t("Exercises") };
     const keys = Object.keys(this.views);
     const tabs = keys.length < 2 ? null : h("nav", { role: "tablist" }, ...keys.map((key) => h("button", {
@@ -123,7 +130,7 @@ export class App {
       this.arrange();
     } }, ...([["en", "English"], ["de", "Deutsch"]] as const).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)));
     this.header.replaceChildren(
-      h("h1", {}, "gruebler", h("small", {}, this.motion.machine?.model.name ?? "")), ...(tabs ? [tabs] : []), h("span", { class: "spring" }),
+      h("h1", {}, "gruebler", h("small", {}, this.name)), ...(tabs ? [tabs] : []), h("span", { class: "spring" }),
       tool("↶", t("Undo"), () => this.motion.undo(), !back), tool("↷", t("Redo"), () => this.motion.redo(), !forth),
       tool("⤴", t("Copy the link"), () => void this.share()),
       tool("◐", t("Light or dark"), () => {
@@ -165,6 +172,12 @@ export class App {
     this.say("");
     this.motion.open(model);
     this.show("motion");
+  }
+
+  /** Show the structure of a text. */
+  describe(text: string): void {
+    this.show("structure");
+    void (this.views["structure"] as StructureView).describe(text);
   }
 
   /** After a change: the link follows, a notebook is told. */

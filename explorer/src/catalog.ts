@@ -12,6 +12,7 @@ interface Entry {
   links: number;
   counted: number;
   moves: boolean;
+  text: string;
 }
 
 export class CatalogView implements View {
@@ -85,6 +86,7 @@ export class CatalogView implements View {
   }
 
   private async choose(entry: Entry): Promise<void> {
+    if (!entry.moves) return this.app.describe(entry.text);
     try {
       this.app.open(await this.app.ask<Model>("open", { id: entry.id }));
     } catch (error) {

@@ -22,6 +22,11 @@ export function t(text: string, values: Record<string, string | number> = {}): s
   return found.replace(/\{(\w+)\}/g, (gap, name: string) => (name in values ? String(values[name]) : gap));
 }
 
+/** An angle in degrees; what is below a millionth of a degree is rounding. */
+export function angle(radians: number, digits = 4): string {
+  return `${number(Math.round((radians * 180e6) / Math.PI) / 1e6, digits)}°`;
+}
+
 /** A number with so many significant digits and the decimal sign of the language. */
 export function number(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "–";

@@ -519,7 +519,7 @@ export class Machine {
   }
 
   /** The lines and the pins of a slide between moving links whose pins lie on it, such as a cylinder; else null. */
-  private cylinder(joint: number): Cylinder | null {
+  cylinder(joint: number): Cylinder | null {
     const record = this.model.joints[joint]!;
     if (record.pair !== "prismatic" || record.links.includes(this.model.frame)) return null;
     const lines = this.elementsOf(joint);
@@ -631,7 +631,8 @@ export class Machine {
     const out: { link: number; first: number; second: number; value: number }[] = [];
     for (let link = 0; link < this.model.own; link++) {
       const mine = this.elementsOn(link).filter((k) => this.model.elements[k]!.kind !== "round");
-      for (let i = 0; i < mine.length; i++) for (let j = i + 1; j < mine.length; j++) {
+      // each joint against the first two of its link: these distances fix the link
+      for (let j = 1; j < mine.length; j++) for (let i = 0; i < Math.min(j, 2); i++) {
         const [a, b] = [mine[i]!, mine[j]!];
         const lines = [a, b].filter((k) => this.model.elements[k]!.kind === "line");
         if (lines.length === 2) continue;

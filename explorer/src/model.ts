@@ -60,6 +60,8 @@ export type LinkageDocument = Record<string, unknown> & {
 export interface Model {
   version: number;
   name: string;
+  /** The name in several languages, if it has such. */
+  names: Record<string, string>;
   source: string;
   document: LinkageDocument;
   links: string[];

@@ -2,7 +2,7 @@
 
 import type { App } from "./app";
 import { h, svg } from "./dom";
-import { currentLanguage, number, parsed, t } from "./language";
+import { angle, currentLanguage, number, parsed, t } from "./language";
 import { Machine, Refused, type Snapshot, type Stop } from "./machine";
 import type { LinkageDocument, Model } from "./model";
 import { Status } from "./kernel";
@@ -426,7 +426,7 @@ export class MotionView {
 
   shownDrive(value: number, digits = 5): string {
     const { drive, model } = this.machine;
-    return drive?.turning ? `${number((value * 360) / TURN, digits)}°` : `${number(value, digits)} ${model.unit}`;
+    return drive?.turning ? angle(value, digits) : `${number(value, digits)} ${model.unit}`;
   }
 
   stopText(stop: Stop): string {
@@ -450,12 +450,12 @@ export class MotionView {
     if (output) {
       const [value, rate] = machine.output(machine.pose, 0);
       const turning = output.joint === null;
-      facts.push([t("Output {name}", { name: machine.model.links[output.link]! }), turning ? `${number((value * 360) / TURN, 5)}°` : `${number(value, 5)} ${machine.model.unit}`]);
+      facts.push([t("Output {name}", { name: machine.model.links[output.link]! }), turning ? angle(value, 5) : `${number(value, 5)} ${machine.model.unit}`]);
       facts.push([t("Velocity by the drive"), number(rate, 4)]);
     }
     if (Number.isFinite(mu)) {
-      facts.push([t("Transmission angle"), `${number((mu * 360) / TURN, 4)}°`, mu < GOOD ? "bad" : "good"]);
-      if (this.least) facts.push([t("smallest"), `${number((this.least.mu * 360) / TURN, 4)}° · ${this.shownDrive(this.track.wrapped(this.least.value), 4)}`, this.least.mu < GOOD ? "bad" : "good"]);
+      facts.push([t("Transmission angle"), angle(mu), mu < GOOD ? "bad" : "good"]);
+      if (this.least) facts.push([t("smallest"), `${angle(this.least.mu)} · ${this.shownDrive(this.track.wrapped(this.least.value), 4)}`, this.least.mu < GOOD ? "bad" : "good"]);
     }
     const { cycle } = machine;
     if (machine.drive) facts.push([t("Range of the drive"), cycle.full ? (cycle.turns === 1 ? t("full turns") : t("full turns, repeats after {turns}", { turns: cycle.turns })) : `${this.shownDrive(cycle.low, 5)} … ${this.shownDrive(cycle.high, 5)}`]);
@@ -531,7 +531,7 @@ export class MotionView {
     if (cycle.values.length < 2) return;
     const shown = this.plottedRows();
     for (const { plot, make } of this.plotParts) {
-      plot.show(shown.drives, make(shown.rows));
+      plot.show(shown.drives, make(shown.rows), cycle.full ? [0, TURN * cycle.turns] : [cycle.low, cycle.high]);
       plot.at(this.plotted(drives[active]!));
     }
   }

@@ -25,6 +25,7 @@ export class Plot {
   private readonly title = svg("text", { class: "title", x: LEFT, y: 13 });
   private readonly texts = [0, 1, 2, 3].map(() => svg("text"));
   private drives: Float64Array = new Float64Array(0);
+  private domain: [number, number] = [0, 1];
   private series: Series | null = null;
   private low = 0;
   private high = 1;
@@ -35,7 +36,7 @@ export class Plot {
     const at = (event: PointerEvent) => {
       const box = this.element.getBoundingClientRect();
       const part = (((event.clientX - box.left) / box.width) * WIDTH - LEFT) / (WIDTH - LEFT - RIGHT);
-      const first = this.drives[0] ?? 0, last = this.drives[this.drives.length - 1] ?? 1;
+      const [first, last] = this.domain;
       pick(first + Math.max(0, Math.min(1, part)) * (last - first));
     };
     this.element.addEventListener("pointerdown", (event) => {
@@ -45,8 +46,9 @@ export class Plot {
     this.element.addEventListener("pointermove", (event) => event.buttons && at(event));
   }
 
-  show(drives: Float64Array, series: Series): void {
+  show(drives: Float64Array, series: Series, domain: [number, number]): void {
     this.drives = drives;
+    this.domain = domain;
     this.series = series;
     const finite = Array.from(series.values).filter(Number.isFinite).sort((a, b) => a - b);
     let low = finite[0] ?? 0, high = finite[finite.length - 1] ?? 1;
@@ -82,8 +84,8 @@ export class Plot {
     };
     text(0, LEFT - 4, TOP + 8, "end", number(high, 3));
     text(1, LEFT - 4, HEIGHT - BOTTOM - 1, "end", number(low, 3));
-    text(2, LEFT, HEIGHT - 4, "start", number((drives[0] ?? 0) / this.unit, 4));
-    text(3, WIDTH - RIGHT, HEIGHT - 4, "end", number((drives[drives.length - 1] ?? 1) / this.unit, 4));
+    text(2, LEFT, HEIGHT - 4, "start", number(domain[0] / this.unit, 4));
+    text(3, WIDTH - RIGHT, HEIGHT - 4, "end", number(domain[1] / this.unit, 4));
   }
 
   at(drive: number): void {
@@ -99,7 +101,7 @@ export class Plot {
   }
 
   private x(drive: number): number {
-    const first = this.drives[0] ?? 0, last = this.drives[this.drives.length - 1] ?? 1;
+    const [first, last] = this.domain;
     return LEFT + ((drive - first) / (last - first || 1)) * (WIDTH - LEFT - RIGHT);
   }
 

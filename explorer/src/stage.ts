@@ -274,6 +274,11 @@ export class Stage {
       const here: [number, number] = [machine.at[2 * k]!, machine.at[2 * k + 1]!];
       if (e.kind === "pin") nodes.push(here);
       if (e.kind !== "line") continue;
+      const cylinder = this.cylinderBody(k, px);
+      if (cylinder) {
+        out.push(...cylinder);
+        continue;
+      }
       const band = this.bands.get(k)!, partners = machine.elementsOf(e.joint).filter((m) => m !== k);
       const pinned = partners.some((m) => model.elements[m]!.kind === "pin");
       const carries = frame || pinned || (!model.elements[partners[0]!] ? true : model.elements[partners[0]!]!.link !== model.frame && e.joint >= 0 && model.joints[e.joint]!.links[0] === link);
@@ -300,6 +305,30 @@ export class Stage {
       out.unshift(svg("path", { class: `outline${wide}`, d }), svg("path", { class: `bar${wide}`, d }));
     }
     return out;
+  }
+
+  /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
+  private cylinderBody(k: number, px: (value: number) => string): SVGElement[] | null {
+    const machine = this.machine!, e = machine.model.elements[k]!;
+    const found = machine.cylinder(e.joint);
+    if (!found) return null;
+    const [one, , pinOne, pinTwo] = found;
+    const [own, other] = one === k ? [pinOne, pinTwo] : [pinTwo, pinOne];
+    const { rows, values } = machine.cycle;
+    let [near, far] = [Infinity, 0];
+    for (let row = 0; row < values.length; row += Math.max(1, Math.floor(values.length / 60))) {
+      const [ax, ay] = machine.elementAt(own, rows, row), [bx, by] = machine.elementAt(other, rows, row);
+      const gap = Math.hypot(bx - ax, by - ay);
+      if (!Number.isFinite(gap)) continue;
+      near = Math.min(near, gap);
+      far = Math.max(far, gap);
+    }
+    const [u, v] = machine.toLocal(e.link, ...machine.elementAt(other));
+    const x = machine.at[2 * own]!, y = machine.at[2 * own + 1]!;
+    const length = Math.hypot(u - x, v - y) || 1;
+    const reach = one === k ? 0.86 * near : Math.min(far - 0.62 * near, 0.95 * near);
+    const d = `M${px(x)} ${px(-y)}L${px(x + ((u - x) / length) * reach)} ${px(-(y + ((v - y) / length) * reach))}`;
+    return (one === k ? ["slot-outline", "slot"] : ["rod-outline", "rod"]).map((style) => svg("path", { class: style, d }));
   }
 
   /** Put everything where the pose has it. */

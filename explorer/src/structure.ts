@@ -107,7 +107,7 @@ export class StructureView implements View {
       ...(more ? [more] : []));
   }
 
-  private async describe(text: string, scroll = false): Promise<void> {
+  async describe(text: string, scroll = false): Promise<void> {
     const number = ++this.asked;
     if (this.field.value !== text) this.field.value = text;
     try {

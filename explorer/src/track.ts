@@ -1,7 +1,7 @@
 /** The slider of the drive: where it may go, where the output turns back, where the transmission is worst. */
 
 import { h, svg } from "./dom";
-import { number, t } from "./language";
+import { angle, number, t } from "./language";
 import type { Cycle } from "./machine";
 
 const TURN = 2 * Math.PI;
@@ -72,11 +72,11 @@ export class Track {
       const group = svg("svg", { x: x(here), y: 0, overflow: "visible" }, svg("path", { class: style, d }, svg("title", {}, title)));
       parts.push(group);
     };
-    const shown = (value: number) => `${number(wrap(value) / this.unit, 5)}${turning ? "°" : ` ${unit}`}`;
+    const shown = (value: number) => (turning ? angle(wrap(value), 5) : `${number(wrap(value), 5)} ${unit}`);
     for (const value of dead) mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
     if (least !== null) mark(least, "least", "M0 26 L-4.5 33 H4.5 Z", t("Smallest transmission angle at {value}", { value: shown(least) }));
     const label = (value: number, anchor: string) => {
-      const text = svg("text", { x: x(value), y: 39, "text-anchor": anchor }, `${number(value / this.unit, 4)}${turning ? "°" : ""}`);
+      const text = svg("text", { x: x(value), y: 39, "text-anchor": anchor }, turning ? angle(value) : number(value, 4));
       parts.push(text);
     };
     label(low, cycle.full ? "start" : "middle");

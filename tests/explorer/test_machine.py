@@ -6,6 +6,7 @@ import subprocess
 from math import pi
 from pathlib import Path
 
+import msgspec
 import pytest
 
 from gruebler.analysis.measures import Measures, measures
@@ -21,7 +22,7 @@ NODE = pytest.mark.skipif(shutil.which("node") is None, reason="the page's kerne
 
 def measured(linkages: list[Linkage], tmp_path: Path) -> list[dict]:
     file = tmp_path / "models.jsonl"
-    file.write_text("".join(json.dumps(model_of(one), allow_nan=False) + "\n" for one in linkages), encoding="utf-8")
+    file.write_bytes(b"".join(msgspec.json.encode(model_of(one)) + b"\n" for one in linkages))
     command = ["node", str(Path(__file__).parent / "measures.mjs"), str(BUILT), str(file)]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300)
     found = [json.loads(line) for line in done.stdout.splitlines()]

@@ -77,7 +77,7 @@ def _model(word: str, lang: str) -> dict[str, Any]:
     record = entry_of(word)
     return model_of(
         linkage,
-        name=word if record is None else record.name.in_language(lang),
+        name=word if record is None else record.name,
         source=word,
         between=between,
     )

@@ -23,7 +23,7 @@ from gruebler.kinematics.branches import labelled_groups
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import CENTRED, Line, direction
-from gruebler.text import error_in_language
+from gruebler.text import LANGUAGES, Text, error_in_language
 
 __all__ = ["model_of", "program_record"]
 
@@ -31,7 +31,11 @@ _SAME = 1e-12  # sizes: elements of the plan are copies of the linkage's, but fo
 
 
 def model_of(
-    linkage: Linkage, *, name: str = "", source: str = "", between: tuple[float, float] | None = None
+    linkage: Linkage,
+    *,
+    name: str | Text = "",
+    source: str = "",
+    between: tuple[float, float] | None = None,
 ) -> dict[str, Any]:
     """Everything that the page needs to show a linkage and to move it by itself, as plain data for `json.dumps`.
 
@@ -56,7 +60,8 @@ def model_of(
     drives = np.concatenate([pose.drives[0], plan.held])
     return {
         "version": 1,
-        "name": name,
+        "name": name.en if isinstance(name, Text) else name,
+        "names": {lang: name.in_language(lang) for lang in LANGUAGES} if isinstance(name, Text) else {},
         "source": source,
         "document": linkage_to_json(linkage),
         "links": list(lower.mechanism.chain.links),
@@ -210,7 +215,7 @@ def _output(linkage: Linkage, plan: Plan) -> list[dict[str, Any]]:
     try:
         legs = pushing_links(plan, output)
     except NoTransmissionAngleError as error:
-        return [record | {"note": {lang: error_in_language(error, lang) for lang in ("en", "de")}}]
+        return [record | {"note": {lang: error_in_language(error, lang) for lang in LANGUAGES}}]
 
     def place(element: tuple[str, complex, complex]) -> list[float]:
         link, point, line = element
@@ -245,8 +250,8 @@ def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
     for part in round_parts(posed):
         for shape in part.shapes:
             if isinstance(shape, CircleShape):
-                at = [round(shape.at.x / scale, 6), round(-shape.at.y / scale, 6)]
-                yield {"link": index(part.link), "style": shape.style, "circle": [*at, shape.radius / scale]}
+                circle = [_short(v / scale) for v in (shape.at.x, -shape.at.y, shape.radius)]
+                yield {"link": index(part.link), "style": shape.style, "circle": circle}
             elif isinstance(shape, Polylines):
                 lines = [
                     [c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts

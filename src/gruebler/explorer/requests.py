@@ -120,6 +120,7 @@ def answer(method: str, params: Mapping[str, Any], lang: str, progress: Progress
 
 def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, Any]]:
     from gruebler.catalog.loader import Query, search
+    from gruebler.mechanism import Mechanism
     from gruebler.mobility import counted
 
     found = search(Query(words=tuple(asked.words.split()), links=asked.links, pairs=tuple(asked.pairs.split())))
@@ -130,6 +131,7 @@ def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, 
             "links": one.chain().n,
             "counted": counted(one.chain()),
             "moves": one.dimensions is not None and one.space == "planar",
+            "text": Mechanism(one.chain(), one.frame or one.chain().links[0], one.drives).text(),
         }
         for one in found
     ]
@@ -165,13 +167,13 @@ def _between(id: str) -> tuple[float, float] | None:
     return radians(shown[0]), radians(shown[1])
 
 
-def _open(asked: CatalogId, lang: str, _: Progress) -> dict[str, Any]:
+def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
     from gruebler.catalog import entry
     from gruebler.explorer.model import model_of
 
     record = entry(asked.id)
     linkage = record.linkage()  # an entry without dimensions is refused in one sentence
-    return model_of(linkage, name=record.name.in_language(lang), source=record.id, between=_between(asked.id))
+    return model_of(linkage, name=record.name, source=record.id, between=_between(asked.id))
 
 
 def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:

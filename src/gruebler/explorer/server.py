@@ -13,7 +13,7 @@ import secrets
 import socket
 from collections import deque
 from collections.abc import AsyncIterator, Mapping
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from pathlib import Path
 from typing import Any, Literal
 
@@ -87,10 +87,11 @@ class ExplorerServer:
     @asynccontextmanager
     async def _lifespan(self, _: Starlette) -> AsyncIterator[None]:
         self._workers = Workers()
+        await self._workers.begin()
         try:
             yield
         finally:
-            self._workers.close()
+            await self._workers.close()
 
     def _known(self, request: Request | WebSocket) -> bool:
         """Whether a request names this server and knows the token."""
@@ -127,19 +128,29 @@ class ExplorerServer:
         await _Conversation(socket, self._workers).run()
 
 
+class _Lane:
+    """Requests that are answered one after the other."""
+
+    def __init__(self) -> None:
+        self.waiting: deque[tuple[_Message, asyncio.Event]] = deque()
+        self.arrived = asyncio.Event()
+
+
 class _Conversation:
-    """One page: its requests are answered one after the other, in their order; it may cancel any of them."""
+    """One page: its requests are answered one after the other, in their order; it may cancel any of them.
+
+    Pictures of the catalog have a lane of their own, so that nothing waits for them.
+    """
 
     def __init__(self, socket: WebSocket, workers: Workers) -> None:
         self.socket, self.workers = socket, workers
-        self.waiting: deque[tuple[_Message, asyncio.Event]] = deque()
+        self.lanes = (_Lane(), _Lane())
         self.events: dict[int, asyncio.Event] = {}
-        self.arrived = asyncio.Event()
         self.lock = asyncio.Lock()
 
     async def run(self) -> None:
         """Until the page goes."""
-        answering = asyncio.create_task(self._answer_all())
+        answering = asyncio.gather(*(self._answer_all(lane) for lane in self.lanes))
         try:
             while True:
                 received = await self.socket.receive()
@@ -149,9 +160,9 @@ class _Conversation:
         except WebSocketDisconnect:
             return
         finally:
-            for event in self.events.values():
-                event.set()
             answering.cancel()
+            with suppress(asyncio.CancelledError):
+                await answering
 
     async def _take(self, text: str | None) -> None:
         try:
@@ -160,21 +171,22 @@ class _Conversation:
                 if message.id in self.events:
                     self.events[message.id].set()
                 return
-            if len(self.waiting) >= MOST_WAITING:
+            lane = self.lanes[message.method == "picture"]
+            if len(lane.waiting) >= MOST_WAITING:
                 raise GrueblerError("more than {most} requests wait; ask again later", most=MOST_WAITING)
         except GrueblerError as error:
             await self._send({"id": _id_of(text), "error": error_in_language(error, "en")})
             return
         event = self.events.setdefault(message.id, asyncio.Event())
-        self.waiting.append((message, event))
-        self.arrived.set()
+        lane.waiting.append((message, event))
+        lane.arrived.set()
 
-    async def _answer_all(self) -> None:
+    async def _answer_all(self, lane: _Lane) -> None:
         while True:
-            while not self.waiting:
-                self.arrived.clear()
-                await self.arrived.wait()
-            message, event = self.waiting.popleft()
+            while not lane.waiting:
+                lane.arrived.clear()
+                await lane.arrived.wait()
+            message, event = lane.waiting.popleft()
             answer = await self._answer(message, event)
             self.events.pop(message.id, None)
             await self._send({"id": message.id} | answer)

@@ -3,60 +3,24 @@
 from __future__ import annotations
 
 import asyncio
-import multiprocessing
+import sys
+from asyncio.subprocess import PIPE, Process
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from multiprocessing.connection import Connection
 from typing import Any
 
+import msgspec
+
 from gruebler.errors import GrueblerError
-from gruebler.text import error_in_language, translate
 
 __all__ = ["CancelledError", "Workers"]
 
 LONGEST = 120.0
 """Seconds after which a request is ended."""
+_WIDEST = 64_000_000  # bytes of an answer
 
 
 class CancelledError(Exception):
     """The request was cancelled by who asked."""
-
-
-def serve(pipe: Connection) -> None:
-    """Answer one request after another until the pipe is closed; runs in a process of its own."""
-    from gruebler.explorer.requests import answer
-
-    while True:
-        try:
-            method, params, lang = pipe.recv()
-        except (EOFError, KeyboardInterrupt):
-            return
-        try:
-            result = answer(method, params, lang, lambda text: pipe.send(("progress", text)))
-        except GrueblerError as error:
-            pipe.send(("error", error_in_language(error, lang)))
-        except KeyboardInterrupt:
-            return
-        except RecursionError:
-            pipe.send(("error", translate("the request is nested too deeply", lang)))
-        else:
-            pipe.send(("result", result))
-
-
-class _Worker:
-    """A process and the pipe to it."""
-
-    def __init__(self) -> None:
-        context = multiprocessing.get_context("spawn")
-        self.pipe, far = context.Pipe()
-        self.process = context.Process(target=serve, args=(far,), daemon=True, name="gruebler explore")
-        self.process.start()
-        far.close()
-
-    def end(self) -> None:
-        self.process.kill()
-        self.process.join()
-        self.pipe.close()
 
 
 class Workers:
@@ -66,10 +30,13 @@ class Workers:
     """
 
     def __init__(self, most: int = 2) -> None:
-        self._free: list[_Worker] = []
-        self._busy: set[_Worker] = set()
+        self._free: list[Process] = []
+        self._all: set[Process] = set()
         self._slots = asyncio.Semaphore(most)
-        self._threads = ThreadPoolExecutor(most, thread_name_prefix="worker")
+
+    async def begin(self) -> None:
+        """Start one, so that the first request need not wait for it."""
+        self._free.append(await self._started())
 
     async def ask(
         self,
@@ -88,66 +55,65 @@ class Workers:
         async with self._slots:
             if cancelled.is_set():
                 raise CancelledError
-            worker = self._free.pop() if self._free else _Worker()
-            self._busy.add(worker)
-            loop = asyncio.get_running_loop()
-            done = loop.run_in_executor(
-                self._threads, _exchange, worker, (method, params, lang), lambda s: loop.call_soon_threadsafe(progress, s)
-            )
+            process = self._free.pop() if self._free else await self._started()
+            answer = asyncio.ensure_future(_exchange(process, [method, params, lang], progress))
             stop = asyncio.ensure_future(cancelled.wait())
+            found = None
             try:
-                await asyncio.wait({done, stop}, timeout=longest, return_when=asyncio.FIRST_COMPLETED)
-                if done.done():
-                    return self._result(worker, done.result(), lang)
-                self._drop(worker)
-                await asyncio.wait({done})
+                await asyncio.wait({answer, stop}, timeout=longest, return_when=asyncio.FIRST_COMPLETED)
+                if answer.done():
+                    found = answer.result()
+            finally:  # whoever went away leaves no process with half an answer
+                stop.cancel()
+                answer.cancel()
+                if found is None:
+                    await self._end(process)
+                else:
+                    self._free.append(process)
+            if found is None:
                 if cancelled.is_set():
                     raise CancelledError
-                raise GrueblerError("this took longer than {seconds:g} s and was ended", seconds=longest)
-            finally:
-                stop.cancel()
+                if answer.cancelled() or not answer.done():
+                    raise GrueblerError("this took longer than {seconds:g} s and was ended", seconds=longest)
+                raise GrueblerError("gruebler failed at this request; its terminal shows the reason")
+            kind, content = found
+            if kind == "error":
+                raise GrueblerError("{text}", text=content)
+            return content
 
-    def _result(self, worker: _Worker, found: tuple[str, Any] | None, lang: str) -> Any:
-        if found is None:
-            self._drop(worker)
-            raise GrueblerError("gruebler failed at this request; its terminal shows the reason")
-        self._busy.discard(worker)
-        self._free.append(worker)
-        kind, content = found
-        if kind == "error":
-            raise _Answered(content)
-        return content
+    async def _started(self) -> Process:
+        command = (sys.executable, "-m", "gruebler.explorer.worker")
+        process = await asyncio.create_subprocess_exec(*command, stdin=PIPE, stdout=PIPE, limit=_WIDEST)
+        self._all.add(process)
+        return process
 
-    def _drop(self, worker: _Worker) -> None:
-        self._busy.discard(worker)
-        worker.end()
+    async def _end(self, process: Process) -> None:
+        self._all.discard(process)
+        if process.returncode is None:
+            process.kill()
+        await process.wait()
 
-    def close(self) -> None:
+    async def close(self) -> None:
         """End all processes."""
-        for worker in (*self._free, *self._busy):
-            worker.end()
         self._free.clear()
-        self._busy.clear()
-        self._threads.shutdown(wait=False)
+        for process in list(self._all):
+            await self._end(process)
 
 
-class _Answered(GrueblerError):
-    """What a worker said, in the language of the request."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__("{text}", text=text)
-
-
-def _exchange(
-    worker: _Worker, request: tuple[str, dict[str, Any], str], progress: Callable[[str], None]
+async def _exchange(
+    process: Process, request: list[Any], progress: Callable[[str], None]
 ) -> tuple[str, Any] | None:
     """Send a request and wait for its answer; None if the process ends before."""
+    assert process.stdin is not None
+    assert process.stdout is not None
     try:
-        worker.pipe.send(request)
-        while True:
-            kind, content = worker.pipe.recv()
+        process.stdin.write(msgspec.json.encode(request) + b"\n")
+        await process.stdin.drain()
+        while line := await process.stdout.readline():
+            kind, content = msgspec.json.decode(line)
             if kind != "progress":
                 return kind, content
             progress(content)
-    except (EOFError, OSError):
-        return None
+    except (BrokenPipeError, ConnectionResetError):
+        pass
+    return None
