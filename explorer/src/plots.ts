@@ -82,8 +82,9 @@ export class Plot {
       this.texts[k]!.setAttribute("text-anchor", anchor);
       this.texts[k]!.textContent = content;
     };
-    text(0, LEFT - 4, TOP + 8, "end", number(high, 3));
-    text(1, LEFT - 4, HEIGHT - BOTTOM - 1, "end", number(low, 3));
+    const rounded = (value: number) => (Math.abs(value) < 1e-9 * (high - low) ? 0 : value);
+    text(0, LEFT - 4, TOP + 8, "end", number(rounded(high), 3));
+    text(1, LEFT - 4, HEIGHT - BOTTOM - 1, "end", number(rounded(low), 3));
     text(2, LEFT, HEIGHT - 4, "start", number(domain[0] / this.unit, 4));
     text(3, WIDTH - RIGHT, HEIGHT - 4, "end", number(domain[1] / this.unit, 4));
   }

@@ -281,7 +281,7 @@ export class Stage {
       }
       const band = this.bands.get(k)!, partners = machine.elementsOf(e.joint).filter((m) => m !== k);
       const pinned = partners.some((m) => model.elements[m]!.kind === "pin");
-      const carries = frame || pinned || (!model.elements[partners[0]!] ? true : model.elements[partners[0]!]!.link !== model.frame && e.joint >= 0 && model.joints[e.joint]!.links[0] === link);
+      const carries = frame || pinned || this.carries(link, e.joint);
       const turn = `rotate(${(-machine.angles[k]! * 180) / Math.PI})`;
       if (carries) {
         const room = 26 / this.scale;
@@ -307,6 +307,15 @@ export class Stage {
     return out;
   }
 
+  /** Whether of the two links of a slide this one has the bar: the frame, the one with more joints, or at the frame. */
+  private carries(link: number, joint: number): boolean {
+    const machine = this.machine!, { model } = machine;
+    const [one, two] = model.joints[joint]!.links as [number, number];
+    const rank = (k: number) => (k === model.frame ? 100 : 0) + 2 * machine.elementsOn(k).length +
+      Number(model.joints.some((other) => other.links.includes(k) && other.links.includes(model.frame)));
+    return rank(one) >= rank(two) ? link === one : link === two;
+  }
+
   /** A cylinder's barrel, or its rod, from its pin towards the other; null if the slide is no cylinder. */
   private cylinderBody(k: number, px: (value: number) => string): SVGElement[] | null {
     const machine = this.machine!, e = machine.model.elements[k]!;
@@ -323,6 +332,7 @@ export class Stage {
       near = Math.min(near, gap);
       far = Math.max(far, gap);
     }
+    if (far > 1.9 * near) return null; // a rod cannot be drawn in by so much: a block on a bar
     const [u, v] = machine.toLocal(e.link, ...machine.elementAt(other));
     const x = machine.at[2 * own]!, y = machine.at[2 * own + 1]!;
     const length = Math.hypot(u - x, v - y) || 1;

@@ -253,9 +253,7 @@ def _shapes(posed: PosedLinkage) -> Iterator[dict[str, Any]]:
                 circle = [_short(v / scale) for v in (shape.at.x, -shape.at.y, shape.radius)]
                 yield {"link": index(part.link), "style": shape.style, "circle": circle}
             elif isinstance(shape, Polylines):
-                lines = [
-                    [c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts
-                ]
+                lines = [[c for p in line for c in (_short(p.x / scale), _short(-p.y / scale))] for line in shape.parts]
                 yield {"link": index(part.link), "style": shape.style, "lines": lines, "closed": shape.closed}
 
 

@@ -56,7 +56,9 @@ def single_file(model: Mapping[str, Any], lang: str = "en") -> str:
     """
     script = module_text().replace("</script", r"<\/script")
     digest = base64.b64encode(hashlib.sha256(script.encode("utf-8")).digest()).decode("ascii")
-    policy = f"default-src 'none'; script-src 'sha256-{digest}'; img-src data: blob:; base-uri 'none'; form-action 'none'"
+    policy = (
+        f"default-src 'none'; script-src 'sha256-{digest}'; img-src data: blob:; base-uri 'none'; form-action 'none'"
+    )
     values = {"lang": lang, "machine": model}
     return _page(
         str(model["name"]) or "gruebler",

@@ -70,7 +70,9 @@ class ExplorerServer:
         names: what a Host may be beside the loopback names.
     """
 
-    def __init__(self, model: Mapping[str, Any], token: str, *, lang: str = "", names: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, model: Mapping[str, Any], token: str, *, lang: str = "", names: frozenset[str] = frozenset()
+    ) -> None:
         self.model, self.token, self.lang = model, token, lang
         self.names = names | {"127.0.0.1", "localhost", "[::1]"}
         self._workers: Workers | None = None
@@ -280,7 +282,10 @@ def bound_socket(host: str, port: int, asked: bool) -> socket.socket:
         if asked:
             made.close()
             raise GrueblerError(
-                "cannot listen on {host}, port {port}: {reason}", host=host, port=port, reason=error.strerror or str(error)
+                "cannot listen on {host}, port {port}: {reason}",
+                host=host,
+                port=port,
+                reason=error.strerror or str(error),
             ) from None
         made.bind((host, 0))
     return made

@@ -58,7 +58,9 @@ def structure_record(text: str, lang: str) -> dict[str, Any]:
         "lines": report.explain(lang).splitlines(),
         "drives": check_drives(mechanism).explain(lang) if mechanism.drives else "",
         "inversions": [_choice(one, lang) for one in inversions(chain)] if few else [],
-        "driven": [_choice(one.mechanism, lang) for one in _driven(chain)] if few and chain.space is Space.PLANAR else [],
+        "driven": [_choice(one.mechanism, lang) for one in _driven(chain)]
+        if few and chain.space is Space.PLANAR
+        else [],
     }
 
 
@@ -112,7 +114,12 @@ def _types(mechanism: Mechanism, number: int, lang: str) -> Iterator[dict[str, A
         drives = [drive.joint for drive in mechanism.drives]
         text = Mechanism(other, mechanism.frame, drives).text() if _drivable(other, drives) else other.text()
         name = pair.german if lang == "de" else pair.name.replace("_", "-")
-        yield {"symbol": pair.symbols.get(alphabet, pair.name), "name": name, "text": text, "chosen": pair is joint.pair}
+        yield {
+            "symbol": pair.symbols.get(alphabet, pair.name),
+            "name": name,
+            "text": text,
+            "chosen": pair is joint.pair,
+        }
 
 
 def _drivable(chain: Chain, drives: list[int]) -> bool:

@@ -100,9 +100,7 @@ class Workers:
             await self._end(process)
 
 
-async def _exchange(
-    process: Process, request: list[Any], progress: Callable[[str], None]
-) -> tuple[str, Any] | None:
+async def _exchange(process: Process, request: list[Any], progress: Callable[[str], None]) -> tuple[str, Any] | None:
     """Send a request and wait for its answer; None if the process ends before."""
     assert process.stdin is not None
     assert process.stdout is not None
