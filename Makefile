@@ -4,7 +4,7 @@ VENV   := .venv
 BIN    := $(VENV)/bin
 READY  := $(VENV)/.ready
 
-.PHONY: help demo test slow wheel-test test-blas test-lowest test-newest torture bench clean
+.PHONY: help demo test slow wheel-test test-blas test-kernels test-lowest test-newest torture bench clean
 
 help:
 	@echo "make demo        every machine and exercise of the catalog checked, four of them explained"
@@ -13,6 +13,7 @@ help:
 	@echo "make torture     5,000 damaged inputs and 300 kills, see docs/reliability.md; about an hour"
 	@echo "make wheel-test  the fast tests against the built wheel, in an environment of its own"
 	@echo "make test-blas   the numerical tests with two other kernels of OpenBLAS"
+	@echo "make test-kernels all tests with compiled kernels only, then with interpreted ones; hours, not part of CI"
 	@echo "make test-lowest a broad choice of tests with the lowest versions that pyproject.toml allows"
 	@echo "make test-newest a broad choice of tests with another Python (NEWEST=python3.13) and the newest versions"
 	@echo "make bench       the benchmarks of benchmarks/README.md"
@@ -52,6 +53,12 @@ NUMERIC := $(addprefix tests/,analysis cams fourbar geometry kinematics linkages
 test-blas: $(READY)
 	OPENBLAS_CORETYPE=Haswell $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
 	OPENBLAS_CORETYPE=SkylakeX $(BIN)/python -m pytest -q -n 2 $(NUMERIC)
+
+# Otherwise the size of the work decides about the tier, and most tests know one only. Interpreted, a test that takes
+# more than a minute is skipped.
+test-kernels: $(READY)
+	GRUEBLER_KERNELS=compiled $(BIN)/python -m pytest -q -n 2
+	GRUEBLER_KERNELS=interpreted $(BIN)/python -m pytest -q -n 2 --longest 60
 
 # What other versions of Python and of the packages could break, in a few minutes; BROAD=tests runs everything.
 BROAD := $(addprefix tests/,analysis catalog cli fourbar isomorphism kinematics linkages mobility test_chain.py)

@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from benchmarks.motion import LEG, leg
+from gruebler.forces import Loads, statics
 from gruebler.fourbar import FourBar
 from gruebler.geometry import CouplerCurve, centrodes, cognate_sizes, cognates, coupler_curve, poles, taylor_series
 from gruebler.kinematics import Motion, move
-from gruebler.statics import Loads, statics
 
 ROWS = 10_000
 

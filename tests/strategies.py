@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 from hypothesis import strategies as st
 
-from gruebler import PAIRS, Chain, Space
+from gruebler import Chain
+from gruebler.chain.pairs import PAIRS, Space
 from gruebler.mechanism import Mechanism
 
 REVOLUTE = ("revolute",)

@@ -7,8 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gruebler import Alphabet, Chain, ChainError, GrueblerError, NotationError, PairError
+from gruebler import Chain, GrueblerError
 from gruebler.chain.notation import link_text
+from gruebler.chain.pairs import Alphabet
+from gruebler.errors import ChainError, NotationError, PairError
 from tests.strategies import PLANAR, SPATIAL, chains
 
 VEE = "R(frame-crank) R(crank-conrod1-conrod2) R(conrod1-piston1) R(conrod2-piston2) P(frame-piston1) P(frame-piston2)"

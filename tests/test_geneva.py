@@ -117,7 +117,7 @@ def test_sizes_close_the_right_angle():
 @pytest.mark.parametrize(
     ("make", "words"),
     [
-        (lambda: Geneva(2), "at least 3, not 2"),
+        (lambda: Geneva(2), "from 3 to 2,000, not 2"),
         (lambda: Geneva(4.0), "whole number of slots"),
         (lambda: Geneva(True), "whole number of slots"),
         (lambda: Geneva("4"), "whole number of slots"),

@@ -4,8 +4,9 @@ from itertools import combinations
 import numpy as np
 import pytest
 
-from gruebler import PAIRS, Alphabet, PairError, Space, pair
-from gruebler.chain.pairs import Contact, read_symbols
+from gruebler.chain.pairs import PAIRS, Alphabet, Contact, Space, pair, read_symbols
+from gruebler.errors import PairError
+from gruebler.text import error_in_language
 
 # Table 2.2 of the seeds as reconstructed: German symbol -> f in space (f = sum of the indices, W counts 1).
 TABLE_2_2 = {
@@ -115,3 +116,12 @@ def test_symbols_that_cannot_be_read_are_refused_with_the_readings(symbols, spac
 def test_pairs_are_values():
     for p in PAIRS:
         assert pickle.loads(pickle.dumps(p)) is pair(p.name) is pair(p.german)
+
+
+def test_an_error_names_pairs_and_spaces_in_the_language_of_the_reader():
+    with pytest.raises(PairError) as refused:
+        read_symbols(["S"], Space.SPATIAL)
+    assert "Schubgelenk" in error_in_language(refused.value, "de")
+    assert "Kugelgelenk" in error_in_language(refused.value, "de")
+    assert str(pair("prismatic").title) == "prismatic"
+    assert pickle.loads(pickle.dumps(pair("prismatic").title)).in_language("de") == "Schubgelenk"

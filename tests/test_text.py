@@ -7,8 +7,19 @@ from string import Formatter
 import pytest
 
 from gruebler import errors
-from gruebler.errors import ChainError, GrueblerError
-from gruebler.text import LANGUAGES, Message, arity, error_in_language, listed, message, number, plural, translate
+from gruebler.errors import ChainError, GrueblerError, nearest
+from gruebler.text import (
+    LANGUAGES,
+    Message,
+    arity,
+    error_in_language,
+    in_every_language,
+    listed,
+    message,
+    number,
+    plural,
+    translate,
+)
 from tests.messages import LOCALE, SOURCES, Found, Unreadable, catalog_path, compiled, messages, read, updated
 
 OTHERS = LANGUAGES[1:]
@@ -120,6 +131,23 @@ def test_messages_in_messages_are_translated_with_them():
     assert error_in_language(error, "de") == "und: 'x'"
     assert error_in_language(GrueblerError("{cause}!", cause=error), "de") == "und: 'x'!"
     assert str(error) == "and: 'x'"
+
+
+def test_an_error_can_be_raised_with_a_message():
+    error = ChainError(message("{a} and {b}", a=message("and"), b=1.5))
+    assert (type(error), str(error), error.text, error.values["b"]) == (ChainError, "and and 1.5", "{a} and {b}", 1.5)
+
+
+def test_offered_words_are_translated():
+    error = GrueblerError("{word!r}{suggestion}", word="cranck", suggestion=nearest("cranck", ["frame", "crank"]))
+    assert str(error) == "'cranck'; did you mean 'crank'?"
+    assert error_in_language(error, "de") == "'cranck'; gemeint ist vielleicht 'crank'"
+
+
+def test_whatever_is_read_in_a_language_fills_a_gap():
+    words = in_every_language(lambda lang: arity(3, lang))
+    assert (translate("{x}", "de", x=words), translate("{x}", "en", x=words)) == ("ternär", "ternary")
+    assert str(GrueblerError("{x}", x=words)) == "ternary"
 
 
 def test_lists_and_words():

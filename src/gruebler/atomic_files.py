@@ -74,8 +74,8 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
     except OSError as error:
         about = str(path) if error.filename is None else str(error.filename)
         if about != str(path) and not about.endswith(PARTIAL):  # not the file written here
-            raise RunError("{about} cannot be used: {value}", about=about, value=error.strerror or error) from None
-        raise RunError("{path} cannot be written: {value}", path=path, value=error.strerror or error) from None
+            raise RunError("{file} cannot be used: {reason}", file=about, reason=error.strerror or error) from None
+        raise RunError("{path} cannot be written: {reason}", path=path, reason=error.strerror or error) from None
     finally:
         if temporary != path:
             temporary.unlink(missing_ok=True)
@@ -137,9 +137,9 @@ def temporary_directory() -> Iterator[Path]:
         directory, handle = _created_directory(beginning)
     except OSError as error:
         raise RunError(
-            "{gettempdir} cannot be used for temporary files: {value}",
-            gettempdir=gettempdir(),
-            value=error.strerror or error,
+            "{folder} cannot be used for temporary files: {reason}",
+            folder=gettempdir(),
+            reason=error.strerror or error,
         ) from None
     try:
         yield directory

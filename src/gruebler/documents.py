@@ -14,10 +14,12 @@ from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
+from gruebler.text import Message, message
+
 __all__ = ["Failing", "convert_document", "infinities_as_words", "load_document"]
 
-Failing = Callable[[str], Exception]
-"""Makes the exception of a sentence."""
+Failing = Callable[[Message], Exception]
+"""Makes the exception of a message; the errors of the library are such makers themselves."""
 
 Record = TypeVar("Record", bound=msgspec.Struct)
 
@@ -33,23 +35,25 @@ def load_document(path: Path, fail: Failing) -> Any:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
     except OSError as error:
-        raise fail(f"cannot be read ({error.strerror or error})") from None
+        raise fail(message("cannot be read ({reason})", reason=error.strerror or error)) from None
     if len(content) > LARGEST:
-        raise fail(f"larger than {LARGEST:,} bytes")
+        raise fail(message("larger than {limit:,} bytes", limit=LARGEST))
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise fail("is not UTF-8 text") from None
+        raise fail(message("is not UTF-8 text")) from None
+    if not text.strip():
+        raise fail(message("is empty"))
     if form == "TOML" and any(line.count(".") > _DOTS for line in text.splitlines()):
-        raise fail(f"is nested too deeply: a line has more than {_DOTS} dots")
+        raise fail(message("is nested too deeply: a line has more than {limit} dots", limit=_DOTS))
     try:
         if form == "TOML":
             return tomllib.loads(text.replace("\r\n", "\n"))
         return json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
     except RecursionError:
-        raise fail("is nested too deeply") from None
+        raise fail(message("is nested too deeply")) from None
     except ValueError as error:  # also a number of thousands of digits
-        raise fail(f"is not {form}: {error}") from None
+        raise fail(message("is not {form}: {reason}", form=form, reason=error)) from None
 
 
 def _no_number(word: str) -> NoReturn:
@@ -93,7 +97,8 @@ def convert_document(data: object, kind: type[Record], fail: Failing, where: str
     ValueError: unknown key 'widht'; did you mean 'width'?
     """
     if not isinstance(data, Mapping):
-        raise fail(f"{where}: expected a table of keys" if where else "expected a table of keys")
+        problem = message("expected a table of keys")
+        raise fail(message("{key}: {problem}", key=where, problem=problem) if where else problem)
     prefix = f"{where}." if where else ""
     _refuse_strange_keys(data, kind, fail, prefix)
     try:
@@ -102,14 +107,24 @@ def convert_document(data: object, kind: type[Record], fail: Failing, where: str
         raise fail(_readable(str(error), prefix)) from None
 
 
-def _readable(message: str, prefix: str) -> str:
+_PROBLEMS = (
+    (r"Expected `(?P<wanted>[^`]*)`, got `(?P<found>[^`]*)`", message("expected {wanted}, got {found}")),
+    (r"Object missing required field `(?P<key>[^`]*)`", message("the key {key!r} is missing")),
+)
+"""What msgspec says most often."""
+
+
+def _readable(error: str, prefix: str) -> Message:
     """Msgspec's message with the path of the key in front: ``claims.n: expected int, got str``."""
-    match = re.fullmatch(r"(.*?)(?: - at `\$\.?(.*)`)?", message, re.DOTALL)
+    match = re.fullmatch(r"(.*?)(?: - at `\$\.?(.*)`)?", error, re.DOTALL)
     assert match is not None  # the second group is optional
     text = match[1].replace("`", "")
-    text = text[:1].lower() + text[1:]
+    problem: object = text[:1].lower() + text[1:]
+    for pattern, known in _PROBLEMS:
+        if (parts := re.fullmatch(pattern, match[1])) is not None:
+            problem = known.filled(**parts.groupdict())
     key = (prefix + (match[2] or "")).rstrip(".")
-    return f"{key}: {text}" if key else text
+    return message("{key}: {problem}", key=key, problem=problem) if key else message("{problem}", problem=problem)
 
 
 def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], fail: Failing, prefix: str) -> None:
@@ -117,13 +132,21 @@ def _refuse_strange_keys(data: Mapping[str, Any], kind: type[msgspec.Struct], fa
     for key, value in data.items():
         if key not in fields:
             close = get_close_matches(key[:50], fields, n=1, cutoff=0.4)
-            hint = f"did you mean {close[0]!r}?" if close else f"the keys here are {', '.join(fields)}"
-            raise fail(f"unknown key {prefix + key[:50]!r}; {hint}")
+            raise fail(
+                message(
+                    "unknown key {key!r}; did you mean {nearest!r}?"
+                    if close
+                    else "unknown key {key!r}; the keys here are {known}",
+                    key=prefix + key[:50],
+                    nearest="".join(close),
+                    known=", ".join(fields),
+                )
+            )
         for inner in _records_within(fields[key]):
             values = value if isinstance(value, list) else [value]
-            for one in values:
-                if isinstance(one, Mapping):
-                    _refuse_strange_keys(one, inner, fail, f"{prefix}{key}.")
+            for record in values:
+                if isinstance(record, Mapping):
+                    _refuse_strange_keys(record, inner, fail, f"{prefix}{key}.")
 
 
 def _records_within(annotation: Any) -> list[type[msgspec.Struct]]:

@@ -5,20 +5,33 @@ raises; an honest failure (a budget spent, a proof not found) is a result and ne
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, Protocol
 
 LONGEST = 1000
 """Characters of a message; 300 of them at most without a space."""
 _WORD = 300
 
 
+class Template(Protocol):
+    """A text with gaps and the values that fill them: `text.Message`."""
+
+    @property
+    def text(self) -> str:
+        """The English text."""
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """What fills the gaps, by their names."""
+
+
 class GrueblerError(ValueError):
     """The common parent: catching it catches every refusal of this library, and nothing else.
 
-    It carries an English text with gaps and the values that fill them, so that `text.error_in_language` can say it in
-    another language. What it says is one line of bounded length, however long the input is that it quotes.
+    It carries an English text with gaps and the values that fill them (or a message that has both), so that
+    `text.error_in_language` can say it in another language. What it says is one line of bounded length, however long
+    the input is that it quotes.
 
     >>> str(LinkageError("joint {joint!r} has no radius", joint="R(0-1)"))
     "joint 'R(0-1)' has no radius"
@@ -27,7 +40,10 @@ class GrueblerError(ValueError):
     (315, True, "xxxx' is not a chain")
     """
 
-    def __init__(self, text: str = "", /, **values: Any) -> None:
+    def __init__(self, text: str | Template = "", /, **values: Any) -> None:
+        if not isinstance(text, str):
+            values = {**text.values, **values}
+            text = text.text
         super().__init__(shortened(text.format(**values) if values else text))
         self.text = text
         self.values = values
@@ -95,6 +111,12 @@ def _without_middle(text: str, most: int) -> str:
     return text[: most - len(middle) - end] + middle + text[-end:]
 
 
+class Suggestion(str):
+    """The end of an English message that offers a word; `text` says it in other languages."""
+
+    word: str
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """The end of a message that offers the known word nearest to a wrong one, or nothing.
 
@@ -102,4 +124,8 @@ def nearest(word: str, known: Iterable[str]) -> str:
     "; did you mean 'crank'?"
     """
     close = get_close_matches(word, list(known), n=1, cutoff=0.5)
-    return f"; did you mean {close[0]!r}?" if close else ""
+    if not close:
+        return ""
+    suggestion = Suggestion(f"; did you mean {close[0]!r}?")
+    suggestion.word = close[0]
+    return suggestion

@@ -51,6 +51,11 @@ class GenevaSizes(NamedTuple):
     """The angle of the locking disc between two pins, in radians."""
 
 
+def _whole(number: object, least: int) -> bool:
+    """Whether a number is whole and in its range."""
+    return isinstance(number, int) and not isinstance(number, bool) and least <= number <= _MOST
+
+
 @dataclass(frozen=True, slots=True)
 class Geneva:
     """A Geneva drive whose pins enter and leave the slots without a jump of speed.
@@ -67,24 +72,23 @@ class Geneva:
     pins: int = 1
 
     def __post_init__(self) -> None:
-        for name, number, least in (("slots", self.slots, 3), ("pins", self.pins, 1)):
-            if not isinstance(number, int) or isinstance(number, bool) or number < least:
-                raise GenevaError(
-                    "a Geneva drive has a whole number of {name}, at least {least}, not {number!r}",
-                    name=name,
-                    least=least,
-                    number=number,
-                )
-            if number > _MOST:
-                raise GenevaError(
-                    "a Geneva drive has {most:,} {name} at most, not {number:,}", most=_MOST, name=name, number=number
-                )
-        if self.pins > self.most_pins:
-            kind = "internal" if self.internal else "external"
+        if not _whole(self.slots, 3):
             raise GenevaError(
-                "an {kind} Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
+                "a Geneva drive has a whole number of slots from 3 to {most:,}, not {slots!r}",
+                most=_MOST,
+                slots=self.slots,
+            )
+        if not _whole(self.pins, 1):
+            raise GenevaError(
+                "a Geneva drive has a whole number of pins from 1 to {most:,}, not {pins!r}", most=_MOST, pins=self.pins
+            )
+        if self.pins > self.most_pins:
+            raise GenevaError(
+                "an internal Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
+                "pin would enter before the last has left"
+                if self.internal
+                else "an external Geneva drive with {slots} slots takes at most {most_pins} pins, not {pins}: the next "
                 "pin would enter before the last has left",
-                kind=kind,
                 slots=self.slots,
                 most_pins=self.most_pins,
                 pins=self.pins,

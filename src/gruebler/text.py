@@ -10,32 +10,36 @@ from __future__ import annotations
 
 import gettext
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from decimal import Decimal
 from functools import cache
 from numbers import Number
 from pathlib import Path
 from string import Formatter
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import msgspec
 
-from gruebler.errors import GrueblerError, shortened
+from gruebler.errors import GrueblerError, Suggestion, shortened
 
 __all__ = [
     "LANGUAGES",
     "LOCALE",
     "Message",
+    "Readable",
     "Text",
     "arity",
     "decimal_sign_in",
     "error_in_language",
+    "in_every_language",
     "joined",
+    "joined_by_and",
     "joined_by_or",
     "listed",
     "message",
     "number",
+    "number_separator",
     "plural",
     "translate",
     "translate_in_context",
@@ -71,6 +75,14 @@ def number(value: Any, lang: str = "en", form: str = ".6g") -> str:
     return written.translate(_DECIMAL_COMMA) if lang in _COMMA_LANGUAGES else written
 
 
+@runtime_checkable
+class Readable(Protocol):
+    """What is read in a language: messages, texts of data files, names of types and roles."""
+
+    def in_language(self, lang: str) -> str:
+        """The text in a language."""
+
+
 class _LocalFormatter(Formatter):
     """`str.format` with numbers and messages in a language."""
 
@@ -81,7 +93,9 @@ class _LocalFormatter(Formatter):
         value = super().get_value(key, args, kwargs)
         if isinstance(value, GrueblerError):
             return error_in_language(value, self.lang)
-        return value.in_language(self.lang) if isinstance(value, Message) else value
+        if isinstance(value, Suggestion):
+            return translate("; did you mean {word!r}?", self.lang, word=value.word)
+        return value.in_language(self.lang) if isinstance(value, Readable) else value
 
     def format_field(self, value: Any, form: str) -> str:
         written = format(value, form)
@@ -173,7 +187,7 @@ def listed(items: Iterable[object], lang: str = "en", last: Message = _AND) -> s
     >>> listed("abc"), listed("ab", "de"), listed("a")
     ('a, b and c', 'a und b', 'a')
     """
-    words = [item.in_language(lang) if isinstance(item, Message) else str(item) for item in items]
+    words = [item.in_language(lang) if isinstance(item, Readable) else str(item) for item in items]
     return f"{', '.join(words[:-1])} {last.in_language(lang)} {words[-1]}" if len(words) > 1 else "".join(words)
 
 
@@ -185,6 +199,16 @@ def joined_by_or(items: Sequence[object]) -> Message:
     """
     last = joined(items[-1:])
     return message("{items} or {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
+
+
+def joined_by_and(items: Sequence[object]) -> Message:
+    """Items that go together, as one message.
+
+    >>> joined_by_and(["a", message("{x} mm", x=1.5), "c"]).in_language("de")
+    'a, 1,5 mm und c'
+    """
+    last = joined(items[-1:])
+    return message("{items} and {last}", items=joined(items[:-1]), last=last) if len(items) > 1 else last
 
 
 _ARITIES = {
@@ -218,11 +242,37 @@ class Text(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
         """The text in one language."""
         return self.de if lang == "de" else self.en
 
+    def __str__(self) -> str:
+        return self.en
+
+
+def in_every_language(write: Callable[[str], str]) -> Text:
+    """What a function writes in each language, kept as a value: a chain in the symbols of the language, for example.
+
+    >>> in_every_language(lambda lang: arity(3, lang))
+    Text(en='ternary', de='ternär')
+    """
+    return Text(**{lang: write(lang) for lang in LANGUAGES})
+
+
+def number_separator(lang: str) -> str:
+    """What stands between numbers in a list: a semicolon where the comma is the decimal sign.
+
+    >>> number_separator("en"), number_separator("de")
+    (', ', '; ')
+    """
+    return "; " if lang in _COMMA_LANGUAGES else ", "
+
 
 def decimal_sign_in(numbers: str, lang: str) -> str:
-    """Numbers and their units with the decimal sign of a language.
+    """A formula, or numbers and their units, with the decimal sign of a language.
 
-    >>> decimal_sign_in("1.5 mm", "de"), decimal_sign_in("1.5 mm", "en")
-    ('1,5 mm', '1.5 mm')
+    Where that is a comma, a semicolon takes its place between numbers of which one has decimals.
+
+    >>> decimal_sign_in("1.5 mm", "de"), decimal_sign_in("1.5 mm", "en"), decimal_sign_in("(0.5, 3)", "de")
+    ('1,5 mm', '1.5 mm', '(0,5; 3)')
     """
-    return re.sub(r"(?<=\d)\.(?=\d)", ",", numbers) if lang == "de" else numbers
+    if lang not in _COMMA_LANGUAGES:
+        return numbers
+    numbers = re.sub(r"(\d\.\d+), (?=[-\d])|(?<=\d), (?=-?\d+\.\d)", r"\1; ", numbers)
+    return re.sub(r"(?<=\d)\.(?=\d)", ",", numbers)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 from gruebler.kinematics.kernel_calls import run_rows
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
@@ -27,7 +27,7 @@ FIVE_BAR = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R
 @pytest.mark.parametrize("name", LINKAGES)
 @pytest.mark.parametrize("branch", "+-")
 def test_a_sweep_finds_what_a_walk_finds(name: str, branch: str) -> None:
-    path = degrees(-3, 723, 2)
+    path = from_degrees(-3, 723, 2)
     swept = move(LINKAGES[name], path, branch=branch, speed=3, acceleration=-2, jerk=5, order=3)
     assert swept.closure_error < 1e-13
     for row in range(0, len(path) - 8, 4):
@@ -47,7 +47,7 @@ def test_the_swept_circle_is_as_good_as_the_library_s(far: float) -> None:
 
 
 def test_the_parallelogram_stays_one_over_ten_turns() -> None:
-    motion = move(FourBar(25, 70, 25, 70).linkage(), degrees(0, 3600, 0.5), speed=1)
+    motion = move(FourBar(25, 70, 25, 70).linkage(), from_degrees(0, 3600, 0.5), speed=1)
     assert motion.complete
     assert np.abs(motion.turns[:, 2] - 1).max() < 1e-7
     assert np.abs(motion.angle("rocker") - motion.drives[:, 0]).max() < 1e-7
@@ -61,7 +61,7 @@ def test_a_kite_goes_on_smoothly_where_its_outer_joints_meet(start: float, step:
     With phi the crank angle the line from A to B0 has the direction phi/2 - pi/2 throughout.
     """
     kite = FourBar(30, 50, 50, 30).linkage()
-    motion = move(kite, degrees(start, start + 1440, step), branch="+")
+    motion = move(kite, from_degrees(start, start + 1440, step), branch="+")
     assert motion.complete
     phi = motion.drives[:, 0]
     sine = np.sin(phi / 2) * (1 if np.sin(np.radians(start / 2 + 1e-9)) > 0 else -1)
@@ -73,7 +73,7 @@ def test_a_kite_goes_on_smoothly_where_its_outer_joints_meet(start: float, step:
 
 def test_a_rhombus_is_a_parallelogram_or_a_kite_as_its_branch_says() -> None:
     for branch in "+-":
-        motion = move(FourBar(20, 20, 20, 20).linkage(), degrees(10, 730, 1), branch=branch)
+        motion = move(FourBar(20, 20, 20, 20).linkage(), from_degrees(10, 730, 1), branch=branch)
         assert motion.complete
         assert motion.closure_error < 1e-12
         assert np.abs(np.diff(motion.turns, axis=0)).max() < 0.05
@@ -82,7 +82,7 @@ def test_a_rhombus_is_a_parallelogram_or_a_kite_as_its_branch_says() -> None:
 @pytest.mark.parametrize("high", [0.8, 3.0])
 @pytest.mark.parametrize("step", [1.0, 0.37, 11.0, 60.0])
 def test_three_parallel_cranks_stay_parallel(step: float, high: float) -> None:
-    motion = move(parallel_legs(high), degrees(50, 800, step), speed=1)
+    motion = move(parallel_legs(high), from_degrees(50, 800, step), speed=1)
     assert motion.complete, motion.message()
     assert np.abs(motion.angle("h") - motion.angle("h")[0]).max() < 1e-8
     assert motion.closure_error < 1e-13
@@ -132,7 +132,7 @@ def test_a_path_may_turn_back_rest_and_start_in_a_change_point(rows: tuple[float
 
 def test_a_fold_ends_the_motion() -> None:
     six = class_iii((0, 0), (0.5, 0.3), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5))
-    motion = move(six, degrees(31, 140, 1))
+    motion = move(six, from_degrees(31, 140, 1))
     assert motion.stop is not None
     assert motion.stop.reason == "singular"
     assert np.degrees(motion.stop.drives[0]) == pytest.approx(97.5252475, abs=1e-7)
@@ -141,7 +141,7 @@ def test_a_fold_ends_the_motion() -> None:
 @pytest.mark.parametrize("error", [1e-3, 1e-6, 1e-9, 1e-12, -1e-3, -1e-6])
 def test_a_near_miss_of_a_change_point_is_not_jumped(error: float) -> None:
     """With one base too far away the plate leaves the parallel branch smoothly; with one too near the motion ends."""
-    motion = move(parallel_legs(error=error), degrees(53, 230, 1))
+    motion = move(parallel_legs(error=error), from_degrees(53, 230, 1))
     assert motion.complete == (error > 0)
     if motion.complete:
         assert abs(motion.angle("h")[-1] - motion.angle("h")[0]) > 0.05
@@ -190,7 +190,7 @@ def test_a_mirrored_linkage_moves_as_the_mirror_image(
 @pytest.mark.parametrize("factor", [1e-6, 1e6, 3.0])
 @pytest.mark.parametrize("name", LINKAGES)
 def test_scaling_scales(name: str, factor: float) -> None:
-    path = degrees(5, 500, 1.5)
+    path = from_degrees(5, 500, 1.5)
     motion = move(LINKAGES[name], path, order=3)
     scaled = move(LINKAGES[name].scaled(factor), path, order=3)
     assert len(scaled) == len(motion)
@@ -202,18 +202,18 @@ def test_scaling_scales(name: str, factor: float) -> None:
 @pytest.mark.parametrize("factor", [1e-6, 1e6])
 def test_scaling_scales_larger_groups(factor: float) -> None:
     six = class_iii((0, 0), (0.5, 0.3), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5))
-    path = degrees(31, 140, 3)
+    path = from_degrees(31, 140, 3)
     motion, scaled = move(six, path, order=2), move(six.scaled(factor), path, order=2)
     assert len(scaled) == len(motion)
     assert np.allclose(scaled.rates, motion.rates, rtol=1e-7, atol=1e-8)
-    assert len(move(parallel_legs().scaled(factor), degrees(50, 400, 1))) == 351
+    assert len(move(parallel_legs().scaled(factor), from_degrees(50, 400, 1))) == 351
 
 
 @pytest.mark.parametrize("name", LINKAGES)
 def test_rows_may_coincide_and_be_far_apart(name: str) -> None:
     path = np.radians([3, 3, 3, 93, 183, 183, 273, 363, 273, 93, 3, 3, 3.5, 4, 4.5, 4.5, 5, 5, 5, 5.5, 6, 6, 90])
     motion = move(LINKAGES[name], path, order=1)
-    fine = move(LINKAGES[name], degrees(3, 363, 0.5))
+    fine = move(LINKAGES[name], from_degrees(3, 363, 0.5))
     assert motion.complete
     for row, angle in enumerate(np.degrees(path)):
         assert np.allclose(motion.turns[row], fine.turns[round((angle - 3) * 2)], rtol=0, atol=1e-10)

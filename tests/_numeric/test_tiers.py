@@ -100,26 +100,28 @@ def work() -> None:
     steady = {"speed": 1.0, "acceleration": 2.0, "jerk": 3.0, "order": 3}
     doors = FourBar(25, 70, 40, 70), FourBar(25, 70, 25, 70), SliderCrank(20, 70, 8), InvertedSliderCrank(50, 30, 3)
     for linkage in (door.linkage() for door in doors):
-        gr.move(linkage, gr.degrees(0, 200, 2), **steady)
-        gr.move(linkage, gr.degrees(0, 28, 4), **steady)
+        gr.move(linkage, gr.from_degrees(0, 200, 2), **steady)
+        gr.move(linkage, gr.from_degrees(0, 28, 4), **steady)
         circuit(linkage).at([0.5, 1.5])
-    gr.move(FourBar(50, 70, 40, 70).linkage(), gr.degrees(60, 360, 3))
-    gr.move(FourBar(30, 50, 50, 30).linkage(), gr.degrees(-30, 120, 10), **steady)  # a kite: its outer joints meet
+    gr.move(FourBar(50, 70, 40, 70).linkage(), gr.from_degrees(60, 360, 3))
+    gr.move(FourBar(30, 50, 50, 30).linkage(), gr.from_degrees(-30, 120, 10), **steady)  # a kite: its outer joints meet
     for linkage in (CLASS_III, parallel_legs()):
-        gr.move(linkage, gr.degrees(40, 140, 5), **steady)
+        gr.move(linkage, gr.from_degrees(40, 140, 5), **steady)
         gr.move(linkage, np.radians([50, 90, 53.2]), **steady)
     gr.move(parallel_legs(), np.radians([150, 180, 150]), order=0)  # back in a change point
     gr.move(FourBar(20, 20, 20, 20).linkage(), np.radians([178.6, 179.4, 180.1, 180.1, 179.4, 178.6]))
     gr.move(FourBar(20, 20, 20, 20).linkage(), np.radians([64.0, 104, 144, 184, 144, 104, 64]))
     rotatability(parallel_legs())
     for text, places in SLIDING:
-        gr.move(Linkage.from_drawing(Mechanism.parse(text), dict(enumerate(places))), gr.degrees(0, 20, 2), **steady)
+        gr.move(
+            Linkage.from_drawing(Mechanism.parse(text), dict(enumerate(places))), gr.from_degrees(0, 20, 2), **steady
+        )
     for name in ("cam", "cam_roller", "geneva", "belt", "friction_forced", "winch_plane"):
-        gr.move(entry(name).linkage(), gr.degrees(0, 30, 5), **steady)
+        gr.move(entry(name).linkage(), gr.from_degrees(0, 30, 5), **steady)
         circuit(entry(name).linkage())
     gr.move(entry("crane_cyl").linkage(), np.linspace(34.5, 47, 6), **steady)
     assembly_modes(conditions([(0, -1, 0, 0j, 1, 0j, 1), (0, 0, 1, 1, 1, 0j, 1), (0, 1, -1, 1, 1, 1.2, 1)]))
-    move_many(four_bars([25, 30], 70, 40, 70), gr.degrees(0, 60, 5), speed=1.0)
+    move_many(four_bars([25, 30], 70, 40, 70), gr.from_degrees(0, 60, 5), speed=1.0)
     for problem in PROBLEMS[2:]:  # four-bars through positions and points: a short way from known solutions
         begin, z = load_generic_solutions(problem)
         follow_from_generic(problem, z[:2], begin, begin * (1.01 + 0.005j), 1e-3)

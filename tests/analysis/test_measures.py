@@ -243,11 +243,11 @@ def test_strokes_are_those_between_dead_centres_that_follow_one_another():
 
 def test_change_points_that_are_not_known_are_not_told_as_none(monkeypatch):
     def no_circuit(*_, **__):
-        raise LinkageError("it cannot be followed", "er lässt sich nicht verfolgen")
+        raise LinkageError("this linkage has no drive")
 
     monkeypatch.setattr("gruebler.analysis.events.circuit", no_circuit)
     found = measures(parallel_legs())
     assert found.change_points == ()
-    assert "Change points of larger groups are not known: it cannot be followed" in found.explain()
-    assert "nicht bekannt: er lässt sich nicht verfolgen" in found.explain("de")
-    assert found.to_json()["change_points_note"] == "it cannot be followed"
+    assert "Change points of larger groups are not known: this linkage has no drive" in found.explain()
+    assert "nicht bekannt: dieses Getriebe hat keinen Antrieb" in found.explain("de")
+    assert found.to_json()["change_points_note"] == "this linkage has no drive"

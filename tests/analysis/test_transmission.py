@@ -14,7 +14,7 @@ from gruebler.analysis.outputs import find_output
 from gruebler.analysis.transmission import deviation_angle, measure_transmission, transmission_angle
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from tests.samples import CLASS_III, CYLINDER
@@ -32,7 +32,7 @@ SIZES = [
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("branch", [1, -1])
 def test_along_the_motion(size: FourBar | SliderCrank | InvertedSliderCrank, branch: int) -> None:
-    phi = degrees(0, 360, 1)
+    phi = from_degrees(0, 360, 1)
     motion = move(size.linkage(), phi, order=2, branch="+" if branch > 0 else "-")
     closed = size.motion(phi, branch=branch)
     assert transmission_angle(motion) == pytest.approx(closed.transmission_angle, abs=1e-12)
@@ -84,7 +84,7 @@ def test_a_scotch_yoke_is_driven_at_right_angles() -> None:
             "3": {"P(2-3)": (0, 0, math.pi / 3), "P(0-3)": (0, 0, 0)},
         },
     )
-    motion = move(yoke, degrees(0, 350, 10), order=2)
+    motion = move(yoke, from_degrees(0, 350, 10), order=2)
     assert transmission_angle(motion) == pytest.approx(np.full(36, math.pi / 3), abs=1e-12)
 
 
@@ -109,7 +109,7 @@ def test_larger_groups_are_measured_at_the_leg_on_the_moving_side() -> None:
 def test_virtual_work_at_the_driving_leg() -> None:
     """Force in the coupler of a four-bar against an output torque: M = F c sin mu."""
     size = FourBar(25, 70, 40, 70)
-    motion = move(size.linkage(), degrees(0, 359, 1), order=2)
+    motion = move(size.linkage(), from_degrees(0, 359, 1), order=2)
     rate = motion.angular("rocker", 1)
     coupler = motion.complex_point("R(coupler-rocker)") - motion.complex_point("R(crank-coupler)")
     pin = motion.complex_point("R(crank-coupler)", 1)

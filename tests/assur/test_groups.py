@@ -5,10 +5,11 @@ from collections import Counter
 import networkx as nx
 import pytest
 
-from gruebler import Chain, ChainError, code
+from gruebler import Chain, code
 from gruebler.assur import DYADS, AssurError, AssurGroup, assur_groups, group_of_truss
 from gruebler.assur.forms import roman
 from gruebler.enumeration import chains
+from gruebler.errors import ChainError
 from tests.assur.oracles import closed_chains
 
 TETRAD = "R(a-1) R(1-2) R(2-3) R(3-4) R(4-1) R(3-b)"

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gruebler import CatalogError, Chain
+from gruebler import Chain
 from gruebler.catalog import (
     Query,
     catalog_folder,
@@ -18,6 +18,7 @@ from gruebler.catalog import (
     exercises,
     search,
 )
+from gruebler.errors import CatalogError
 from gruebler.formats import Claims, read_entry
 from gruebler.formats.linkages import linkage_from_json, linkage_to_json
 from gruebler.isomorphism import is_isomorphic
@@ -305,7 +306,7 @@ four_bar = { a = 25, b = 70, c = 40, d = 70 }
         ("assumed = true", 'assumed = true\nsource = "page 3"', "dimensions: either assumed = true, or a source"),
         ("a = 25", "a = 0", "dimensions: four_bar: a must be positive, not 0.0"),
         ("a = 25", "a = 25, brnch = 1", "unknown key 'dimensions.four_bar.brnch'; did you mean 'branch'?"),
-        ('unit = "mm"', "", "dimensions: object missing required field unit"),
+        ('unit = "mm"', "", "dimensions: the key 'unit' is missing"),
         ("four_bar", "places", "dimensions: places: 'a' is not one of the joints"),
         ('unit = "mm"', 'unit = "mm"\ndrive = "R(frame-crank)"', "dimensions.drive: for an entry without drives"),
         ('unit = "mm"', 'unit = "mm"\nrange = [0, nan]', "dimensions.range: expected two numbers"),

@@ -18,7 +18,7 @@ from gruebler.catalog.feature_query import (
 )
 from gruebler.catalog.features import access_features
 from gruebler.chain.pairs import pair
-from gruebler.enumeration import count_request
+from gruebler.enumeration import count_chains
 from gruebler.mechanism.inversion import inversions
 from gruebler.type_synthesis import JointRequirement, Requirements, typed_chains, variants
 
@@ -49,7 +49,7 @@ def test_the_collection_sheet_001():
 @pytest.mark.parametrize(("links", "chains", "frames"), [(4, 1, 1), (6, 2, 5), (8, 16, 71), (10, 230, 1834)])
 def test_known_counts(links, chains, frames):
     assert number(links=links) == frames
-    found = count_request(links, orbits=True)
+    found = count_chains(links, orbits=True)
     assert (found.chains, found.inversions) == (chains, frames)
     if links < 10:
         assert number(links=links, drive_joints=1, drive_joints_at_frame=1) == found.drives

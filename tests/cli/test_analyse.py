@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -210,6 +211,22 @@ def test_a_linkage_with_one_position_says_so_in_both_languages(capsys):
         "The drive cannot move: all that can be assembled is one position, drive = 0°.\n",
     )
     assert run(capsys, "four-bar:10,20,30,60", "--lang", "de")[1].startswith("Der Antrieb ist unbeweglich: ")
+
+
+@pytest.mark.parametrize(
+    ("machine", "zeros"),
+    [
+        ("elliptic_gears", (0, 180, 360)),  # the ratio is largest or smallest
+        ("cam_rocker", (0, 45, 90, 105, 120, 135, 150, 210, 270, 285, 300, 315, 330, 345, 360)),  # dwells, middles
+        ("cam_rocker_flat", (0, 45, 90, 105, 120, 135, 150, 210, 270, 285, 300, 315, 330, 345, 360)),
+    ],
+)
+def test_rounding_noise_of_cams_and_non_circular_wheels_is_shown_as_zero(capsys, machine, zeros):
+    assert main(["analyse", machine, "--drive", "0:360:15"]) == 0
+    rows = [line.split() for line in capsys.readouterr().out.splitlines() if re.match(r" *\d+ ", line)]
+    assert len(rows) == 25
+    assert [int(row[0]) for row in rows if row[-1] == "0"] == list(zeros)
+    assert all(float(row[-1]) == 0 or abs(float(row[-1])) > 1e-3 for row in rows)
 
 
 def test_rounding_noise_is_shown_as_zero(capsys):

@@ -104,7 +104,7 @@ def test_show_in_full(capsys):
         "Zählung: F = 3(n - 1)",
         "Äußere Totlage bei 90°",
         "Geführte Punkte:",
-        "17.9796 hoch",
+        "17,9796 hoch",
         "Kuppelstange",
     ):
         assert words in out

@@ -5,10 +5,10 @@ import shlex
 
 import pytest
 
-from gruebler import CatalogError
 from gruebler.catalog import entries
 from gruebler.cli import coverage
 from gruebler.cli.commands import command as command_named
+from gruebler.errors import CatalogError
 
 # REFERENCE A1, row by row: where in the seeds, and a word of its name.
 CONCEPTS = (

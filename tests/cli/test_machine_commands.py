@@ -131,7 +131,7 @@ def test_cam_of_a_contour(capsys, tmp_path):
         (["cam", LIFT, "--base", "40", "--flat", "--offset", "3"], "changes nothing"),
         (["cam", LIFT, "--base", "40", "--flat", "--swing", "30", "90"], "no arm"),
         (["cam", "--contour", "nowhere.txt", "--flat"], "cannot be read"),
-        (["geneva", "2"], "at least 3"),
+        (["geneva", "2"], "from 3 to 2,000"),
         (["geneva", "four"], "invalid int value"),
         (["geneva", "4", "--pins", "9"], "at most 4 pins"),
         (["geneva", "4", "--distance", "-1"], "positive length"),

@@ -1,6 +1,7 @@
 """What the commands write: valid on every output, said when it goes into a file, safe in a spreadsheet."""
 
 import csv
+import io
 import json
 import os
 import subprocess
@@ -113,3 +114,32 @@ def test_json_of_what_cannot_be_assembled(capsys):
     found = json.loads(capsys.readouterr().out)
     assert (found["complete"], found["rows"]) == (False, [])
     assert "cannot be assembled" in found["message"]
+
+
+WRITING_TOO = WRITING | {
+    "synthesise": (["synthesise", "dead-centres", "--swing", "60", "--time-ratio", "1.2"], ".toml"),
+    "synthesise --json": (["synthesise", "dead-centres", "--swing", "60", "--time-ratio", "1.2", "--json"], ".json"),
+    "curve": (["curve", FOUR_BAR, "coupler:45,40"], ".csv"),
+    "statics": (["statics", FOUR_BAR, "--load", "R(crank-coupler)=0,-10", "--json"], ".csv"),
+    "cam": (["cam", "rise 20 90; fall 20 90; dwell", "--base", "40", "--roller", "10"], ".svg"),
+    "geneva": (["geneva", "4", "--distance", "100"], ".svg"),
+}
+
+
+@pytest.mark.parametrize("name", WRITING_TOO)
+def test_a_file_is_written_though_nobody_reads_the_output(tmp_path, monkeypatch, name):
+    """As after ``| head -1``: the output refuses everything."""
+
+    class Closed(io.StringIO):
+        def write(self, _):
+            raise BrokenPipeError
+
+        def fileno(self):
+            return other.fileno()
+
+    arguments, ending = WRITING_TOO[name]
+    path = tmp_path / f"out{ending}"
+    with (tmp_path / "other").open("w") as other:
+        monkeypatch.setattr(sys, "stdout", Closed())
+        assert main([*arguments, "-o", str(path)]) == 0
+    assert path.stat().st_size > 0

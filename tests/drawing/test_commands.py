@@ -7,6 +7,7 @@ import pytest
 
 from gruebler import GrueblerError
 from gruebler.cli import draw, gallery
+from gruebler.text import error_in_language
 
 DRAW = {
     "output": None,
@@ -123,7 +124,7 @@ def test_pictures_of_a_printed_gallery_stay_legible():
 def test_refusals_in_german():
     with pytest.raises(GrueblerError) as refused:
         gallery.run(Namespace(output=Path("x.html"), **(GALLERY | {"links": 5})))
-    assert refused.value.in_language("de").startswith("solche Ketten mit 5 Gliedern")
+    assert error_in_language(refused.value, "de").startswith("solche Ketten mit 5 Gliedern")
     with pytest.raises(GrueblerError) as refused:
         draw.run(Namespace(chain="four-bar:60,30,40,50", pose="171", **DRAW))
-    assert "der Antrieb geht in dieser Einbaulage" in refused.value.in_language("de")
+    assert "der Antrieb geht in dieser Einbaulage" in error_in_language(refused.value, "de")

@@ -26,7 +26,7 @@ from gruebler.drawing.linkage.posed_linkage import posed_along_motion, posed_lin
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import centrodes, inflection_circle
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -197,7 +197,7 @@ def test_so_many_positions_are_not_drawn(count):
 
 
 def test_a_motion_has_a_picture():
-    motion = move(WITH_POINT, degrees(0, 90, 5))
+    motion = move(WITH_POINT, from_degrees(0, 90, 5))
     figure = draw_motion(motion)
     assert figure.description.endswith("A motion of 19 poses; 5 of them thinly.")
     path = np.conj(posed_along_motion(motion).scale * motion.complex_point("K"))
@@ -208,14 +208,14 @@ def test_a_motion_has_a_picture():
 
 def test_a_motion_that_ends_says_so_and_one_without_poses_shows_its_structure():
     rocker = FourBar(60, 30, 40, 50).linkage()
-    assert "Die Bewegung endet" in draw_motion(move(rocker, degrees(0, 120, 5)), lang="de").description
-    nothing = draw_motion(move(rocker, degrees(100, 120, 5)))
+    assert "Die Bewegung endet" in draw_motion(move(rocker, from_degrees(0, 120, 5)), lang="de").description
+    nothing = draw_motion(move(rocker, from_degrees(100, 120, 5)))
     assert "At the start" in nothing.description
     assert styled(nothing, "hatch")
 
 
 def test_a_motion_shows_itself_in_notebooks():
-    motion = move(WITH_POINT, degrees(0, 90, 5))
+    motion = move(WITH_POINT, from_degrees(0, 90, 5))
     assert motion._repr_svg_() == draw_motion(motion).svg()
 
 

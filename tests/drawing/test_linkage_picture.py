@@ -287,7 +287,7 @@ def test_no_drive():
     places = {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)}
     drawn = Linkage.from_drawing(mechanism, places)
     figure = draw_linkage(drawn, show=["dimensions"])
-    assert "at home; nothing is driven" in figure.description
+    assert "in the reference pose; nothing is driven" in figure.description
     assert sorted(word for word in words(figure)) == ["2 mm", "4 mm", "6 mm", "6.325 mm"]
     assert not styles(figure, "drive")
     with pytest.raises(LinkageError, match="no joint is driven"):

@@ -3,6 +3,7 @@
 import cmath
 import io
 import math
+import re
 from xml.etree import ElementTree
 
 import numpy as np
@@ -414,3 +415,18 @@ def test_values_show_themselves_in_notebooks():
     ):
         assert f"<title>{title}</title>" in value._repr_svg_()
     assert "<animateTransform" in animate_geneva(Geneva(4))._repr_svg_()
+
+
+GERMAN = {
+    "cam": lambda: draw_cam(CAMS["roller"], 1.03, plot=True, lang="de"),
+    "Geneva drive": lambda: draw_geneva(Geneva(4), 0.5, plot=True, lang="de"),
+    "gear train": lambda: draw_train(read_train("a:20 b:1.5").train, lang="de"),
+}
+
+
+@pytest.mark.parametrize("machine", GERMAN)
+def test_numbers_in_german_pictures_have_a_decimal_comma(machine):
+    figure = GERMAN[machine]()
+    words = [figure.description, *(shape.words for shape in figure.shapes if isinstance(shape, TextShape))]
+    assert any(re.search(r"\d,\d", text) for text in words)
+    assert [text for text in words if re.search(r"\d\.\d", text)] == []

@@ -2,7 +2,7 @@
 
 import pytest
 
-from gruebler.enumeration import chains, count_chains, count_request
+from gruebler.enumeration import chains, count_chains
 from gruebler.enumeration.estimates import _ANY_JOINTS, _JOINT, _LINK, _NOT_FRACTIONATED
 from gruebler.enumeration.fractionated_count import count_fractionated
 
@@ -30,9 +30,9 @@ def test_fractionated_chains(table, kind):
 
 @pytest.mark.parametrize(("links", "mobility", "number"), [r for r in rows(_ANY_JOINTS) if r[2] < 300])
 def test_chains_with_any_joints(links, mobility, number):
-    assert count_request(links, mobility, fractionated="all", multiple_joints="any").chains == number
+    assert count_chains(links, mobility, fractionated="all", multiple_joints="any").chains == number
 
 
 @pytest.mark.slow
 def test_chains_with_any_joints_of_ten_links():
-    assert count_request(10, 1, fractionated="all", multiple_joints="any").chains == 2645
+    assert count_chains(10, 1, fractionated="all", multiple_joints="any").chains == 2645

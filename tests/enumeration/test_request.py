@@ -5,7 +5,7 @@ from itertools import pairwise
 import pytest
 
 from gruebler.enumeration.estimates import estimate, expected_chains
-from gruebler.enumeration.listing import chains, count_request
+from gruebler.enumeration.listing import chains, count_chains
 from gruebler.enumeration.request import Request, RequestError
 from gruebler.enumeration.work_units import _orbits
 from gruebler.errors import GrueblerError
@@ -34,7 +34,7 @@ def assortment(chain):
 @pytest.mark.parametrize("asked", REQUESTS, ids=str)
 def test_the_list_agrees_with_the_count(asked):
     found = list(chains(**asked))
-    counted = count_request(**asked, orbits=True)
+    counted = count_chains(**asked, orbits=True)
     assert counted.chains == len(found)
     assert sum(counted.by_assortment.values()) == sum(counted.by_fractionation.values()) == len(found)
     for numbers, number in counted.by_assortment.items():
@@ -42,7 +42,7 @@ def test_the_list_agrees_with_the_count(asked):
     orbits = [symmetry(chain) for chain in found]
     assert counted.inversions == sum(len(one.link_orbits) for one in orbits)
     assert counted.joint_orbits == sum(len(one.joint_orbits) for one in orbits)
-    plain = count_request(**asked)
+    plain = count_chains(**asked)
     assert (plain.chains, plain.inversions, plain.drives) == (counted.chains, None, None)
     if "assortment" in asked:
         wanted = asked["assortment"]
@@ -56,14 +56,14 @@ def test_the_list_agrees_with_the_count(asked):
 )
 def test_orbits_are_those_of_the_mechanisms(asked):
     found = list(chains(**asked))
-    counted = count_request(**asked, orbits=True)
+    counted = count_chains(**asked, orbits=True)
     assert counted.inversions == sum(len(inversions(chain)) for chain in found)
     assert counted.drives == sum(sum(1 for _ in driven_mechanisms(chain)) for chain in found)
     assert counted.drives == sum(_orbits(chain)[2] for chain in found)
 
 
 def test_json_of_a_count():
-    assert count_request(6, orbits=True).to_json() == {
+    assert count_chains(6, orbits=True).to_json() == {
         "links": 6,
         "mobility": 1,
         "chains": 2,
@@ -72,7 +72,7 @@ def test_json_of_a_count():
         "drives": 9,
         "joint_orbits": 6,
     }
-    assert count_request(7, 2, fractionated="all").to_json()["by_fractionation"] == {"none": 3, "link": 1, "joint": 0}
+    assert count_chains(7, 2, fractionated="all").to_json()["by_fractionation"] == {"none": 3, "link": 1, "joint": 0}
 
 
 @pytest.mark.parametrize(
@@ -109,7 +109,7 @@ def test_requests_that_ask_the_same_are_the_same_task():
 def test_known_sizes_are_right(asked):
     known, exact = expected_chains(Request(**asked))
     assert exact
-    assert known == count_request(**asked).chains
+    assert known == count_chains(**asked).chains
 
 
 def test_estimates_grow():

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
-from gruebler import PAIRS, FourBar, GrueblerError, rotatability
+from gruebler import FourBar, GrueblerError, rotatability
 from gruebler.catalog import entries
+from gruebler.chain.pairs import PAIRS
 from gruebler.exercises import TABLES, lines_of_table, teaching_table
 from gruebler.fourbar import FOUR_BAR_TYPES
 
@@ -29,7 +30,7 @@ JOINTS = [
 def test_joints():
     (table,) = teaching_table("joints")
     assert len(table.rows) == len(PAIRS)
-    told = {(int(row[0]), row[3].de, row[4].de) for row in table.rows if row[0] != "-"}
+    told = {(int(row[0]), row[3].in_language("de"), row[4].in_language("de")) for row in table.rows if row[0] != "-"}
     assert set(JOINTS) <= told
     for f, u, *_ in (row for row in table.rows if row[0] != "-"):
         assert int(f) + int(u) == 6
@@ -45,7 +46,7 @@ def test_links():
     ]
     for row in identity.rows:
         assert row[3].endswith(f" = {row[2]}")
-    assert roles.rows[0][1].de == "Gestell, Kurbel, Koppel, Schwinge"
+    assert roles.rows[0][1].in_language("de") == "Gestell, Kurbel, Koppel, Schwinge"
 
 
 def test_inversions():
@@ -58,14 +59,14 @@ def test_inversions():
         ("Doppelschwinge", "Koppel Schwinge Gestell Schwinge"),
     ]
     for row, (name, roles) in zip(table.rows, printed, strict=True):
-        assert row[-1].de.startswith(name)
-        assert " ".join(cell.de for cell in row[2:6]) == roles
+        assert row[-1].in_language("de").startswith(name)
+        assert " ".join(cell.in_language("de") for cell in row[2:6]) == roles
 
 
 def test_grashof():
     (table,) = teaching_table("grashof")
-    assert {row[-1].de for row in table.rows} == {
-        kind.german for (relation, _), kind in FOUR_BAR_TYPES.items() if relation in "<=>"
+    assert {row[-1].in_language("de") for row in table.rows} == {
+        kind.name("de") for (relation, _), kind in FOUR_BAR_TYPES.items() if relation in "<=>"
     }
     for row in table.rows:
         lengths = [float(x) for x in row[2:6]]
@@ -95,9 +96,9 @@ def test_transfer():
     assert rows[[0, -1], 2] == pytest.approx(rows[0, 2])  # the rocker comes back
     assert rows[6, 3] == pytest.approx(40)  # the stroke of 2a
     assert rows[-1, 5] == pytest.approx(90)  # one step of a cross with four slots
-    assert [row[1].en.split(",")[0] for row in kinds.rows] == ["uniform"] + 4 * ["non-uniform"]
+    assert [str(row[1]).split(",")[0] for row in kinds.rows] == ["uniform"] + 4 * ["non-uniform"]
     assert [row[3] for row in kinds.rows] == ["0%", "0%", "0%", "50%", "75%"]
-    assert [row[2].en for row in kinds.rows] == ["one sense", "to and fro", "to and fro", "to and fro", "one sense"]
+    assert [str(row[2]) for row in kinds.rows] == ["one sense", "to and fro", "to and fro", "to and fro", "one sense"]
 
 
 @pytest.mark.parametrize("name", TABLES)

@@ -15,6 +15,7 @@ from gruebler.formats.linkages import linkage_from_json, linkage_to_json, linkag
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import error_in_language
 
 HEXAGON = Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)")
 CYLINDER = Mechanism.parse('R(0-"arm 1") R(0-4) R(4-2) P("arm 1"-2); frame=0; drive=P("arm 1"-2)')
@@ -256,7 +257,7 @@ def test_mistakes_one_by_one(tmp_path, right, wrong, words):
 BAD_DOORS = [
     ({"four_bar": {"a": 0, "b": 70, "c": 40, "d": 70}}, "four_bar: a must be positive, not 0"),
     ({"four_bar": {"a": math.nan, "b": 70, "c": 40, "d": 70}}, "four_bar: a must be a finite number"),
-    ({"four_bar": {"a": 1, "b": 70, "c": 40}}, "four_bar: object missing required field d"),
+    ({"four_bar": {"a": 1, "b": 70, "c": 40}}, "four_bar: the key 'd' is missing"),
     ({"four_bar": {"a": 1, "b": 2, "c": 2, "d": 2, "branch": 2}}, "four_bar.branch: expected 1 or -1, but found 2"),
     ({"slider_crank": {"a": "2", "b": 3}}, "slider_crank.a: expected float, got str"),
     ({"slider_crank": {"a": 10**400, "b": 3}}, "slider_crank.a: number out of range"),
@@ -323,3 +324,26 @@ def test_what_is_no_file(tmp_path):
         read_linkage(tmp_path / "folder.json")
     with pytest.raises(LinkageError, match=r"is in a \.toml or \.json file"):
         read_linkage(tmp_path / "x.txt")
+
+
+@pytest.mark.parametrize(
+    ("text", "english", "german"),
+    [
+        ('unit = "mm"\nfour_baar = {}', "unknown key 'four_baar'; did you mean", "unbekannter Schlüssel 'four_baar'"),
+        (
+            "unit = 3\nfour_bar = {a=1, b=1, c=1, d=1}",
+            "unit: expected str, got int",
+            "unit: erwartet wird str, nicht int",
+        ),
+        ('unit = "mm"\nfour_bar = {a=1, b=1, c=1}', "the key 'd' is missing", "der Schlüssel 'd' fehlt"),
+        ('unit = "mm"\nfour_bar = [', "is not TOML", "kein gültiges TOML"),
+        ('unit = "mm"\npoints.K = {link="x", at=[0]}\nfour_bar = {a=1, b=1, c=1, d=1}', "no link 'x'", "Glied 'x'"),
+    ],
+)
+def test_refusals_can_be_read_in_german(tmp_path, text, english, german):
+    path = tmp_path / "linkage.toml"
+    path.write_text(text)
+    with pytest.raises(LinkageError) as refused:
+        read_linkage(path)
+    assert english in str(refused.value)
+    assert german in error_in_language(refused.value, "de")

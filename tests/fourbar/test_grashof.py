@@ -69,7 +69,7 @@ def test_decimal_lengths_are_change_points_though_their_sums_are_rounded():
 def test_every_row_of_the_table_is_reached_and_has_its_own_name():
     reached = {grashof(*row).type for row in itertools.product(range(1, 8), repeat=4)}
     assert reached == set(FOUR_BAR_TYPES.values())
-    assert len({kind.english for kind in reached}) == len({kind.german for kind in reached}) == len(reached)
+    assert len({kind.name("en") for kind in reached}) == len({kind.name("de") for kind in reached}) == len(reached)
 
 
 def directions(short_open: tuple[float, float], x: float, y: float) -> bool:

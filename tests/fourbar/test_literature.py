@@ -249,7 +249,7 @@ CONCHOID = [
 
 def test_exercise_17_conchoid_linkage():
     linkage = InvertedSliderCrank(a=30, d=50)
-    assert linkage.type.german == "schwingende Kurbelschleife"
+    assert linkage.type.name("de") == "schwingende Kurbelschleife"
     table = np.array(CONCHOID)
     motion = linkage.motion(np.radians(table[:, 0]))
     assert motion.point(90).value == pytest.approx(table[:, 1:3], abs=1e-6)

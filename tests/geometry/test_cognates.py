@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import cognate_sizes, cognates, coupler_sextic, parallel_motion, slider_cognates
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 
 LENGTHS = st.floats(1, 6)
 PLACES = st.floats(-6, 6)
@@ -168,10 +168,10 @@ def test_parallel_motion(bar):
     u, v = (45, 40) if bar is not LENKER else K
     linkage = parallel_motion(bar, u, v)
     assert linkage.mechanism.chain.n == 6
-    motion = move(linkage, degrees(180, 540, 5))
+    motion = move(linkage, from_degrees(180, 540, 5))
     assert motion.complete, motion.message()
     assert np.ptp(motion.angle("platform")) < 1e-8
-    expected = bar.motion(degrees(180, 540, 5)).point(u, v).value
+    expected = bar.motion(from_degrees(180, 540, 5)).point(u, v).value
     assert np.allclose(motion.point("K"), expected, rtol=0, atol=1e-8 * bar.d)
 
 

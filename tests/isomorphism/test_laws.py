@@ -9,7 +9,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from networkx.algorithms.isomorphism import categorical_node_match
 
-from gruebler import Chain, ChainError, NotationError
+from gruebler import Chain
+from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import CODE_PREFIX, code, decode, find_isomorphism, is_isomorphic, symmetry
 from tests.strategies import PLANAR, SPATIAL, chains, renumbered
 

@@ -5,13 +5,13 @@ import pytest
 
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 from gruebler.kinematics.batch import Designs, designs, four_bars, inverted_slider_cranks, move_many, slider_cranks
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
 RANDOM = np.random.default_rng(5)
-PATH = degrees(10, 400, 3)
+PATH = from_degrees(10, 400, 3)
 CLASS_III = Mechanism.parse("R(0-1) R(1-2) R(2-h) R(0-3) R(3-h) R(0-4) R(4-h); frame=0; drive=R(0-1)")
 SLIDER = SliderCrank(10, 40).linkage()
 CYLINDER = Mechanism.parse("R(0-1) R(0-4) R(4-2) P(1-2); frame=0; drive=P(1-2)")
@@ -57,7 +57,7 @@ def test_many_designs_move_as_each_alone(name: str, branch: str | None) -> None:
 def test_designs_with_a_larger_group_and_with_a_cylinder() -> None:
     places = [(0, 0), (0.5, 0.3), (2, 2), (5, 0), (4, 2.2), (2, 5.5), (3, 3.5)]
     drawings = [dict(enumerate((x + RANDOM.uniform(-0.1, 0.1), y) for x, y in places)) for _ in range(3)]
-    check(designs([Linkage.from_drawing(CLASS_III, drawing) for drawing in drawings]), path=degrees(31, 80, 1))
+    check(designs([Linkage.from_drawing(CLASS_III, drawing) for drawing in drawings]), path=from_degrees(31, 80, 1))
     lift = [
         Linkage.from_drawing(
             CYLINDER, {"R(0-1)": (0, 0), "R(4-2)": (3, y), "P(1-2)": (0, 0, np.arctan2(y, 3)), "R(0-4)": (4, 0)}

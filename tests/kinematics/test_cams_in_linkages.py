@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler import LinkageError
 from gruebler.analysis import measures
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cams import read_lift
+from gruebler.errors import LinkageError
 from gruebler.formats import linkage_from_json, linkage_to_json
 from gruebler.geneva import Geneva
-from gruebler.kinematics import circuit, degrees, move
+from gruebler.kinematics import circuit, from_degrees, move
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, GenevaWheel, Linkage
 from gruebler.mechanism import Mechanism
 
@@ -59,7 +59,7 @@ def geneva(slots=4, pins=1, internal=False):
     [(flat_follower(), "P(0-valve)"), (roller_follower(), "P(0-tappet)"), (roller_follower(offset=0.0), "P(0-tappet)")],
 )
 def test_a_cam_gives_the_lift_for_which_it_is_made(linkage, joint):
-    motion = move(linkage, degrees(-300, 720, 1), speed=1, order=3)
+    motion = move(linkage, from_degrees(-300, 720, 1), speed=1, order=3)
     assert motion.complete
     assert motion.closure_error < 1e-11
     angle = motion.drives[:, 0]
@@ -74,7 +74,7 @@ def test_a_cam_gives_the_lift_for_which_it_is_made(linkage, joint):
 @given(st.integers(3, 9), st.integers(1, 2), st.booleans())
 def test_geneva_drives(slots, pins, internal):
     pins = 1 if internal else pins
-    motion = move(geneva(slots, pins, internal), degrees(-500, 900, 1.7), speed=1, order=3)
+    motion = move(geneva(slots, pins, internal), from_degrees(-500, 900, 1.7), speed=1, order=3)
     assert motion.complete
     drive = Geneva(slots, internal, pins)
     wanted = drive.move(motion.drives[:, 0])
@@ -249,7 +249,7 @@ def test_dwells_are_reported():
     found = measures(roller_follower(), speed_rpm=60)
     assert "Dwell in the outer position from 90° to 150°, 60°: -10" in found.explain()
     assert "Rast in der inneren Lage von 270° bis 360°, 90°" in found.explain("de")
-    assert "In Rast: 0.416667 s je Periode." in found.explain("de")
+    assert "In Rast: 0,416667 s je Periode." in found.explain("de")
     told = found.to_json()
     assert [one["begin"] for one in told["dwells"]] == pytest.approx([90, 270], abs=1e-9)
     assert told["dwell_share"] == pytest.approx(150 / 360)

@@ -11,7 +11,7 @@ from gruebler.analysis import measures
 from gruebler.catalog import entry
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
@@ -29,7 +29,7 @@ def worst(found, wanted):
 
 def judged(linkage, closed, output, branch, tolerance):
     """Every pose and rate of the general solver against the closed forms, where they are well conditioned."""
-    phi = degrees(0, 360, 5)
+    phi = from_degrees(0, 360, 5)
     motion = move(linkage, phi, speed=3.0, acceleration=-2.0, jerk=5.0, branch=branch, order=3)
     sign = 1 if branch == "+" else -1
     rows = len(motion)
@@ -159,7 +159,12 @@ def test_rates_are_derivatives(name):
 
 
 def test_a_parallelogram_stays_one_over_ten_turns():
-    for phi in (degrees(0, 3600, 1), degrees(0.5, 3600, 15), degrees(0, 3600, 90), degrees(-3600, 0, 7)):
+    for phi in (
+        from_degrees(0, 3600, 1),
+        from_degrees(0.5, 3600, 15),
+        from_degrees(0, 3600, 90),
+        from_degrees(-3600, 0, 7),
+    ):
         motion = move(FourBar(1, 2, 1, 2).linkage(), phi, speed=1.0, order=3)
         assert motion.complete
         assert worst(motion.angle("rocker"), motion.angle("crank")) < 1e-7
@@ -188,7 +193,7 @@ def test_a_path_that_turns_back_in_a_change_point_is_retraced(path):
 
 
 def test_rates_at_rest_in_a_change_point():
-    motion = move(FourBar(20, 50, 20, 50).linkage(), degrees(0, 90, 10), speed=0, acceleration=2.0)
+    motion = move(FourBar(20, 50, 20, 50).linkage(), from_degrees(0, 90, 10), speed=0, acceleration=2.0)
     assert np.abs(motion.angular("rocker")).max() == 0
     assert np.abs(motion.angular("rocker", 2) - 2).max() < 1e-9
 
@@ -202,7 +207,7 @@ def test_a_row_at_a_limit_says_that_rates_are_not_finite():
 
 
 def test_an_antiparallelogram_stays_one():
-    motion = move(FourBar(1, 2, 1, 2).linkage(), degrees(10, 730, 1), branch="-", order=1)
+    motion = move(FourBar(1, 2, 1, 2).linkage(), from_degrees(10, 730, 1), branch="-", order=1)
     assert motion.complete
     turned = motion.angle("rocker")
     assert turned[-1] - turned[0] == pytest.approx(-4 * pi)
@@ -210,14 +215,14 @@ def test_an_antiparallelogram_stays_one():
 
 def test_a_near_parallelogram_is_no_parallelogram():
     """One part in a thousand off, the crank passes 180 degrees near a change point and keeps its mode."""
-    motion = move(FourBar(1, 2.001, 1.0005, 2).linkage(), degrees(90, 270, 1))
+    motion = move(FourBar(1, 2.001, 1.0005, 2).linkage(), from_degrees(90, 270, 1))
     assert motion.complete
     assert (motion.roots > 0).all()
 
 
 def test_the_end_of_a_range_is_found_exactly():
     four_bar = FourBar(50, 70, 40, 70)
-    motion = move(four_bar.linkage(), degrees(60, 360, 1))
+    motion = move(four_bar.linkage(), from_degrees(60, 360, 1))
     assert not motion.complete
     assert motion.stop.reason == "limit"
     assert motion.stop.drives[0] == pytest.approx(np.arccos((50**2 + 70**2 - 110**2) / (2 * 50 * 70)), abs=1e-12)
@@ -232,7 +237,7 @@ def test_the_end_of_a_range_is_found_exactly():
 def test_paths_that_pass_a_limit_end_there(lengths, branch):
     """Once an endless loop: the limit was found again and again from ever nearer."""
     four_bar = FourBar(*lengths)
-    for path in (degrees(0, 360, 5), degrees(40, 400, 1), np.linspace(0, 2 * pi, 7)):
+    for path in (from_degrees(0, 360, 5), from_degrees(40, 400, 1), np.linspace(0, 2 * pi, 7)):
         motion = move(four_bar.linkage(), path, branch=branch)
         if motion.complete or motion.stop.reason == "start":
             continue
@@ -246,7 +251,7 @@ def test_a_class_three_group_over_a_full_turn():
     linkage = Linkage.from_drawing(
         mechanism, dict(enumerate([(0, 0), (0.2, 0.132), (1, 3), (5, 0), (3.5, 3), (-2, 4), (2, 4.5)]))
     )
-    motion = move(linkage, degrees(0, 360, 1) + linkage.reference_pose["1"].angle, order=2)
+    motion = move(linkage, from_degrees(0, 360, 1) + linkage.reference_pose["1"].angle, order=2)
     assert motion.complete, motion.message()
     assert motion.closure_error < 1e-12
     assert np.abs(motion.places[:, -1] - motion.places[:, 0]).max() < 1e-9
@@ -258,10 +263,10 @@ def test_a_class_three_group_ends_inside_without_a_jump():
         Mechanism.parse(DRAWN["3-RR"][0]),
         dict(enumerate([(0, 0), (0.5, 0.3), *DRAWN["3-RR"][1][2:]])),
     )
-    motion = move(linkage, degrees(30, 200, 1), order=0)
+    motion = move(linkage, from_degrees(30, 200, 1), order=0)
     assert motion.stop.form == "3-RR"
     assert motion.stop.drives[0] == pytest.approx(np.radians(97.5252475), abs=1e-8)
-    fine = move(linkage, degrees(97, 97.6, 0.001))
+    fine = move(linkage, from_degrees(97, 97.6, 0.001))
     assert fine.stop.drives[0] == pytest.approx(motion.stop.drives[0], abs=1e-9)
     assert np.abs(np.diff(motion.angle("h"))).max() < 0.1
 

@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler import LinkageError
 from gruebler.analysis import measures
 from gruebler.cams import read_lift
 from gruebler.catalog import entry
 from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.errors import LinkageError
 from gruebler.formats import linkage_from_json, linkage_to_json, read_linkage, write_linkage
-from gruebler.kinematics import circuit, degrees, move
+from gruebler.kinematics import circuit, from_degrees, move
 from gruebler.kinematics.noncircular import transfer_of
 from gruebler.linkages import Linkage, NonCircular, Wheel
 from gruebler.mechanism import Mechanism
@@ -52,7 +52,7 @@ def transfer(linkage):
 
 @pytest.mark.parametrize("e", [0.1, 0.3, 0.5, 0.7, 0.8])
 def test_elliptic_gears_against_their_closed_form(e):
-    motion = move(pair(f"ellipse {e}"), degrees(-725, 1075, 6), speed=1, order=2)
+    motion = move(pair(f"ellipse {e}"), from_degrees(-725, 1075, 6), speed=1, order=2)
     assert motion.complete
     assert motion.closure_error < 1e-11
     angle = motion.angle("a")
@@ -68,7 +68,7 @@ def test_elliptic_gears_against_their_closed_form(e):
 @pytest.mark.parametrize(("text", "teeth"), [case for case in CASES if "ellipse" not in case[0]])
 def test_the_turn_is_the_mean_and_the_lift(text, teeth):
     mean = teeth[0] / teeth[1] if teeth[0] else 1
-    motion = move(pair(text, teeth), degrees(-400, 1100, 3.7), speed=1, order=2)
+    motion = move(pair(text, teeth), from_degrees(-400, 1100, 3.7), speed=1, order=2)
     assert motion.complete
     lift = read_lift(text)
     for order, tolerance in enumerate((1e-11, 1e-9, 1e-6)):
@@ -141,7 +141,7 @@ def test_an_ellipse_on_a_wheel_of_several_lobes():
     st.floats(0.1, 6),
 )
 def test_scale_and_rotation_change_nothing(case, factor, turned, start):
-    path = degrees(0, 500, 12)
+    path = from_degrees(0, 500, 12)
     plain = move(pair(*case, start=start), path, speed=1, order=2)
     other = move(pair(*case, start=start, turned=turned).scaled(factor), path, speed=1, order=2)
     assert plain.complete
@@ -181,7 +181,7 @@ def test_the_second_wheel_drives_and_the_pair_rolls():
     for joint in "GW":
         linkage = pair(f"ellipse {e}", joint=joint)
         mechanism = Mechanism.parse(f"R(0-a) R(0-b) {joint}(a-b); frame=0; drive=R(0-b)")
-        motion = move(linkage.with_mechanism(mechanism), degrees(-170, 170, 5))
+        motion = move(linkage.with_mechanism(mechanism), from_degrees(-170, 170, 5))
         assert motion.complete
         wanted = (1 - e) / (1 + e) * np.tan(-motion.angle("b") / 2)
         np.testing.assert_allclose(np.tan(motion.angle("a") / 2), wanted, atol=1e-9)
@@ -189,7 +189,7 @@ def test_the_second_wheel_drives_and_the_pair_rolls():
 
 def test_mirror_images():
     linkage = pair("ellipse 0.5", start=0.7)
-    motion, image = move(linkage, degrees(0, 360, 15)), move(linkage.mirrored(), degrees(0, -360, -15))
+    motion, image = move(linkage, from_degrees(0, 360, 15)), move(linkage.mirrored(), from_degrees(0, -360, -15))
     np.testing.assert_allclose(
         image.angle("b") - image.angle("b")[0], motion.angle("b")[0] - motion.angle("b"), atol=1e-9
     )

@@ -9,13 +9,13 @@ from gruebler.analysis import measures
 from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.errors import LinkageError
-from gruebler.kinematics import circuit, degrees, move
+from gruebler.forces import Loads, statics
+from gruebler.kinematics import circuit, from_degrees, move
 from gruebler.kinematics.batch import move_many
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.screws import freedoms
-from gruebler.statics import Loads, statics
 
 LOCOMOTIVE = Mechanism.parse(
     "R(frame-crank) R(crank-rod) R(rod-second) R(frame-second) R(rod-third) R(frame-third); "
@@ -46,7 +46,7 @@ def dixon(xs, ys, off=0.0):
 @pytest.mark.parametrize("angle", [0.3, 1.0, 2.5])
 @pytest.mark.parametrize("feet", [((0, 0), (50, 0), (80, 10)), ((0, 0), (50, 0), (120, 0))])
 def test_a_third_equal_crank_goes_round(feet, angle):
-    motion = move(locomotive(feet, angle=angle), degrees(0, 720, 1), speed=2)
+    motion = move(locomotive(feet, angle=angle), from_degrees(0, 720, 1), speed=2)
     assert motion.complete
     assert motion.closure_error < 1e-9
     for link in ("second", "third"):
@@ -57,7 +57,7 @@ def test_a_third_equal_crank_goes_round(feet, angle):
 
 def test_a_path_may_start_in_a_change_point():
     for start in (0, 180):
-        motion = move(locomotive(((0, 0), (50, 0), (120, 0))), degrees(start, start + 360, 5))
+        motion = move(locomotive(((0, 0), (50, 0), (120, 0))), from_degrees(start, start + 360, 5))
         assert motion.complete
         assert motion.closure_error < 1e-9
 
@@ -76,7 +76,7 @@ def test_neither_unit_nor_place_matters(scale, turn, shift):
     linkage = locomotive(feet, crank=20 * scale, angle=1.0 + turn)
     made = cached_plan(linkage)
     assert made.released == cached_plan(locomotive()).released
-    motion = move(linkage, linkage.reference_pose["crank"].angle + degrees(0, 360, 10))
+    motion = move(linkage, linkage.reference_pose["crank"].angle + from_degrees(0, 360, 10))
     assert motion.complete
     assert motion.closure_error < 1e-9
 
@@ -140,7 +140,7 @@ def test_two_sides_that_repeat_each_other():
     linkage = Linkage.from_drawing(mechanism, places)
     made = cached_plan(linkage)
     assert made.decomposition.class_number == 2  # both sides are solved by dyads
-    motion = move(linkage, degrees(10, 80, 1))
+    motion = move(linkage, from_degrees(10, 80, 1))
     assert motion.complete
     assert motion.closure_error < 1e-12
     assert motion.point("R(a4-top)")[:, 1] == pytest.approx(100 * np.sin(motion.drives[:, 0]), abs=1e-10)

@@ -5,13 +5,13 @@ from math import copysign, pi, radians
 import numpy as np
 import pytest
 
-from gruebler import LinkageError
 from gruebler.analysis import measures
 from gruebler.cams import Cam, Flat, Roller, read_lift
 from gruebler.catalog import entry
 from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.errors import LinkageError
 from gruebler.formats import linkage_from_json, linkage_to_json
-from gruebler.kinematics import circuit, degrees, move
+from gruebler.kinematics import circuit, from_degrees, move
 from gruebler.linkages import CamDisc, Circle, Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
 
@@ -64,7 +64,7 @@ def swing(motion, order=0):
 
 @pytest.mark.parametrize("linkage", [*ROLLERS, *FACES])
 def test_the_cam_gives_the_lift_for_which_it_is_made(linkage):
-    motion = move(linkage, degrees(-300, 720, 1), speed=1, order=3)
+    motion = move(linkage, from_degrees(-300, 720, 1), speed=1, order=3)
     assert motion.complete
     assert motion.closure_error < 1e-11
     angle = motion.drives[:, 0] - motion.drives[300, 0]
@@ -97,7 +97,7 @@ def test_the_cut_profile_touches_and_never_cuts(linkage):
     follower = Flat(cam.distance, cam.face) if cam.flat else Roller(cam.roller, arm=cam.arm, distance=cam.distance)
     cut = Cam(read_lift(cam.lift).scaled(radians(1)), cam.base, follower).profile(np.linspace(0, 2 * pi, 40_001))
     points = cut[:, 0] + 1j * cut[:, 1]
-    motion = move(linkage, degrees(0, 360, 15))
+    motion = move(linkage, from_degrees(0, 360, 15))
     for row in range(len(motion)):
         assert abs(touching(linkage, motion, row, points)) < 2e-6 * linkage.size
 

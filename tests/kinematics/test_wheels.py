@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gruebler import LinkageError
 from gruebler.analysis import measures, motion_roles, rotatability
+from gruebler.errors import LinkageError
 from gruebler.gears import Mesh, Train, speeds
-from gruebler.kinematics import circuit, degrees, move, move_many
+from gruebler.kinematics import circuit, from_degrees, move, move_many
 from gruebler.linkages import Circle, Linkage, LinkPoint, Wheel
 from gruebler.mechanism import Mechanism
 
@@ -111,7 +111,7 @@ def test_trains_on_fixed_axes(pairs):
         places[f"G({k}-{k + 1})"] = {str(k): Wheel(before, 0, a, a, belt), str(k + 1): Wheel(x, 0, size, size, belt)}
         ratio *= Fraction(a, size) if kind == "open" else Fraction(-a, size)
     linkage = Linkage.from_drawing(Mechanism.parse(f"{' '.join(joints)}; frame=0; drive=R(0-1)"), places)
-    motion = move(linkage, degrees(0, 400, 5), speed=1)
+    motion = move(linkage, from_degrees(0, 400, 5), speed=1)
     assert motion.complete
     last = str(len(pairs) + 1)
     np.testing.assert_allclose(motion.angular(last), float(ratio), rtol=1e-12)
@@ -127,7 +127,7 @@ def test_fergusons_paradox():
     for link, teeth in (("fast", 99), ("slow", 101)):  # cut to the same size
         radius = teeth * 120 / (teeth + 20)
         places[f"G(p-{link})"] = {link: Wheel(0, 0, radius, teeth), "p": Wheel(120, 0, 120 - radius, 20)}
-    motion = move(Linkage.from_drawing(Mechanism.parse(text), places), degrees(0, 3600, 5))
+    motion = move(Linkage.from_drawing(Mechanism.parse(text), places), from_degrees(0, 3600, 5))
     assert motion.angle("slow")[-1] / (20 * pi) == pytest.approx(1 / 101, abs=1e-13)
     assert motion.angle("fast")[-1] / (20 * pi) == pytest.approx(-1 / 99, abs=1e-13)
 
@@ -140,7 +140,9 @@ def test_cardan_circles():
     mechanism = Mechanism.parse("R(0-arm) R(arm-p) G(0-p); frame=0; drive=R(0-arm)")
     wheels = {"0": Wheel(0, 0, -20, -40), "p": Wheel(10, 0, 10, 20)}
     places = {"R(0-arm)": (0, 0), "R(arm-p)": (10, 0), "G(0-p)": wheels}
-    motion = move(Linkage.from_drawing(mechanism, places, {"P": ("p", 20, 0)}), degrees(0, 3600, 7), speed=1, order=3)
+    motion = move(
+        Linkage.from_drawing(mechanism, places, {"P": ("p", 20, 0)}), from_degrees(0, 3600, 7), speed=1, order=3
+    )
     angle = motion.drives[:, 0]
     rates = np.cos(angle), -np.sin(angle), -np.cos(angle), np.sin(angle)
     for order, wanted in enumerate(rates):
@@ -162,7 +164,7 @@ def test_an_eccentric_disc_is_a_slider_crank():
     mechanism = Mechanism.parse("R(0-disc) P(0-follower) G(disc-follower); frame=0; drive=R(0-disc)")
     touch = {"disc": Circle(3, 0, 10), "follower": (3, 10, 0)}
     places = {"R(0-disc)": (0, 0), "P(0-follower)": (0, 20, pi / 2), "G(disc-follower)": touch}
-    motion = move(Linkage.from_drawing(mechanism, places), degrees(0, 360, 5), speed=1, order=3)
+    motion = move(Linkage.from_drawing(mechanism, places), from_degrees(0, 360, 5), speed=1, order=3)
     assert motion.complete
     t = motion.drives[:, 0]
     lift = motion.displacement("P(0-follower)")
@@ -186,7 +188,7 @@ LINKAGES = {
 
 @pytest.mark.parametrize("linkage", LINKAGES.values(), ids=LINKAGES)
 def test_joints_stay_closed_and_the_way_back_is_the_same(linkage):
-    there = degrees(0, 1000, 5)
+    there = from_degrees(0, 1000, 5)
     motion = move(linkage, np.concatenate([there, there[-2::-1]]), speed=1)
     assert motion.complete
     assert motion.closure_error < 1e-12
@@ -221,7 +223,7 @@ def test_the_circuit_finds_the_same(linkage):
 
 def test_no_slip_at_the_contact():
     linkage = friction(shift=(3.0, 4.0))
-    motion = move(linkage, degrees(0, 720, 3), speed=1)
+    motion = move(linkage, from_degrees(0, 720, 3), speed=1)
     assert np.ptp(motion.angular("arm")) > 0.05
     one, two = linkage.element("W(1-2)", "1"), linkage.element("W(1-2)", "2")
     first, second = LinkPoint("1", one.x, one.y), LinkPoint("2", two.x, two.y)
@@ -279,15 +281,15 @@ def test_many_turns_do_not_add_up_to_an_error():
 
 def test_the_first_row_may_be_far_from_home_and_the_drive_counts_its_turns():
     linkage = geared_five_bar(20.0, 40.0)
-    motion = move(linkage, degrees(0, 1080, 5))
-    late = move(linkage, degrees(720, 1080, 5))
+    motion = move(linkage, from_degrees(0, 1080, 5))
+    late = move(linkage, from_degrees(720, 1080, 5))
     np.testing.assert_allclose(late.places[0], motion.places[0, -len(late) :], atol=1e-11)
     assert np.abs(motion.point("C")[72] - motion.point("C")[0]).max() > 1
 
 
 def test_branches_of_what_wheels_do_not_depend_on():
     linkage = geared_five_bar()
-    up, down = (move(linkage, degrees(0, 300, 5), branch=branch) for branch in "+-")
+    up, down = (move(linkage, from_degrees(0, 300, 5), branch=branch) for branch in "+-")
     np.testing.assert_allclose(up.angle("4"), down.angle("4"), atol=1e-12)
     assert np.abs(up.point("C") - down.point("C")).max() > 10
     with pytest.raises(LinkageError, match="a branch of this linkage"):
@@ -297,7 +299,7 @@ def test_branches_of_what_wheels_do_not_depend_on():
 def test_two_wheels_with_fixed_bearings_roll_although_the_count_says_no():
     mechanism = Mechanism.parse("R(0-1) R(0-2) W(1-2); frame=0; drive=R(0-1)")
     places = {"R(0-1)": (0, 0), "R(0-2)": (50, 0), "W(1-2)": {"1": Wheel(0, 0, 20), "2": Wheel(50, 0, 30)}}
-    motion = move(Linkage.from_drawing(mechanism, places), degrees(0, 720, 10), speed=3)
+    motion = move(Linkage.from_drawing(mechanism, places), from_degrees(0, 720, 10), speed=3)
     np.testing.assert_allclose(motion.angular("2"), -2, rtol=1e-13)
 
 
@@ -312,7 +314,7 @@ def test_wheels_need_a_home():
 
 def test_scaled_and_mirrored():
     linkage = friction(shift=(3.0, 4.0))
-    path = degrees(0, 300, 5)
+    path = from_degrees(0, 300, 5)
     motion = move(linkage, path)
     large, mirror = move(linkage.scaled(3), path), move(linkage.mirrored(), -path)
     np.testing.assert_allclose(large.places[0], 3 * motion.places[0], atol=1e-10)

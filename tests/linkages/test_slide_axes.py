@@ -4,7 +4,7 @@ from math import atan2, cos, degrees, hypot, radians, sin
 
 import pytest
 
-from gruebler import LinkageError
+from gruebler.errors import LinkageError
 from gruebler.formats.linkages import linkage_from_json
 from gruebler.linkages import Line, Pin
 

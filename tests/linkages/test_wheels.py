@@ -5,7 +5,7 @@ import tomllib
 
 import pytest
 
-from gruebler import LinkageError
+from gruebler.errors import LinkageError
 from gruebler.formats import linkage_from_json, linkage_to_json, linkage_to_toml
 from gruebler.linkages import Circle, Linkage, Wheel, with_lower_pairs
 from gruebler.linkages.wheels import carriers, redundant_wheels, rolling_factors

@@ -3,7 +3,8 @@
 import pytest
 from hypothesis import given, settings
 
-from gruebler import Chain, ChainError, code
+from gruebler import Chain, code
+from gruebler.errors import ChainError
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import driven_mechanisms, family, inversions
 from tests.strategies import chains

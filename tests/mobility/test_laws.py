@@ -5,7 +5,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler import Chain, ChainError
+from gruebler import Chain
+from gruebler.errors import ChainError
 from gruebler.isomorphism import find_isomorphism
 from gruebler.mobility import (
     counted,

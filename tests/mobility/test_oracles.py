@@ -10,8 +10,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from gruebler import Chain, ChainError
+from gruebler import Chain
 from gruebler._numeric import modular
+from gruebler.errors import ChainError
 from gruebler.mobility import counted, generic, generic_mobility, mobility_report, overconstrained
 from gruebler.mobility.idle import IdleCondition
 from tests.mobility import slow_circuits

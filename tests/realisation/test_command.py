@@ -31,7 +31,7 @@ def test_it_prints_a_linkage(capsys, tmp_path):
 @pytest.mark.parametrize("name", ["four.toml", "four.json"])
 def test_what_it_writes_moves(capsys, tmp_path, name):
     assert called(FOUR, drive=["R(3-0)"], seed=3, output=tmp_path / name, lang="de") == 0
-    assert "R(3-0) läuft um" in capsys.readouterr().out
+    assert "D(3-0) läuft um" in capsys.readouterr().out
     found = realise(Mechanism.parse(f"{FOUR}; drive=R(3-0)"), seed=3, budget=200)
     motion = move(read_linkage(tmp_path / name), found.path())
     assert motion.complete

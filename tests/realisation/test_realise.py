@@ -13,6 +13,7 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics import move
 from gruebler.linkages import Line
 from gruebler.realisation import realise, with_drives
+from gruebler.text import number
 
 FOUR = "R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"
 TURNING = (
@@ -187,4 +188,5 @@ def test_the_range_is_that_of_the_measures(text):
     (low, high), *_ = found.ranges
     assert span.low <= low < high <= span.high
     assert f"moves from {span.low:.7g} to {span.high:.7g} mm. Well conditioned" in found.message()
-    assert f"von {span.low:.7g} bis {span.high:.7g} mm. Mit guter Kondition" in found.message("de")
+    ends = [number(end, "de", ".7g") for end in (span.low, span.high)]
+    assert f"von {ends[0]} bis {ends[1]} mm. Mit guter Kondition" in found.message("de")

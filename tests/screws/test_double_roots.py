@@ -124,7 +124,7 @@ def test_home_screws_with_several_drives():
 
 
 def test_values_for_each_drive():
-    with pytest.raises(LinkageError, match="expected 1 drive value, one for each, but found 2"):
+    with pytest.raises(LinkageError, match="expected 1 drive value, but found 2"):
         freedoms(m.hooke(), at=[0.1, 0.2])
 
 

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from gruebler import LinkageError
+from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism

@@ -5,7 +5,7 @@ from math import cos, pi, sin, tan
 import numpy as np
 import pytest
 
-from gruebler import LinkageError
+from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Closing, SpatialLinkage, exponential, follow_joint, joint_value

@@ -130,7 +130,7 @@ def test_at_random_places_it_is_generic(text, seed):
 @settings(max_examples=30)
 @given(st.floats(1, 5), st.floats(1, 5), st.floats(1, 5), st.floats(0.1, 6))
 def test_four_bars_have_one_freedom_wherever_they_close(b, c, d, at):
-    from gruebler import LinkageError
+    from gruebler.errors import LinkageError
 
     try:
         found = freedoms(FourBar(1.0, b, c, d).linkage(), at=at)

@@ -6,7 +6,7 @@ from math import inf, nan, pi
 import numpy as np
 import pytest
 
-from gruebler import LinkageError
+from gruebler.errors import LinkageError
 from gruebler.mechanism import Mechanism
 from gruebler.screws import Closing, JointPlace, SpatialLinkage, common_group
 from gruebler.screws.motion_groups import MotionGroupKind

@@ -14,7 +14,7 @@ from gruebler.errors import CatalogError, LinkageError
 from gruebler.sheets import sheet, sheets
 from gruebler.sheets.expressions import Expression
 from gruebler.sheets.layout import page
-from gruebler.sheets.messages import LocalNumber, explanation_paragraphs, value_lines
+from gruebler.sheets.messages import explanation_paragraphs, typeset_number, value_lines
 from gruebler.sheets.model import Sheet, StatedValue
 from gruebler.sheets.records import read_sheet
 
@@ -217,7 +217,7 @@ def test_values_that_do_not_hold_are_found(tmp_path, old, new, id):
 def test_a_sheet_with_a_wrong_value_gets_no_page(tmp_path):
     path = tmp_path / "mzc.toml"
     path.write_text(MZC.replace('value = "25/3"', 'value = "26/3"', 1), encoding="utf-8")
-    with pytest.raises(CatalogError, match=r"sheet mzc: k is 8\.33333333, not what the record tells"):
+    with pytest.raises(CatalogError, match=r"sheet mzc: k is 8\.33333333, not what the record says"):
         page(Sheet(read_sheet(path)))
 
 
@@ -238,6 +238,18 @@ def test_the_german_page_has_decimal_commas():
     )
 
 
+@pytest.mark.parametrize("lang", ["en", "de"])
+def test_indices_stand_lower_on_the_page(lang):
+    """Nothing with an underscore is left; each index is a piece of its own and no space is lost before an equals."""
+    made = drawn("mzc", lang).svg()
+    texts = ElementTree.fromstring(made).iter("{http://www.w3.org/2000/svg}text")
+    words = ["".join(node.itertext()) for node in texts]
+    assert not [text for text in words if "_" in text]
+    assert "QG = 0,075/15 = 0,005" in words if lang == "de" else "QG = 0.075/15 = 0.005" in words
+    assert 'Q<tspan dy="2.8" font-size="8.2">G</tspan> <tspan dy="-2.8">= ' in made
+    assert "B₀KI = 10/3·√6" in " ".join(words)
+
+
 def test_unknown_sheets():
     with pytest.raises(CatalogError, match="did you mean 'mzc'"):
         sheet("mzk")
@@ -246,5 +258,5 @@ def test_unknown_sheets():
 
 
 def test_numbers_of_a_language():
-    assert f"{LocalNumber(-1.25, 'de'):.1f}" == "−1,2"
-    assert f"{LocalNumber(-1.25, 'en'):.2f}" == "−1.25"
+    assert typeset_number(-1.25, "de", ".1f") == "−1,2"
+    assert typeset_number(-1.25, "en", ".2f") == "−1.25"

@@ -9,7 +9,7 @@ import random
 import re
 import shutil
 import tempfile
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import chdir, contextmanager
 from dataclasses import dataclass, field
 from functools import cache
@@ -141,6 +141,45 @@ def _cams() -> list[Case]:
     ]
 
 
+def _tasks() -> list[Case]:
+    """Tasks of synthesis: every kind, in each of the three kinds of files."""
+    rows = [(0, 0, 0), (-2, 3.8, 81), (-0.1, 3.4, -16), (1.5, 0.8, -32), (-1.8, 2.2, 55)]
+    points = ((0, 0), (1, 0.5), (2, 0.4), (2.5, 0), (3, -1))
+    along = {"points": points, "fixed_pivots": ((0, -2), (3, -3))}
+    timed = {"points": points, "crank_angles": (0, 20, 45, 70, 100)}
+    around = {"points": [(round(math.cos(k), 3), round(0.7 * math.sin(k), 3)) for k in range(6)], "closed": True}
+    tasks: list[tuple[str, Mapping[str, object]]] = [
+        ("positions", {"positions": rows}),
+        ("positions", {"unit": "mm", "positions": rows[:3], "moving_pivots": ((1, 0), (0, 1))}),
+        ("function", {"inputs": (0, 20, 40), "outputs": (0, 15, 33)}),
+        ("function", {"inputs": (0, 20, 40), "outputs": (0, 15, 33), "output": "travel", "start_output": False}),
+        ("path", along),
+        ("path", timed),
+        ("path", around),
+        ("dead-centres", {"swing": 60, "time_ratio": 1.2}),
+        ("dead-centres", {"stroke": 60, "crank_angle": 190}),
+    ]
+    tables = (
+        ("positions", "x,y,angle", rows),
+        ("path", "x,y,crank", [(*p, turn) for p, turn in zip(points, timed["crank_angles"], strict=True)]),
+        ("function", "input,travel", [(0, 0), (20, 15), (40, 33)]),
+        ("dead-centres", "swing,time_ratio", [(60, 1.2)]),
+    )
+    written = [
+        *((kind, "task.json", json.dumps(task)) for kind, task in tasks),
+        *((kind, "task.toml", "".join(f"{k} = {json.dumps(v)}\n" for k, v in task.items())) for kind, task in tasks),
+        *(
+            (kind, "task.csv", "\n".join([header, *(",".join(map(str, row)) for row in table)]))
+            for kind, header, table in tables
+        ),
+    ]
+    asked = (("--json",), ("-o", "best.toml"), ("--draw", "best.svg", "--lang", "de"))
+    return [
+        Case(("synthesise", kind, f"{{{name}}}", *asked[k % len(asked)]), {name: text.encode()})
+        for k, (kind, name, text) in enumerate(written)
+    ]
+
+
 def _gears() -> list[Case]:
     texts = (
         _GEARS,
@@ -197,6 +236,8 @@ def _words() -> list[Case]:
             ("plot", four_bar, "--kind", "transfer", "-o", "out.svg"),
             ("curve", four_bar, "coupler:45,40"),
             ("guidance", "lambda"),
+            ("synthesise", "dead-centres", "--swing", "60", "--time-ratio", "1.2"),
+            ("synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60"),
             ("statics", four_bar, "--load", "R(crank-coupler)=0,-10", "--at", "30"),
             ("freedoms", four_bar),
             ("sheet", "show", "mzc"),
@@ -235,6 +276,7 @@ VALID: dict[str, Callable[[], list[Case]]] = {
     "catalog records": _records,
     "cams": _cams,
     "gears": _gears,
+    "synthesis tasks": _tasks,
     "exercise answers": _answers,
     "checkpoints": _checkpoints,
     "options": _words,

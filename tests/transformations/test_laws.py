@@ -5,10 +5,10 @@ import json
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler import Chain, ChainError, counted, generic_mobility
+from gruebler import Chain
 from gruebler.assur import DYADS, AssurError, AssurGroup
-from gruebler.errors import TransformationError
-from gruebler.mobility import generic
+from gruebler.errors import ChainError, TransformationError
+from gruebler.mobility import counted, generic, generic_mobility
 from gruebler.mobility.placement import LockedFreedom
 from gruebler.transformations import (
     Derivation,

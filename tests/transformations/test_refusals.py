@@ -2,8 +2,8 @@
 
 import pytest
 
-from gruebler import Chain, GrueblerError, NotationError
-from gruebler.errors import TransformationError
+from gruebler import Chain, GrueblerError
+from gruebler.errors import NotationError, TransformationError
 from gruebler.transformations import (
     OPERATIONS,
     Derivation,

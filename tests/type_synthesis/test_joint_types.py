@@ -5,7 +5,8 @@ from itertools import combinations, product
 import networkx as nx
 import pytest
 
-from gruebler import Chain, ChainError, code
+from gruebler import Chain, code
+from gruebler.errors import ChainError
 from gruebler.mobility import counted, mobility_report
 from gruebler.type_synthesis import every_joint_moves, joint_types, with_contacts
 

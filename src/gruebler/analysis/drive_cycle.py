@@ -14,13 +14,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.change_point_rates import set_change_point_rates
-from gruebler.kinematics.contacts import MESH, POLAR, Condition
+from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
-from gruebler.kinematics.messages import stop_message
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.reference_pose import pose_at_reference
@@ -124,7 +124,7 @@ class DriveCycle(Brief):
         path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
         motion, rows = _run(self.plan, path, order, self.start)
         if not motion.complete:
-            raise LinkageError("the branch is lost within its range. {reason}", reason=stop_message(motion))
+            raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
         return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
     def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
@@ -161,7 +161,7 @@ def drive_cycle(linkage: Linkage, branch: str | Iterable[str] | None = None) -> 
     for stop in span.stops:
         if stop is not None and stop.reason == "open":
             motion = replace(start, stop=stop)
-            raise LinkageError("{reason}", reason=stop_message(motion))
+            raise LinkageError("{reason}", reason=motion.reason)
     size = 1.0 if _turns(plan) else plan.lower.size
     if span.width < _NARROW * size:
         middle = (span.low + span.high) / 2
@@ -200,7 +200,7 @@ class PathCycle(DriveCycle):
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
         if not motion.complete:
-            raise LinkageError("{reason}", reason=stop_message(motion))
+            raise LinkageError("{reason}", reason=motion.reason)
         return _rows(motion, 1 + np.argsort(order_of, kind="stable"))
 
 
@@ -216,7 +216,7 @@ def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | 
         raise LinkageError("the path of the drives has no length: its first row is its last")
     start = move(plan, ends[:1], branch=branch)
     if not start.complete:
-        raise LinkageError("{reason}", reason=stop_message(start))
+        raise LinkageError("{reason}", reason=start.reason)
     cycle = PathCycle(plan, start, CycleSpan(0.0, 1.0, False, 0, (None, None)), np.array([0.0, 1.0]), ends)
     return replace(cycle, grid=_grid(cycle))
 
@@ -267,7 +267,7 @@ def _begun(plan: Plan, branch: str | Iterable[str] | None) -> Motion:
     assert best is not None
     if not len(best):
         raise LinkageError(
-            "there is no position of the drive in which it can be assembled so. {reason}", reason=stop_message(best)
+            "there is no position of the drive in which it can be assembled so. {reason}", reason=best.reason
         )
     return best
 

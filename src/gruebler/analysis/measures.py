@@ -12,7 +12,7 @@
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
   output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
   ``dwell_time``;
-- ``change_points`` (tuple of `GroupChangePoint`: drive, links, form; ``change_points_notes`` say if some are not
+- ``change_points`` (tuple of `GroupChangePoint`: drive, links, form; ``change_points_error`` says if some are not
   known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
 - ``transmission`` (`TransmissionExtremes`: extremes, smallest, largest, legs, good; None if undefined, then
@@ -22,9 +22,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from math import isfinite, pi
+from math import degrees, isfinite, pi
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -43,14 +43,33 @@ from gruebler.analysis.events import (
     stops,
     transfer_function,
 )
+from gruebler.analysis.messages import (
+    MeasureUnits,
+    change_point_message,
+    dead_centre_message,
+    dwell_message,
+    dwell_share_message,
+    output_lines,
+    range_lines,
+    stroke_lines,
+    time_lines,
+    transmission_lines,
+    unknown_change_points_message,
+)
 from gruebler.analysis.outputs import Output, find_output
-from gruebler.analysis.transmission import NoTransmissionAngleError, TransmissionExtremes, measure_transmission
+from gruebler.analysis.transmission import (
+    NoTransmissionAngleError,
+    TransmissionExtremes,
+    TransmissionExtremum,
+    measure_transmission,
+)
 from gruebler.errors import LinkageError
 from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.kinematics.root_finding import sample_function
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
-from gruebler.text import error_in_language
+from gruebler.text import Message, message
 
 __all__ = ["Measures", "Transfer", "measures"]
 
@@ -96,18 +115,18 @@ class Measures(Brief):
     output_turns: int
     travel: float | None
     change_points: tuple[GroupChangePoint, ...]
-    change_points_notes: dict[str, str]
-    """Why those of larger groups are not known, by language; empty if they are."""
+    change_points_error: LinkageError | None
+    """Why those of larger groups are not known; None if they are."""
     transfer: Transfer
     transmission: TransmissionExtremes | None
-    transmission_notes: dict[str, str]
-    """Why there is no transmission angle, by language; empty if there is one."""
+    transmission_error: NoTransmissionAngleError | None
+    """Why there is no transmission angle; None if there is one."""
     speed_rpm: float | None
 
     @property
     def transmission_note(self) -> str:
         """Why there is no transmission angle, in English; empty if there is one."""
-        return self.transmission_notes["en"]
+        return str(self.transmission_error or "")
 
     @property
     def inner(self) -> OutputDeadCentre | Dwell | None:
@@ -206,19 +225,116 @@ class Measures(Brief):
 
     def explain(self, lang: str = "en") -> str:
         """The measures as lines of prose, in English (``en``) or German (``de``)."""
-        from gruebler.analysis.messages import explain_measures
+        lines = [line.in_language(lang) for line in self._lines()]
+        return "\n".join(line[:1].upper() + line[1:] for line in lines)
 
-        return "\n".join(explain_measures(self, lang))
+    def _lines(self) -> Iterator[Message]:
+        units = MeasureUnits(self.turning_drive, self.output.turning, self.linkage.unit, self.linkage.size)
+        yield from range_lines(units, self.span)
+        ratio = self.transfer.ratio if self.transfer.uniform else None
+        name, turns = self.output.name, self.output_turns
+        yield from output_lines(units, name, still=self.transfer.still, ratio=ratio, turns=turns, travel=self.travel)
+        yield from (dead_centre_message(units, centre) for centre in self.dead_centres)
+        yield from (dwell_message(units, dwell, self.span.period) for dwell in self.dwells)
+        if self.dwells:
+            yield dwell_share_message(self.dwell_share)
+        if self.phi_forward is not None and self.phi_back is not None:
+            yield from stroke_lines(units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells))
+        yield from time_lines(self.speed_rpm, self.times, self.dwell_time if self.dwells else None)
+        yield from (change_point_message(units, point) for point in self.change_points)
+        if self.change_points_error is not None:
+            yield unknown_change_points_message(self.change_points_error)
+        if self.transmission is not None:
+            yield from transmission_lines(units, self.transmission)
+        else:
+            yield message("{why}.", why=self.transmission_error)
 
     def to_json(self) -> dict[str, Any]:
         """The measures as plain data; angles in degrees, times in seconds."""
-        from gruebler.analysis.messages import measures_as_dict
+        turn = degrees if self.turning_drive else float
+        out = degrees if self.output.turning else float
+        span, transfer, transmission = self.span, self.transfer, self.transmission
+        rate = out(1.0) / turn(1.0)
 
-        return measures_as_dict(self)
+        def angle(value: float | None) -> float | None:
+            return None if value is None else degrees(value)
+
+        def crossing(c: Any, scale: float) -> dict[str, Any]:
+            return {"drive": turn(c.drive), "value": c.value * scale, "kind": c.kind}
+
+        def extreme(e: TransmissionExtremum) -> dict[str, Any]:
+            return {
+                "drive": turn(e.drive),
+                "mu": degrees(e.mu),
+                "deviation": degrees(e.deviation),
+                "links": list(e.links),
+            }
+
+        return {
+            "output": {"name": self.output.name, "unit": "deg" if self.output.turning else self.linkage.unit},
+            "drive": {
+                "unit": "deg" if self.turning_drive else self.linkage.unit,
+                "start": turn(self.start),
+                "branch": list(self.branch),
+                "full": span.full,
+                "turns": span.turns,
+                "range": None if span.full else [turn(span.low), turn(span.high)],
+                "stops": [None if s is None else {"reason": s.reason, "links": list(s.links)} for s in span.stops],
+            },
+            "ends": None if self.ends is None else [out(value) for value in self.ends],
+            "dead_centres": [
+                {"drive": turn(c.drive), "output": out(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
+                for c in self.dead_centres
+            ],
+            "dwells": [
+                {
+                    "begin": turn(d.begin),
+                    "end": turn(d.end),
+                    "duration": turn(d.duration),
+                    "output": out(d.output),
+                    "kind": d.kind,
+                    "side": d.side,
+                }
+                for d in self.dwells
+            ],
+            "dwell_share": self.dwell_share,
+            "dwell_time": self.dwell_time,
+            "output_turns": self.output_turns,
+            "travel": None if self.travel is None else out(self.travel),
+            "phi_forward": angle(self.phi_forward),
+            "phi_back": angle(self.phi_back),
+            "time_ratio": self.time_ratio,
+            "speed_rpm": self.speed_rpm,
+            "times": None if self.times is None else {"forward": self.times.forward, "back": self.times.back},
+            "change_points": [
+                {"drive": turn(c.drive), "links": list(c.links), "form": c.form, "several": c.several}
+                for c in self.change_points
+            ],
+            "transfer": {
+                "still": transfer.still,
+                "uniform": transfer.uniform,
+                "ratio": None if transfer.ratio is None else transfer.ratio / rate,
+                "smallest": transfer.smallest * rate,
+                "largest": transfer.largest * rate,
+                "zeros": [crossing(c, rate) for c in transfer.zeros],
+                "velocity": [crossing(c, rate) for c in transfer.velocity],
+                "acceleration": [crossing(c, rate / turn(1.0)) for c in transfer.acceleration],
+            },
+            "transmission": None
+            if transmission is None
+            else {
+                "smallest": extreme(transmission.smallest),
+                "largest": extreme(transmission.largest),
+                "good": transmission.good,
+                "extremes": [extreme(e) for e in transmission.extremes],
+            },
+            "change_points_note": str(self.change_points_error or ""),
+            "transmission_note": self.transmission_note,
+        }
 
 
 def measures(
-    linkage: Linkage,
+    linkage: LinkageLike,
     speed_rpm: float | None = None,
     branch: str | Iterable[str] | None = None,
     output: str | None = None,
@@ -226,7 +342,7 @@ def measures(
     """All measures of a linkage with one drive, over a full turn of the drive or over its whole range.
 
     Args:
-        linkage: a linkage whose drive fixes the motion.
+        linkage: a linkage whose drive fixes the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
         speed_rpm: the drive's speed in turns a minute, for the times; not zero.
         branch: as for `move`; without it that of the home position, else all ``+`` and 1. It is understood where the
             motion is begun: `gruebler.analysis.drive_cycle.drive_cycle`.
@@ -241,6 +357,7 @@ def measures(
     >>> round(found.time_ratio, 6), round(found.times.longest, 6), round(found.travel, 6)
     (1.357364, 0.115159, 1.205044)
     """
+    linkage = as_linkage(linkage)
     looked_at = find_output(linkage, output)
     speed = _speed(speed_rpm)
     cycle = drive_cycle(linkage, branch)
@@ -253,14 +370,16 @@ def measures(
         ends = low, high
     centres, rests = stops(cycle, looked_at)
     turns = output_turns(cycle, looked_at)
+    changes_error: LinkageError | None = None
     try:
-        changes, unknown = change_points(cycle), {"en": "", "de": ""}
-    except LinkageError as why:
-        changes, unknown = dyad_change_points(cycle), {lang: error_in_language(why, lang) for lang in ("en", "de")}
+        changes = change_points(cycle)
+    except LinkageError as error:
+        changes, changes_error = dyad_change_points(cycle), error
+    transmission_error: NoTransmissionAngleError | None = None
     try:
-        transmission, notes = measure_transmission(cycle, looked_at), {"en": "", "de": ""}
-    except NoTransmissionAngleError as why:
-        transmission, notes = None, {lang: error_in_language(why, lang) for lang in ("en", "de")}
+        transmission = measure_transmission(cycle, looked_at)
+    except NoTransmissionAngleError as error:
+        transmission, transmission_error = None, error
     return Measures(
         linkage,
         looked_at,
@@ -276,10 +395,10 @@ def measures(
         if turns
         else _travel(cycle, looked_at, [*(c.output for c in centres), *(r.output for r in rests), *(ends or ())]),
         changes,
-        unknown,
+        changes_error,
         _transfer(cycle, looked_at),
         transmission,
-        notes,
+        transmission_error,
         speed,
     )
 

@@ -1,289 +1,194 @@
-"""Measures in words, in English and German, and as plain data."""
+"""What is said of measures."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from gruebler.analysis.events import Dwell
-    from gruebler.analysis.measures import Measures
-    from gruebler.analysis.transmission import TransmissionExtremum
+from gruebler.analysis.drive_cycle import CycleSpan
+from gruebler.analysis.events import Dwell, GroupChangePoint, OutputDeadCentre
+from gruebler.analysis.transmission import TransmissionExtremes
+from gruebler.assur.forms import form_message
+from gruebler.errors import GrueblerError
+from gruebler.fourbar.extremes import StrokeTimes
+from gruebler.text import Message, joined, message
 
-__all__ = ["explain_measures", "measures_as_dict"]
+__all__ = [
+    "MeasureUnits",
+    "change_point_message",
+    "dead_centre_message",
+    "dwell_message",
+    "dwell_share_message",
+    "output_lines",
+    "range_lines",
+    "stroke_lines",
+    "time_lines",
+    "transmission_lines",
+    "unknown_change_points_message",
+]
 
 _CONSTANT = 1e-9  # radians: transmission angles that vary by less are one
 
-_TEXTS = {
-    "full": ("The drive turns fully.", "Der Antrieb läuft voll um."),
-    "turns": (
-        "The drive turns fully; everything repeats after {turns} turns.",
-        "Der Antrieb läuft voll um; alles wiederholt sich nach {turns} Umdrehungen.",
-    ),
-    "range": ("The drive moves from {low} to {high}.", "Der Antrieb bewegt sich von {low} bis {high}."),
-    "turning range": ("The drive turns from {low} to {high}.", "Der Antrieb dreht von {low} bis {high}."),
-    "limit": (
-        "At {at} the group {form} {{{links}}} can no longer be assembled.",
-        "Bei {at} lässt sich die Gruppe {form} {{{links}}} nicht mehr zusammenbauen.",
-    ),
-    "singular": (
-        "At {at} two assembly modes of the group {form} {{{links}}} meet.",
-        "Bei {at} treffen sich zwei Einbaulagen der Gruppe {form} {{{links}}}.",
-    ),
-    "still": ("The output {name} does not move.", "Der Abtrieb {name} steht still."),
-    "not turning": ("The output {name} does not turn.", "Der Abtrieb {name} dreht sich nicht."),
-    "uniform": (
-        "The transmission to {name} is uniform: i = {ratio:.9g}.",
-        "Die Übersetzung auf {name} ist gleichförmig: i = {ratio:.9g}.",
-    ),
-    "goes round once": (
-        "The output {name} makes one full turn in each period.",
-        "Der Abtrieb {name} läuft in jeder Periode einmal um.",
-    ),
-    "goes round": (
-        "The output {name} makes {turns} full turns in each period.",
-        "Der Abtrieb {name} läuft in jeder Periode {turns}-mal um.",
-    ),
-    "swing": ("The output {name} swings through {travel}.", "Der Abtrieb {name} schwingt um {travel}."),
-    "stroke": ("The output {name} has a stroke of {travel}.", "Der Abtrieb {name} hat einen Hub von {travel}."),
-    "inner": ("Inner dead centre at {at}: {output}.", "Innere Totlage bei {at}: {output}."),
-    "outer": ("Outer dead centre at {at}: {output}.", "Äußere Totlage bei {at}: {output}."),
-    "": ("Dead centre at {at}: {output}.", "Totlage bei {at}: {output}."),
-    "flat": ("The output pauses at {at}: {output}.", "Der Abtrieb rastet kurz bei {at}: {output}."),
-    "dwell inner": (
-        "Dwell in the inner position from {begin} to {end}, {duration}: {output}.",
-        "Rast in der inneren Lage von {begin} bis {end}, {duration}: {output}.",
-    ),
-    "dwell outer": (
-        "Dwell in the outer position from {begin} to {end}, {duration}: {output}.",
-        "Rast in der äußeren Lage von {begin} bis {end}, {duration}: {output}.",
-    ),
-    "dwell": (
-        "Dwell from {begin} to {end}, {duration}: {output}.",
-        "Rast von {begin} bis {end}, {duration}: {output}.",
-    ),
-    "dwells": (
-        "The output rests for {share:.9g} % of the drive's motion.",
-        "Der Abtrieb rastet während {share:.9g} % der Antriebsbewegung.",
-    ),
-    "strokes": (
-        "Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
-        "Antriebswinkel: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
-    ),
-    "strokes moving": (
-        "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.",
-        "Antriebswinkel ohne Rasten: {forward} von innen nach außen, {back} zurück; Zeitverhältnis {ratio:.9g}.",
-    ),
-    "slow forward": (
-        "In the positive sense the way outward is the slow one.",
-        "Im positiven Drehsinn ist der Weg nach außen der langsame.",
-    ),
-    "slow back": (
-        "In the positive sense the way inward is the slow one.",
-        "Im positiven Drehsinn ist der Weg nach innen der langsame.",
-    ),
-    "times": (
-        "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
-        "Bei {rpm:g} Umdrehungen je Minute: {forward:.6g} s von innen nach außen, {back:.6g} s zurück.",
-    ),
-    "dwell time": ("At rest: {time:.6g} s in a period.", "In Rast: {time:.6g} s je Periode."),
-    "several": ("More than two curves of positions meet there.", "Dort treffen sich mehr als zwei Lagenkurven."),
-    "change": (
-        "Change point of {form} {{{links}}} at {at}.",
-        "Verzweigungslage (durchschlagend) von {form} {{{links}}} bei {at}.",
-    ),
-    "unknown changes": (
-        "Change points of larger groups are not known: {why}",
-        "Verzweigungslagen größerer Gruppen sind nicht bekannt: {why}",
-    ),
-    "mu": (
-        "Transmission angle {small} at {at} (leg {links}) to {large}; deviation angle up to {alpha}.",
-        "Übertragungswinkel {small} bei {at} (Glied {links}) bis {large}; Ablenkwinkel bis {alpha}.",
-    ),
-    "constant": ("Transmission angle {small} throughout.", "Übertragungswinkel durchweg {small}."),
-    "good": ("It does not fall below 40°.", "Er unterschreitet 40° nicht."),
-    "poor": ("It falls below 40°.", "Er unterschreitet 40°."),
+_DEAD_CENTRES = {
+    "inner": message("Inner dead centre at {drive}: {output}."),
+    "outer": message("Outer dead centre at {drive}: {output}."),
+    "": message("Dead centre at {drive}: {output}."),
+    "flat": message("The output pauses at {drive}: {output}."),
+}
+_DWELLS = {
+    "inner": message("Dwell in the inner position from {begin} to {end}, {duration}: {output}."),
+    "outer": message("Dwell in the outer position from {begin} to {end}, {duration}: {output}."),
+    "": message("Dwell from {begin} to {end}, {duration}: {output}."),
 }
 
 
-def explain_measures(measures: Measures, lang: str) -> Iterator[str]:
-    """See `Measures.explain`."""
-    column = 1 if lang == "de" else 0
+class MeasureUnits(NamedTuple):
+    """How drive and output values are written."""
 
-    def say(key: str, **values: Any) -> str:
-        return _TEXTS[key][column].format(**values)
+    turning_drive: bool
+    turning_output: bool
+    unit: str
+    size: float
+    """Of the linkage: an output that is nothing against it is 0."""
 
-    yield from _drive_lines(measures, say)
-    name = measures.output.name
-    if measures.transfer.still:
-        yield say("not turning" if measures.output.turning else "still", name=name)
-    elif measures.transfer.uniform:
-        yield say("uniform", name=name, ratio=measures.transfer.ratio)
-    elif measures.output_turns:
-        turns = abs(measures.output_turns)
-        yield say("goes round once", name=name) if turns == 1 else say("goes round", name=name, turns=turns)
-    elif measures.travel is not None:
-        key = "swing" if measures.output.turning else "stroke"
-        yield say(key, name=name, travel=_output(measures, measures.travel))
-    yield from _stop_lines(measures, say)
-    for point in measures.change_points:
-        line = say("change", form=point.form, links=", ".join(point.links), at=_drive(measures, point.drive))
-        yield f"{line} {say('several')}" if point.several else line
-    if measures.change_points_notes[lang]:
-        yield say("unknown changes", why=measures.change_points_notes[lang])
-    if measures.transmission is None:
-        note = measures.transmission_notes[lang]
-        yield note[:1].upper() + note[1:] + "."
-        return
-    worst, best = measures.transmission.smallest, measures.transmission.largest
-    yield say(
-        "mu" if best.mu - worst.mu > _CONSTANT else "constant",
-        small=_angle(worst.mu),
-        at=_drive(measures, worst.drive),
-        links=", ".join(worst.links),
-        large=_angle(best.mu),
-        alpha=_angle(worst.deviation),
-    )
-    yield say("good" if measures.transmission.good else "poor")
+    def drive(self, value: float) -> Message:
+        """A drive value."""
+        return _angle(value) if self.turning_drive else self._length(value)
+
+    def output(self, value: float) -> Message:
+        """A value of the output."""
+        if self.turning_output:
+            return _angle(value)
+        return self._length(0.0 if abs(value) < 1e-12 * self.size else value)
+
+    def _length(self, value: float) -> Message:
+        return message("{length:.7g} {unit}", length=value, unit=self.unit)
 
 
-def _stop_lines(measures: Measures, say: Any) -> Iterator[str]:
-    """Dead centres, dwells, and the ways between them."""
-    for centre in measures.dead_centres:
-        key = "flat" if centre.kind == "flat" else centre.side
-        yield say(key, at=_drive(measures, centre.drive), output=_output(measures, centre.output))
-    for dwell in measures.dwells:
-        begin, end, duration = (
-            _drive(measures, value) for value in (dwell.begin, _end(measures, dwell), dwell.duration)
-        )
-        key = f"dwell {dwell.side}".strip()
-        yield say(key, begin=begin, end=end, duration=duration, output=_output(measures, dwell.output))
-    if measures.dwells:
-        yield say("dwells", share=100 * measures.dwell_share)
-    if measures.phi_forward is not None and measures.phi_back is not None:
-        forward, back = (_drive(measures, x) for x in (measures.phi_forward, measures.phi_back))
-        yield say(
-            "strokes moving" if measures.dwells else "strokes", forward=forward, back=back, ratio=measures.time_ratio
-        )
-        if abs(measures.phi_forward - measures.phi_back) > _CONSTANT:
-            yield say("slow forward" if measures.phi_forward > measures.phi_back else "slow back")
-    if measures.times is not None:
-        yield say("times", rpm=measures.speed_rpm, forward=measures.times.forward, back=measures.times.back)
-    if measures.dwells and measures.dwell_time is not None:
-        yield say("dwell time", time=measures.dwell_time)
-
-
-def _drive_lines(measures: Measures, say: Any) -> Iterator[str]:
-    span = measures.span
+def range_lines(units: MeasureUnits, span: CycleSpan) -> Iterator[Message]:
+    """How far the drive moves, and what stops it."""
     if span.full:
-        yield say("full") if span.turns == 1 else say("turns", turns=span.turns)
+        if span.turns == 1:
+            yield message("The drive turns fully.")
+        else:
+            yield message("The drive turns fully; everything repeats after {turns} turns.", turns=span.turns)
         return
-    yield say(
-        "turning range" if measures.turning_drive else "range",
-        low=_drive(measures, span.low),
-        high=_drive(measures, span.high),
+    low, high = units.drive(span.low), units.drive(span.high)
+    if units.turning_drive:
+        yield message("The drive turns from {low} to {high}.", low=low, high=high)
+    else:
+        yield message("The drive moves from {low} to {high}.", low=low, high=high)
+    for stop, drive in zip(span.stops, (low, high), strict=True):
+        if stop is None:
+            continue
+        if stop.reason == "limit":
+            text = message("At {drive} the group {form} {{{links}}} can no longer be assembled.")
+        else:
+            text = message("At {drive} two assembly modes of the group {form} {{{links}}} meet.")
+        yield text.filled(drive=drive, form=form_message(stop.form), links=", ".join(stop.links))
+
+
+def output_lines(
+    units: MeasureUnits, name: str, *, still: bool, ratio: float | None, turns: int, travel: float | None
+) -> Iterator[Message]:
+    """How the output moves: its ratio if that is constant, else its turns or its travel."""
+    if still and units.turning_output:
+        yield message("The output {name} does not turn.", name=name)
+    elif still:
+        yield message("The output {name} does not move.", name=name)
+    elif ratio is not None:
+        yield message("The transmission to {name} is uniform: i = {ratio:.9g}.", name=name, ratio=ratio)
+    elif abs(turns) == 1:
+        yield message("The output {name} makes one full turn in each period.", name=name)
+    elif turns:
+        yield message("The output {name} makes {turns} full turns in each period.", name=name, turns=abs(turns))
+    elif travel is not None and units.turning_output:
+        yield message("The output {name} swings through {travel}.", name=name, travel=units.output(travel))
+    elif travel is not None:
+        yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
+
+
+def dead_centre_message(units: MeasureUnits, centre: OutputDeadCentre) -> Message:
+    """Where the output turns back, or pauses."""
+    text = _DEAD_CENTRES["flat" if centre.kind == "flat" else centre.side]
+    return text.filled(drive=units.drive(centre.drive), output=units.output(centre.output))
+
+
+def dwell_message(units: MeasureUnits, dwell: Dwell, period: float) -> Message:
+    """Where the output rests; an end beyond the period is counted from its beginning."""
+    end = dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
+    begin, end_text, duration = (units.drive(value) for value in (dwell.begin, end, dwell.duration))
+    return _DWELLS[dwell.side].filled(begin=begin, end=end_text, duration=duration, output=units.output(dwell.output))
+
+
+def stroke_lines(
+    units: MeasureUnits, phi_forward: float, phi_back: float, ratio: float | None, *, dwells: bool
+) -> Iterator[Message]:
+    """The drive angles of both strokes."""
+    if dwells:
+        text = message(
+            "Drive angles without dwells: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}."
+        )
+    else:
+        text = message("Drive angles: {forward} from inner to outer, {back} back; time ratio {ratio:.9g}.")
+    yield text.filled(forward=units.drive(phi_forward), back=units.drive(phi_back), ratio=ratio)
+    if phi_forward - phi_back > _CONSTANT:
+        yield message("In the positive sense the way outward is the slow one.")
+    elif phi_back - phi_forward > _CONSTANT:
+        yield message("In the positive sense the way inward is the slow one.")
+
+
+def time_lines(rpm: float | None, times: StrokeTimes | None, at_rest: float | None) -> Iterator[Message]:
+    """How long strokes and dwells take at a speed."""
+    if times is not None:
+        yield message(
+            "At {rpm:g} turns a minute: {forward:.6g} s from inner to outer, {back:.6g} s back.",
+            rpm=rpm,
+            forward=times.forward,
+            back=times.back,
+        )
+    if at_rest is not None:
+        yield message("At rest: {time:.6g} s in a period.", time=at_rest)
+
+
+def dwell_share_message(share: float) -> Message:
+    """How much of the drive's motion the output rests."""
+    return message("The output rests for {share:.9g} % of the drive's motion.", share=100 * share)
+
+
+def change_point_message(units: MeasureUnits, point: GroupChangePoint) -> Message:
+    """Where a group may change its assembly mode."""
+    line = message(
+        "Change point of {form} {{{links}}} at {drive}.",
+        form=form_message(point.form),
+        links=", ".join(point.links),
+        drive=units.drive(point.drive),
     )
-    for stop, at in zip(span.stops, (span.low, span.high), strict=True):
-        if stop is not None:
-            key = "limit" if stop.reason == "limit" else "singular"
-            yield say(key, at=_drive(measures, at), form=stop.form, links=", ".join(stop.links))
+    return joined([line, message("More than two curves of positions meet there.")], " ") if point.several else line
 
 
-def _end(measures: Measures, dwell: Dwell) -> float:
-    """Where a dwell ends, as it is reported: within the period if it goes over its end."""
-    period = measures.span.period
-    return dwell.end - period if dwell.end > period * (1 + _CONSTANT) else dwell.end
+def unknown_change_points_message(error: GrueblerError) -> Message:
+    """Why change points of larger groups are not known."""
+    return message("Change points of larger groups are not known: {why}", why=error)
 
 
-def _angle(value: float) -> str:
-    return f"{round(degrees(value), 7) + 0.0:.7g}°"
+def transmission_lines(units: MeasureUnits, transmission: TransmissionExtremes) -> Iterator[Message]:
+    """The transmission angle, and whether it is good."""
+    worst, best = transmission.smallest, transmission.largest
+    if best.mu - worst.mu > _CONSTANT:
+        yield message(
+            "Transmission angle {smallest} at {drive} (leg {links}) to {largest}; deviation angle up to {deviation}.",
+            smallest=_angle(worst.mu),
+            drive=units.drive(worst.drive),
+            links=", ".join(worst.links),
+            largest=_angle(best.mu),
+            deviation=_angle(worst.deviation),
+        )
+    else:
+        yield message("Transmission angle {angle} throughout.", angle=_angle(worst.mu))
+    yield message("It does not fall below 40°." if transmission.good else "It falls below 40°.")
 
 
-def _drive(measures: Measures, value: float) -> str:
-    return _angle(value) if measures.turning_drive else f"{value:.7g} {measures.linkage.unit}"
-
-
-def _output(measures: Measures, value: float) -> str:
-    if measures.output.turning:
-        return _angle(value)
-    return f"{0.0 if abs(value) < 1e-12 * measures.linkage.size else value:.7g} {measures.linkage.unit}"
-
-
-def measures_as_dict(measures: Measures) -> dict[str, Any]:
-    """See `Measures.to_json`."""
-    turn = degrees if measures.turning_drive else float
-    out = degrees if measures.output.turning else float
-    span, transfer, transmission = measures.span, measures.transfer, measures.transmission
-    rate = out(1.0) / turn(1.0)
-
-    def angle(value: float | None) -> float | None:
-        return None if value is None else degrees(value)
-
-    def crossing(c: Any, scale: float) -> dict[str, Any]:
-        return {"drive": turn(c.drive), "value": c.value * scale, "kind": c.kind}
-
-    def extreme(e: TransmissionExtremum) -> dict[str, Any]:
-        return {"drive": turn(e.drive), "mu": degrees(e.mu), "deviation": degrees(e.deviation), "links": list(e.links)}
-
-    return {
-        "output": {"name": measures.output.name, "unit": "deg" if measures.output.turning else measures.linkage.unit},
-        "drive": {
-            "unit": "deg" if measures.turning_drive else measures.linkage.unit,
-            "start": turn(measures.start),
-            "branch": list(measures.branch),
-            "full": span.full,
-            "turns": span.turns,
-            "range": None if span.full else [turn(span.low), turn(span.high)],
-            "stops": [None if s is None else {"reason": s.reason, "links": list(s.links)} for s in span.stops],
-        },
-        "ends": None if measures.ends is None else [out(value) for value in measures.ends],
-        "dead_centres": [
-            {"drive": turn(c.drive), "output": out(c.output), "kind": c.kind, "flat": c.flat, "side": c.side}
-            for c in measures.dead_centres
-        ],
-        "dwells": [
-            {
-                "begin": turn(d.begin),
-                "end": turn(d.end),
-                "duration": turn(d.duration),
-                "output": out(d.output),
-                "kind": d.kind,
-                "side": d.side,
-            }
-            for d in measures.dwells
-        ],
-        "dwell_share": measures.dwell_share,
-        "dwell_time": measures.dwell_time,
-        "output_turns": measures.output_turns,
-        "travel": None if measures.travel is None else out(measures.travel),
-        "phi_forward": angle(measures.phi_forward),
-        "phi_back": angle(measures.phi_back),
-        "time_ratio": measures.time_ratio,
-        "speed_rpm": measures.speed_rpm,
-        "times": None if measures.times is None else {"forward": measures.times.forward, "back": measures.times.back},
-        "change_points": [
-            {"drive": turn(c.drive), "links": list(c.links), "form": c.form, "several": c.several}
-            for c in measures.change_points
-        ],
-        "transfer": {
-            "still": transfer.still,
-            "uniform": transfer.uniform,
-            "ratio": None if transfer.ratio is None else transfer.ratio / rate,
-            "smallest": transfer.smallest * rate,
-            "largest": transfer.largest * rate,
-            "zeros": [crossing(c, rate) for c in transfer.zeros],
-            "velocity": [crossing(c, rate) for c in transfer.velocity],
-            "acceleration": [crossing(c, rate / turn(1.0)) for c in transfer.acceleration],
-        },
-        "transmission": None
-        if transmission is None
-        else {
-            "smallest": extreme(transmission.smallest),
-            "largest": extreme(transmission.largest),
-            "good": transmission.good,
-            "extremes": [extreme(e) for e in transmission.extremes],
-        },
-        "change_points_note": measures.change_points_notes["en"],
-        "transmission_note": measures.transmission_note,
-    }
+def _angle(value: float) -> Message:
+    return message("{degrees:.7g}°", degrees=round(degrees(value), 7) + 0.0)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from gruebler.errors import LinkageError
 from gruebler.kinematics.circuits import Circuit, Quantity, circuit
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism.roles import Role
 
@@ -57,7 +58,7 @@ class DriveRange(NamedTuple):
     highest: float
 
 
-def rotatability(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> tuple[Rotatability, ...]:
+def rotatability(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> tuple[Rotatability, ...]:
     """Each pair of neighbouring links: whether they turn fully against each other, and how far they move.
 
     They turn fully if there is a net turn over the closed circuit, or if the relative angle takes all values. The
@@ -75,7 +76,7 @@ def rotatability(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
     return tuple(_row(made, *which) for which in _pairs(made.linkage))
 
 
-def _circuit(linkage: Linkage | Circuit, branch: str | Iterable[str] | None) -> Circuit:
+def _circuit(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None) -> Circuit:
     if not isinstance(linkage, Circuit):
         return circuit(linkage, branch=branch)
     if branch is not None:
@@ -142,7 +143,7 @@ def motion_roles(linkage: Linkage | Circuit, branch: str | Iterable[str] | None 
     return out
 
 
-def drive_range(linkage: Linkage | Circuit, branch: str | Iterable[str] | None = None) -> DriveRange:
+def drive_range(linkage: LinkageLike | Circuit, branch: str | Iterable[str] | None = None) -> DriveRange:
     """How far the drive can be moved, both ways, without passing a limit.
 
     >>> from gruebler.fourbar import FourBar

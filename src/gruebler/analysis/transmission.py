@@ -15,6 +15,7 @@ from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.arrays import Complexes, Reals
 from gruebler.assur import SolvedGroup
+from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
@@ -119,9 +120,9 @@ def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
     if not chosen:
         names = ", ".join(group.links)
         raise NoTransmissionAngleError(
-            "there is no transmission angle: no link with two joints drives the group {form} {{{names}}}",
-            form=group.form(),
-            names=names,
+            "there is no transmission angle: no link with two joints drives the group {form} {{{links}}}",
+            form=in_alphabets(group.form),
+            links=names,
         )
     if any(leg.form == "PP" for leg in chosen.values()):
         links = next(", ".join(leg.links) for leg in chosen.values() if leg.form == "PP")

@@ -9,17 +9,20 @@ are found first against one of them, and then count as one body. docs/theory/ass
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from gruebler.assur.forms import GroupJoint, class_number, form_name
+from gruebler.assur.forms import GroupJoint, class_number, form_name, roman
 from gruebler.assur.groups import AssurGroup
 from gruebler.assur.locking import LockedMechanism, independent, lock_drives, whole_joint_locks
 from gruebler.assur.splitting import BodyGroup, split_into_groups
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
+from gruebler.mobility import generic, overconstrained
 from gruebler.notebook import Brief
+from gruebler.text import Message, joined, message, plural, translate
 
 __all__ = ["Decomposition", "JointShare", "SolvedGroup", "decompose"]
 
@@ -140,21 +143,77 @@ class Decomposition(Brief):
 
     def formula(self, lang: str = "en") -> str:
         """The structural formula, such as ``drive R(frame-crank) -> RRR{coupler, rocker}``."""
-        from gruebler.assur.messages import decomposition_formula
-
-        return decomposition_formula(self, lang)
+        alphabet, frame = Alphabet.of_language(lang), self.mechanism.frame
+        drives = self.mechanism.drive_names(alphabet)
+        formula = [translate("drive {joints}", lang, joints=_names(drives)) if drives else translate("no drive", lang)]
+        for group in self.groups:
+            base = "" if frame in group.base else f"; {_base(group, lang)}"
+            formula.append(f"{group.form(alphabet)}{{{_bodies(group)}{base}}}")
+        if self.rest:
+            formula.append(f"?{{{_names(self.rest)}}}")
+        return " -> ".join(formula)
 
     def message(self, lang: str = "en") -> str:
         """What keeps it from being complete: links left free, drives or constraints against one another; else empty."""
-        from gruebler.assur.messages import open_groups_message
+        return self.reason.in_language(lang)
 
-        return " ".join(open_groups_message(self, lang))
+    @property
+    def reason(self) -> Message:
+        """What `message` says, in any language."""
+        return joined(_open_groups_message(self), " ")
 
     def explain(self, lang: str = "en") -> str:
         """The decomposition as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.assur.messages import explain_decomposition
-
-        return explain_decomposition(self, lang)
+        mechanism, alphabet = self.mechanism, Alphabet.of_language(lang)
+        names = mechanism.chain.joint_names(alphabet)
+        lines = [self.formula(lang)]
+        if self.driven:
+            drives, links = mechanism.drive_names(alphabet), _names(self.driven)
+            lines.append(
+                plural(
+                    "Drive {joints}: moves {links} directly.",
+                    "Drives {joints}: moves {links} directly.",
+                    len(drives),
+                    lang,
+                    joints=_names(drives),
+                    links=links,
+                )
+            )
+        for k, group in enumerate(self.groups, 1):
+            values = {
+                "k": k,
+                "form": group.form(alphabet),
+                "links": _bodies(group) + ("" if mechanism.frame in group.base else f" ({_base(group, lang)})"),
+                "outer": _names([names[j] for j in group.outer]),
+                "group_class": roman(group.class_number),
+                "order": group.order,
+            }
+            if group.inner:
+                inner = _names([names[j] for j in group.inner])
+                lines.append(
+                    translate(
+                        "{k}. {form}: links {links}; outer joints {outer}; inner joints {inner}. Class {group_class}, "
+                        "order {order}.",
+                        lang,
+                        inner=inner,
+                        **values,
+                    )
+                )
+            else:
+                lines.append(
+                    translate(
+                        "{k}. {form}: links {links}; outer joints {outer}. Class {group_class}, order {order}.",
+                        lang,
+                        **values,
+                    )
+                )
+        if self.complete and self.groups:
+            highest = roman(self.class_number)
+            lines.append(translate("The mechanism has class {group_class}.", lang, group_class=highest))
+        elif self.complete:
+            lines.append(translate("The drives are all there is.", lang))
+        lines += [line.in_language(lang) for line in _open_groups_message(self)]
+        return "\n".join(lines)
 
 
 def decompose(mechanism: Mechanism) -> Decomposition:
@@ -195,3 +254,36 @@ def _group(rest: LockedMechanism, part: BodyGroup) -> SolvedGroup:
         part.members,
         part.after,
     )
+
+
+def _open_groups_message(decomposition: Decomposition) -> list[Message]:
+    """What keeps the decomposition from being complete, a sentence or two a line; nothing if it is."""
+    if decomposition.report is None:
+        return []
+    lines = [message("Not determined: {links}.", links=_names(decomposition.rest))]
+    if decomposition.overconstrained:
+        lines = [message("Constraints or drives work against one another: there are no Assur groups.")]
+        text = message("Overconstrained: {links} (constraints too many: {count}).")
+        lines += [
+            text.filled(links=_names(part.links), count=part.redundancy)
+            for part in overconstrained(generic(decomposition.mechanism.chain))
+        ]
+    if decomposition.report.remaining or decomposition.report.redundant_drives:
+        lines.append(decomposition.report.message)
+    return lines
+
+
+def _bodies(group: SolvedGroup) -> str:
+    """The bodies of a group, each with what it carries in square brackets."""
+    return ", ".join(
+        "+".join(body) + (f"[{_names(carried)}]" if carried else "")
+        for body, carried in zip(group.bodies, group.carried, strict=True)
+    )
+
+
+def _base(group: SolvedGroup, lang: str) -> str:
+    return translate("on {base}", lang, base="+".join(group.base))
+
+
+def _names(names: Sequence[str]) -> str:
+    return ", ".join(names)

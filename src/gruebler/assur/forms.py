@@ -5,13 +5,15 @@ Definitions and sources: docs/theory/assur.md, "Form, class, order".
 
 from __future__ import annotations
 
+import re
 from collections import Counter, deque
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from gruebler.chain.pairs import Alphabet, Pair, Space
+from gruebler.chain.pairs import Alphabet, Pair, Space, in_alphabets, pair
+from gruebler.text import Message
 
-__all__ = ["DYADS", "GroupJoint", "class_number", "form_name", "roman"]
+__all__ = ["DYADS", "GroupJoint", "class_number", "form_message", "form_name", "roman"]
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP stays loose."""
@@ -28,15 +30,14 @@ class GroupJoint(NamedTuple):
     outer: bool
 
 
-# International letter, German letter; in the order in which they are named.
-_LETTERS = {
-    "revolute": ("R", "D"),
-    "prismatic": ("P", "S"),
-    "rolling": ("W", "W"),
-    "roll_slide": ("G", "G"),
-    "double_slide": ("S2", "S2"),
+# In the order in which they are named; a letter of the German alphabet where the international one has none.
+_PAIRS = {
+    p.symbols.get(Alphabet.INTERNATIONAL, p.symbols[Alphabet.GERMAN]): p
+    for p in map(pair, ("revolute", "prismatic", "rolling", "roll_slide", "double_slide"))
 }
-_RANK = {letter: k for k, letter in enumerate(letters[0] for letters in _LETTERS.values())}
+_LETTERS = {p.name: letter for letter, p in _PAIRS.items()}
+_GERMAN = str.maketrans({letter: p.symbol(Alphabet.GERMAN) for letter, p in _PAIRS.items() if len(letter) == 1})
+_RANK = {letter: k for k, letter in enumerate(_PAIRS)}
 
 
 def form_name(links: int, joints: Sequence[GroupJoint], alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str | None:
@@ -50,7 +51,7 @@ def form_name(links: int, joints: Sequence[GroupJoint], alphabet: Alphabet = Alp
     outer: list[list[str]] = [[] for _ in range(links)]
     inner: dict[tuple[int, int], list[str]] = {}
     for joint in joints:
-        letter = _LETTERS[joint.pair.name][0]
+        letter = _LETTERS[joint.pair.name]
         if joint.outer:
             outer[joint.links[0]].append(letter)
         else:
@@ -67,12 +68,7 @@ def form_name(links: int, joints: Sequence[GroupJoint], alphabet: Alphabet = Alp
 
 def _joined(words: Sequence[Sequence[str]], alphabet: Alphabet) -> str:
     simple = all(len(word) == 1 for word in words)
-    return ("" if simple else "-").join("".join(_said(x, alphabet) for x in word) for word in words)
-
-
-def _said(letter: str, alphabet: Alphabet) -> str:
-    german = alphabet is Alphabet.GERMAN
-    return next(letters[german] for letters in _LETTERS.values() if letters[0] == letter)
+    return ("" if simple else "-").join("".join(_PAIRS[x].symbols.get(alphabet, x) for x in word) for word in words)
 
 
 def _sorted(letters: Iterable[str]) -> list[str]:
@@ -93,10 +89,21 @@ def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alpha
     if legs.total() != len(outer) - 1:
         return None
     parts = [
-        (f"{number}-" if number > 1 else "") + "".join(_said(x, alphabet) for x in leg)
+        (f"{number}-" if number > 1 else "") + "".join(_PAIRS[x].symbols.get(alphabet, x) for x in leg)
         for leg, number in sorted(legs.items(), key=lambda item: [_RANK[x] for x in item[0]])
     ]
-    return "+".join(parts + [_said(x, alphabet) for x in _sorted(outer[hub])])
+    return "+".join(parts + [_PAIRS[x].symbols.get(alphabet, x) for x in _sorted(outer[hub])])
+
+
+def form_message(form: str) -> Message:
+    """The name of a form for a message, in the alphabet of the reader; a code or a joint's name stays what it is.
+
+    >>> form_message("2-RR+P").in_language("de"), form_message("c1:0").in_language("de")
+    ('2-DD+S', 'c1:0')
+    """
+    named = re.fullmatch(rf"(?:{'|'.join(_PAIRS)}|[0-9+-])+", form) is not None
+    german = form.translate(_GERMAN) if named else form
+    return in_alphabets(lambda alphabet: german if alphabet is Alphabet.GERMAN else form)
 
 
 def class_number(links: int, joints: Sequence[GroupJoint]) -> int:

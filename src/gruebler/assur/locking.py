@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from gruebler.assur.splitting import BodyJoint
 from gruebler.chain.pairs import Space, pair
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic, pebble_rank
@@ -51,17 +52,17 @@ def lock_drives(mechanism: Mechanism) -> LockedMechanism:
     chain = mechanism.chain
     if chain.space is not Space.PLANAR:
         raise AssurError("Assur groups are made of planar chains; this one is {space}", space=chain.space)
-    root = {link: link for link in chain.links}
+    sets = DisjointSets(chain.links)
     effective, clean = [0] * len(chain.joints), True
     partial: dict[int, Drive] = {}
     for drive in whole_joint_locks(mechanism, partial):
-        a, b = (_find(root, link) for link in drive.between)
+        a, b = (sets.find(link) for link in drive.between)
         clean = clean and a != b
         effective[drive.joint] += a != b
-        root[b] = a
-    bodies: dict[str, list[str]] = {_find(root, mechanism.frame): []}
+        sets.unite(a, b)
+    bodies: dict[str, list[str]] = {sets.find(mechanism.frame): []}
     for link in chain.links:
-        bodies.setdefault(_find(root, link), []).append(link)
+        bodies.setdefault(sets.find(link), []).append(link)
     place = {link: k for k, body in enumerate(bodies.values()) for link in body}
     joints = []
     for number, joint in enumerate(chain.joints):
@@ -110,9 +111,3 @@ def whole_joint_locks(mechanism: Mechanism, partial: dict[int, Drive]) -> list[D
                 count=len(joint.links),
             )
     return whole
-
-
-def _find(root: dict[str, str], link: str) -> str:
-    while root[link] != link:
-        root[link] = link = root[root[link]]
-    return link

@@ -17,6 +17,7 @@ from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
 from gruebler.cams.lift import Lift
 from gruebler.notebook import Brief
+from gruebler.text import message
 
 __all__ = ["Cam", "CamExtremum", "CamReport"]
 
@@ -156,7 +157,7 @@ class Cam(Brief):
         return notebook.svg_of(self) if notebook.svg_of else None
 
     def _at(self, angle: ArrayLike) -> _Contact:
-        phi = finite_array(angle, "the cam's angles")
+        phi = finite_array(angle, message("the cam's angles"))
         return self._contact(phi, *(self.lift.at(phi, order) for order in range(3)))
 
     def _contact(self, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Contact:

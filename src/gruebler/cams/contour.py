@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.arrays import Complexes, Reals
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
+from gruebler.text import message
 
 __all__ = [
     "ArcContour",
@@ -71,7 +72,7 @@ def follower_motion(contour: Contour, follower: Follower, angle: ArrayLike) -> F
     >>> [one.round(9).tolist() for one in moved]
     [[30.0, 40.0], [10.0, 0.0], [0.0, -10.0]]
     """
-    phi = finite_array(angle, "the cam's angles")
+    phi = finite_array(angle, message("the cam's angles"))
     touch = contour.touch(follower, phi.ravel())
     if not np.isfinite(touch.coordinate).all():
         lost = math.degrees(phi.ravel()[~np.isfinite(touch.coordinate)][0])
@@ -155,7 +156,7 @@ class ArcContour:
         """The contour around circles (centre, radius), as a band would lie: two circles give a tangent cam."""
         if not circles:
             raise CamError("a contour around circles has at least one circle")
-        finite_array([(c.real, c.imag, r) for c, r in circles], "circles (centre, radius)")
+        finite_array([(c.real, c.imag, r) for c, r in circles], message("circles (centre, radius)"))
         angles: set[float] = set()
         for k, (m, r) in enumerate(circles):
             for n, q in circles[k + 1 :]:

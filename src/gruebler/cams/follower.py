@@ -63,7 +63,7 @@ class Roller:
     def __post_init__(self) -> None:
         _check(self)
         if self.radius < 0 or self.arm < 0:
-            raise CamError("radius and arm of a follower are not negative: {self_}", self_=self)
+            raise CamError("radius and arm of a follower are not negative: {follower}", follower=self)
         if (self.arm == 0) != (self.distance == 0) or (self.arm and self.offset):
             raise CamError("a swinging follower has an arm and a distance of its pivot, and no offset")
 
@@ -86,9 +86,9 @@ class Roller:
         cosine = (self.arm**2 + d**2 - radius**2) / (2 * self.arm * d)
         if not -1 < cosine < 1:
             raise CamError(
-                "arm {arm:g}, pivot distance {d:g} and base circle {radius:g} form no triangle",
+                "arm {arm:g}, pivot distance {distance:g} and base circle {radius:g} form no triangle",
                 arm=self.arm,
-                d=d,
+                distance=d,
                 radius=radius,
             )
         return math.acos(cosine)

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 from gruebler.arrays import Reals
 from gruebler.cams.extremes import extremes
 from gruebler.errors import GrueblerError, nearest
+from gruebler.text import Message, message
 
 __all__ = [
     "LAWS",
@@ -38,14 +39,14 @@ class CamError(GrueblerError):
     """A cam, a law or a contour that cannot be."""
 
 
-def finite_array(values: ArrayLike, what: str) -> Reals:
+def finite_array(values: ArrayLike, what: Message) -> Reals:
     """Numbers of any shape as an array; CamError if one is not finite, or none at all."""
     try:
         found = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
         found = np.array(np.nan)
     if not np.isfinite(found).all():
-        raise CamError("{what}: expected finite numbers, not {values!r}", what=what, values=values)
+        raise CamError("{quantity}: expected finite numbers, not {values!r}", quantity=what, values=values)
     return found
 
 
@@ -94,7 +95,7 @@ class MotionLaw:
 
     def at(self, x: ArrayLike, order: int = 0) -> Reals:
         """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
-        places = finite_array(x, "places on a law")
+        places = finite_array(x, message("places on a law"))
         found = np.zeros(places.shape)
         index = np.searchsorted([piece.start for piece in self.pieces[1:]], places, side="right")
         for k, piece in enumerate(self.pieces):

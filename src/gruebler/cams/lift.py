@@ -15,6 +15,7 @@ from gruebler.arrays import Reals
 from gruebler.cams.extremes import Function, extremes
 from gruebler.cams.laws import CamError, MotionLaw, boundary_law, finite_array, motion_law
 from gruebler.errors import nearest
+from gruebler.text import message
 
 __all__ = ["DerivativeJump", "Lift", "LiftSegment", "SmoothSpan", "dwell", "motion", "read_lift"]
 
@@ -66,9 +67,9 @@ def motion(change: float, angle: float, name: str | MotionLaw = "3-4-5") -> Lift
         raise CamError("a rise or fall has a finite lift that is not zero, not {change!r}", change=change)
     if not 1 / _LARGEST < abs(change) < _LARGEST:
         raise CamError(
-            "a lift lies between {largest:g} and {largest_2:g}, not {change!r}: choose another unit",
-            largest=1 / _LARGEST,
-            largest_2=_LARGEST,
+            "a lift lies between {smallest:g} and {largest:g}, not {change!r}: choose another unit",
+            smallest=1 / _LARGEST,
+            largest=_LARGEST,
             change=change,
         )
     return LiftSegment(_angle(angle), float(change), name if isinstance(name, MotionLaw) else motion_law(name))
@@ -136,7 +137,7 @@ class Lift:
         """The lift, or its derivative (1 to 3) by the cam's angle, at any angles; at a jump the value after it."""
         if order not in range(4):
             raise CamError("a lift has derivatives 0 to 3 here, not {order!r}", order=order)
-        phi = np.mod(finite_array(angle, "the cam's angles"), math.tau)
+        phi = np.mod(finite_array(angle, message("the cam's angles")), math.tau)
         spans = list(self.spans())
         index = np.searchsorted([span.start for span in spans[1:]], phi, side="right")
         found = np.zeros(phi.shape)
@@ -254,12 +255,12 @@ def _number(text: str, statement: str) -> float:
     except ValueError:
         value = math.nan
     if not math.isfinite(value):
-        raise CamError("'{statement}': expected a finite number, not {text_!r}", statement=statement, text_=text)
+        raise CamError("'{statement}': expected a finite number, not {found!r}", statement=statement, found=text)
     if abs(value) >= _LARGEST:
         raise CamError(
-            "'{statement}': expected a number below {largest:g}, not {text_!r}",
+            "'{statement}': expected a number below {largest:g}, not {found!r}",
             statement=statement,
             largest=_LARGEST,
-            text_=text,
+            found=text,
         )
     return value

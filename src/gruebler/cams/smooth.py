@@ -15,6 +15,7 @@ from gruebler.cams.contour import ContactSamples, arm_coordinate, face_coordinat
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
 from gruebler.notebook import Brief
+from gruebler.text import message
 
 __all__ = ["SmoothContour"]
 
@@ -46,7 +47,7 @@ class SmoothContour(Brief):
         >>> [round(float(one), 3) for one in follower_motion(circle, Flat(), 0.5)]
         [34.794, 8.776, -4.793]
         """
-        table = finite_array(points, "points of a contour")
+        table = finite_array(points, message("points of a contour"))
         if table.ndim != 2 or table.shape[1] != 2:
             raise CamError("a contour is given by rows of two finite numbers, x and y")
         if (np.abs(table) >= _MOST).any():
@@ -63,7 +64,7 @@ class SmoothContour(Brief):
     def of(cls, curve: Callable[[Reals], ArrayLike], samples: int = 1440, resolution: int = 2048) -> SmoothContour:
         """The contour of a function from angles in [0, 2 pi) to points of shape (n, 2); a quintic spline."""
         u = np.linspace(0, math.tau, samples + 1)
-        table = finite_array(curve(u[:-1]), "points of a contour")
+        table = finite_array(curve(u[:-1]), message("points of a contour"))
         if table.shape != (samples, 2):
             raise CamError(
                 "the function gives {samples} points x, y for {samples} angles, not the shape {shape}",

@@ -18,12 +18,12 @@ from gruebler.formats.catalog_records import Entry
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.mobility import counted
+from gruebler.text import Text, arity, in_every_language
 from gruebler.type_synthesis import Requirements, expected_seconds_of_variants, typed_chains
 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 
 _SAME = ("links", "drive_joints", "drive_joints_at_frame", "output_links", "output_links_at_frame")
-_PLAIN = {"drive_joints": "drive joints", "output_links": "output links", "links": "links"}
 _EXCHANGED = ("prismatic", "rolling", "roll_slide")  # what the enumeration puts in the place of revolutes
 
 
@@ -51,26 +51,30 @@ class FeatureQuery:
         for name in (*_SAME, "multiple_joints"):
             if (value := getattr(self, name)) is not None and value < 0:
                 raise GrueblerError(
-                    "the number of {replace} is 0 or more, not {value}", replace=name.replace("_", " "), value=value
+                    "{feature}: expected 0 or more, but found {number}", feature=name.replace("_", " "), number=value
                 )
         for name in ("drive_joints", "output_links"):
             total, part = getattr(self, name), getattr(self, f"{name}_at_frame")
             if total is not None and part is not None and part > total:
                 raise GrueblerError(
-                    "{total} {plain} cannot be {part} at the frame", total=total, plain=_PLAIN[name], part=part
+                    "{total} drive joints cannot be {part} at the frame"
+                    if name == "drive_joints"
+                    else "{total} output links cannot be {part} at the frame",
+                    total=total,
+                    part=part,
                 )
         for k, number in self.kinds:
             if number < 0:
                 raise GrueblerError(
-                    "the number of links with {k} joints is 0 or more, not {number}", k=k, number=number
+                    "the number of links with {joints} joints is 0 or more, not {number}", joints=k, number=number
                 )
-        told = sum(number for _, number in self.kinds)
-        if self.links is not None and told > self.links:
+        total = sum(number for _, number in self.kinds)
+        if self.links is not None and total > self.links:
             raise GrueblerError(
-                "{links} links cannot be {kinds_said}: those are {told}",
+                "{links} links cannot be {kinds} links: those are {total}",
                 links=self.links,
-                kinds_said=_kinds_said(self.kinds),
-                told=told,
+                kinds=_in_words(self.kinds),
+                total=total,
             )
 
     def fits(self, mechanism: Mechanism, features: AccessFeatures) -> bool:
@@ -105,12 +109,12 @@ def read_pairs(text: str) -> tuple[tuple[Pair, int], ...]:
         symbol, colon, number = (piece.strip() for piece in part.partition(":"))
         if not symbol or not colon or not number.isdecimal():
             raise GrueblerError(
-                "{text_!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}",
-                text_=text,
+                "{query!r}: expected joints with their numbers such as R:4,P:0, but found {part!r}",
+                query=text,
                 part=part,
             )
         if symbol in numbers:
-            raise GrueblerError("{text_!r}: {symbol} stands there twice", text_=text, symbol=symbol)
+            raise GrueblerError("{query!r}: {symbol} stands there twice", query=text, symbol=symbol)
         numbers[symbol] = int(number)
     try:
         read = read_symbols(numbers, Space.PLANAR)
@@ -210,9 +214,9 @@ def _check_roles(query: FeatureQuery, mobility: int) -> None:
         )
     if (query.drive_joints_at_frame or 0) > mobility:
         raise GrueblerError(
-            "mobility {mobility} takes as many drives; {drive_joints_at_frame} are too many",
+            "mobility {mobility} takes as many drives; {drive_joints} are too many",
             mobility=mobility,
-            drive_joints_at_frame=query.drive_joints_at_frame,
+            drive_joints=query.drive_joints_at_frame,
         )
     if max(query.output_links or 0, query.output_links_at_frame or 0) > 1:
         raise GrueblerError("mechanisms are enumerated with one output link at most")
@@ -239,26 +243,28 @@ def _requirements(query: FeatureQuery) -> Requirements:
             )
     contacts = numbers.get("roll_slide", 0)
     taken = 3 * (links - 1) - mobility  # 2 g1 + g2
-    where = f"{links} links with F = {mobility}"
+    asked = {"links": links, "mobility": mobility, "contacts": contacts}
     if (taken - contacts) % 2:
         raise GrueblerError(
-            "{where}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 = {contacts} roll-slide joints",
-            where=where,
+            "{links} links with F = {mobility}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 "
+            "= {contacts} roll-slide joints",
             taken=taken,
-            contacts=contacts,
+            **asked,
         )
     g1 = (taken - contacts) // 2
     others = sum(numbers.get(name, 0) for name in ("prismatic", "rolling"))
     if g1 < others or numbers.get("revolute", g1 - others) != g1 - others:
-        told = others + numbers.get("revolute", 0)
-        more = f": name the kinds of the other {g1 - told}" if told < g1 else ""
+        given = others + numbers.get("revolute", 0)
         raise GrueblerError(
-            "{where} and {contacts} roll-slide joints have g1 = {g1}, but {told} such joints are asked for{more}",
-            where=where,
-            contacts=contacts,
+            "{links} links with F = {mobility} and {contacts} roll-slide joints have g1 = {g1}, but {given} "
+            "such joints are asked for: name the kinds of the other {missing}"
+            if given < g1
+            else "{links} links with F = {mobility} and {contacts} roll-slide joints have g1 = {g1}, but {given} such "
+            "joints are asked for",
             g1=g1,
-            told=told,
-            more=more,
+            given=given,
+            missing=g1 - given,
+            **asked,
         )
     _check_kinds(query, g1 + contacts)
     complete = sum(number for _, number in query.kinds) == links
@@ -281,24 +287,27 @@ def _check_kinds(query: FeatureQuery, joints: int) -> None:
     fewest = next(k for k in count(2) if k not in dict(query.kinds))
     elements = fewest * others + sum(k * number for k, number in query.kinds)
     if elements > 2 * joints or (not others and elements != 2 * joints):
-        left = f" and {others} more with at least {fewest} joints" if others else ""
         raise GrueblerError(
-            "{kinds_said}{left} have {elements} joint elements, but {links} links take {joints} joints, so 2 "
-            "g = {joints_2}",
-            kinds_said=_kinds_said(query.kinds),
-            left=left,
+            "{kinds} links and {others} more with at least {fewest} joints have {elements} joint elements, but {links} "
+            "links take {joints} joints, so 2 g = {twice}"
+            if others
+            else "{kinds} links have {elements} joint elements, but {links} links take {joints} joints, so 2 g = "
+            "{twice}",
+            kinds=_in_words(query.kinds),
+            others=others,
+            fewest=fewest,
             elements=elements,
             links=query.links,
             joints=joints,
-            joints_2=2 * joints,
+            twice=2 * joints,
         )
+
+
+def _in_words(kinds: tuple[tuple[int, int], ...]) -> Text:
+    """The numbers of links of each kind: 4 binary, 2 ternary."""
+    return in_every_language(lambda lang: ", ".join(f"{count} {arity(k, lang)}" for k, count in kinds))
 
 
 def _assortment(kinds: tuple[tuple[int, int], ...]) -> tuple[int, ...]:
     numbers = dict(kinds)
     return tuple(numbers.get(k, 0) for k in range(2, max(k for k, n in kinds if n) + 1))
-
-
-def _kinds_said(kinds: tuple[tuple[int, int], ...]) -> str:
-    names = {1: "singular", 2: "binary", 3: "ternary", 4: "quaternary"}
-    return ", ".join(f"{number} {names.get(k, f'{k}-joint')}" for k, number in kinds) + " links"

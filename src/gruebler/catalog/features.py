@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from gruebler.chain.pairs import Alphabet, Pair
 from gruebler.mechanism import Mechanism
+from gruebler.text import arity, message
 
 __all__ = ["AccessFeatures", "access_features"]
 
@@ -35,51 +36,25 @@ class AccessFeatures:
 
     def described(self, lang: str = "en") -> tuple[tuple[str, str], ...]:
         """A label and a value for each of the four features."""
-        words, german = _WORDS[lang], lang == "de"
-        alphabet = Alphabet.GERMAN if german else Alphabet.INTERNATIONAL
-        links = ", ".join(
-            f"{count} {_ARITY[lang].get(k, words['arity'].format(k=k))}" for k, count in self.links_by_joints
-        )
+        alphabet = Alphabet.of_language(lang)
+        links = ", ".join(f"{count} {arity(k, lang)}" for k, count in self.links_by_joints)
         joints = ", ".join(
-            f"{count} {_name(kind, german, count)} ({kind.symbol(alphabet)})" for kind, count in self.joints_by_pair
+            f"{count} {_name(kind, count, lang)} ({kind.symbol(alphabet)})" for kind, count in self.joints_by_pair
         )
-        frame = words["frame"]
-        return (
-            (words["drives"], f"{self.drive_joints}, {frame.format(count=self.drive_joints_at_frame)}"),
-            (words["outputs"], f"{self.output_links}, {frame.format(count=self.output_links_at_frame)}"),
-            (words["links"], f"{self.links}, {words['of_them']}{links}"),
-            (words["joints"], f"{self.joints}, {words['of_them']}{joints}"),
+        at_frame = message("{all}, {count} of them at the frame")
+        of_these = message("{all}, of these {kinds}")
+        rows = (
+            (message("Drive joints"), at_frame.filled(all=self.drive_joints, count=self.drive_joints_at_frame)),
+            (message("Output links"), at_frame.filled(all=self.output_links, count=self.output_links_at_frame)),
+            (message("Links"), of_these.filled(all=self.links, kinds=links)),
+            (message("Joints"), of_these.filled(all=self.joints, kinds=joints)),
         )
+        return tuple((label.in_language(lang), value.in_language(lang)) for label, value in rows)
 
 
-_WORDS = {
-    "en": {
-        "drives": "Drive joints",
-        "outputs": "Output links",
-        "links": "Links",
-        "joints": "Joints",
-        "frame": "{count} of them at the frame",
-        "of_them": "of these ",
-        "arity": "with {k} joints",
-    },
-    "de": {
-        "drives": "Antriebsgelenke",
-        "outputs": "Abtriebsglieder",
-        "links": "Glieder",
-        "joints": "Gelenke",
-        "frame": "davon {count} am Gestell",
-        "of_them": "davon ",
-        "arity": "mit {k} Gelenken",
-    },
-}
-_ARITY = {
-    "en": {1: "singular", 2: "binary", 3: "ternary", 4: "quaternary"},
-    "de": {1: "singulär", 2: "binär", 3: "ternär", 4: "quaternär"},
-}
-
-
-def _name(kind: Pair, german: bool, count: int) -> str:
-    return kind.german + "e" * (count > 1) if german else kind.name.replace("_", "-")
+def _name(kind: Pair, count: int, lang: str) -> str:
+    """The kind of joint; German makes the plural of all of them alike."""
+    return kind.german + "e" * (count > 1) if lang == "de" else kind.name.replace("_", "-")
 
 
 def access_features(mechanism: Mechanism, outputs: Iterable[str] = ()) -> AccessFeatures:

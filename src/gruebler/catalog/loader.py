@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -57,9 +58,9 @@ def exercises() -> dict[str, Exercise]:
         for case in exercise.cases:
             if case.machine not in entries():
                 raise CatalogError(
-                    "{id}: {id_2}: there is no machine {machine!r} in the catalog",
-                    id=exercise.id,
-                    id_2=case.id,
+                    "{exercise}: {case}: there is no machine {machine!r} in the catalog",
+                    exercise=exercise.id,
+                    case=case.id,
                     machine=case.machine,
                 )
     return found
@@ -83,11 +84,20 @@ def entry(id: str) -> Entry:
             raise CatalogError(
                 "{id!r} is an exercise; the machines in it are {machines}", id=id, machines=", ".join(machines)
             ) from None
+        if os.path.isdir(id):  # noqa: PTH112  Path.is_dir refuses long names
+            raise CatalogError(
+                "{id!r} is a folder; expected a file, a chain or the id of a catalog entry", id=id
+            ) from None
         from difflib import get_close_matches
 
         close = get_close_matches(id, entries(), n=3, cutoff=0.5)
-        hint = f"; did you mean {', '.join(close)}?" if close else "; `gruebler catalog list` shows them all"
-        raise CatalogError("the catalog has no entry {id!r}{hint}", id=id, hint=hint) from None
+        raise CatalogError(
+            "the catalog has no entry {id!r}; did you mean {nearest}?"
+            if close
+            else "the catalog has no entry {id!r}; `gruebler catalog list` shows them all",
+            id=id,
+            nearest=", ".join(close),
+        ) from None
 
 
 def check_all() -> list[CheckedEntry]:

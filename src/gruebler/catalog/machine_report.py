@@ -18,6 +18,7 @@ from gruebler.linkages import Linkage
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import MobilityReport, mobility_report
 from gruebler.notebook import Brief
+from gruebler.text import LANGUAGES, message
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
@@ -82,8 +83,7 @@ class MachineReport(Brief):
 
     def explain(self, lang: str = "en") -> str:
         """The report as a text with titled sections, in English (``en``) or German (``de``)."""
-        column = lang == "de"
-        sections = ((_TITLES[key][column], list(lines)) for key, lines in _sections(self, lang))
+        sections = ((_TITLES[key].in_language(lang), list(lines)) for key, lines in _sections(self, lang))
         return "\n\n".join("\n".join([f"{title}:", *(f"  {line}" for line in lines)]) for title, lines in sections)
 
     def to_json(self) -> dict[str, Any]:
@@ -91,7 +91,7 @@ class MachineReport(Brief):
         sizes = self.entry.dimensions or self.entry.screws
         return {
             "id": self.entry.id,
-            "name": {"en": self.entry.name.en, "de": self.entry.name.de},
+            "name": {lang: self.entry.name.in_language(lang) for lang in LANGUAGES},
             "mechanism": self.mechanism.to_json(),
             "mobility": self.mobility.to_json() | {"formula": self.mobility.count.formula(), "moves": self.moves},
             "freedoms": None if self.freedoms is None else self.freedoms.to_json(),
@@ -196,58 +196,44 @@ def _extent(curve: CouplerCurve, direction: float) -> float:
 # --- in words --------------------------------------------------------------------------------------
 
 _TITLES = {
-    "mobility": ("Mobility", "Laufgrad"),
-    "moves": ("What really moves", "Was sich wirklich bewegt"),
-    "features": ("Access features", "Zugriffsmerkmale"),
-    "drive": ("Drive", "Antrieb"),
-    "dimensions": ("Dimensions", "Abmessungen"),
-    "measures": ("Transfer function", "Übertragungsfunktion"),
-    "points": ("Guided points", "Geführte Punkte"),
+    "mobility": message("Mobility"),
+    "moves": message("What really moves"),
+    "features": message("Access features"),
+    "drive": message("Drive"),
+    "dimensions": message("Dimensions"),
+    "measures": message("Transfer function"),
+    "points": message("Guided points"),
 }
 _TEXTS = {
-    "claimed": ("{mobility}, as claimed. {reason}", "{mobility}, wie angegeben. {reason}"),
-    "generic": ("{mobility}, for almost all sizes.", "{mobility}, bei fast allen Abmessungen."),
-    "hand": ("Not driven at a joint.", "An keinem Gelenk angetrieben."),
-    "special": (
-        "What special dimensions let move is told above; almost all sizes would give another mobility than {moves}.",
-        "Was sich durch besondere Abmessungen bewegt, steht oben; fast alle Abmessungen gäben einen anderen Laufgrad "
-        "als {moves}.",
+    "claimed": message("{mobility}, as claimed. {reason}"),
+    "generic": message("{mobility}, for almost all sizes."),
+    "hand": message("Not driven at a joint."),
+    "special": message(
+        "What moves because of special dimensions stands above; almost all sizes would give another "
+        "mobility than {moves}."
     ),
-    "assumed": ("Assumed; none are printed.", "Angenommen; es sind keine gedruckt."),
-    "source": ("From {source}.", "Aus {source}."),
-    "screws": (
-        "The joints in one position; enough for the mobility.",
-        "Die Gelenke in einer Lage; das genügt für den Laufgrad.",
-    ),
-    "unit": ("Unit of length: {unit}.", "Längeneinheit: {unit}."),
-    "range": ("Shown between {low:g}{unit} and {high:g}{unit}.", "Gezeigt zwischen {low:g}{unit} und {high:g}{unit}."),
-    "shown": (
-        "In the range shown the transmission angle is {small:.4g}° to {large:.4g}°.",
-        "Im gezeigten Bereich beträgt der Übertragungswinkel {small:.4g}° bis {large:.4g}°.",
-    ),
-    "partial": (
-        "As drawn, {output} goes by {value:.6g} for each unit of {drive} (angles in radians).",
-        "In der gezeichneten Lage geht {output} um {value:.6g} je Einheit von {drive} (Winkel im Bogenmaß).",
-    ),
-    "closed": (
-        "{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high.",
-        "{name} auf {link}: geschlossene Bahn, {length:.6g} {unit} lang, {width:.6g} breit, {height:.6g} hoch.",
-    ),
-    "open": (
-        "{name} on {link}: a path {length:.6g} {unit} long between the limits, {width:.6g} wide, {height:.6g} high.",
-        "{name} auf {link}: Bahn zwischen den Grenzen, {length:.6g} {unit} lang, {width:.6g} breit, {height:.6g} hoch.",
+    "assumed": message("Assumed; none are printed."),
+    "source": message("From {source}."),
+    "screws": message("The joints in one position; enough for the mobility."),
+    "unit": message("Unit of length: {unit}."),
+    "range": message("Shown between {low:g}{unit} and {high:g}{unit}."),
+    "shown": message("In the range shown the transmission angle is {small:.4g}° to {large:.4g}°."),
+    "partial": message("As drawn, {output} goes by {ratio:.6g} for each unit of {drive} (angles in radians)."),
+    "closed": message("{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high."),
+    "open": message(
+        "{name} on {link}: a path {length:.6g} {unit} long between the limits, {width:.6g} wide, {height:.6g} high."
     ),
 }
 
 
 def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]]:
     def say(key: str, **values: Any) -> str:
-        return _TEXTS[key][lang == "de"].format(**values).rstrip()
+        return _TEXTS[key].filled(**values).in_language(lang).rstrip()
 
     yield "mobility", found.mobility.explain(lang).splitlines()
     yield "moves", _moves_lines(found, say, lang)
     yield "features", [f"{label}: {value}" for label, value in found.features.described(lang)]
-    alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
+    alphabet = Alphabet.of_language(lang)
     if found.drives is None:
         yield "drive", [say("hand")]
     else:
@@ -266,7 +252,7 @@ def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]
         each = zip(found.partials, found.mechanism.drive_names(alphabet), strict=True)
         yield (
             "measures",
-            [say("partial", output=partial.output, value=partial.value, drive=name) for partial, name in each],
+            [say("partial", output=partial.output, ratio=partial.value, drive=name) for partial, name in each],
         )
     if found.measures is not None and found.points:
         unit = found.measures.linkage.unit
@@ -280,7 +266,7 @@ def _moves_lines(found: MachineReport, say: Any, lang: str) -> list[str]:
         return [line for line in found.freedoms.explain(lang).splitlines() if not line.endswith(told)]
     if claims.mobility is None:
         return [say("generic", mobility=found.moves)]
-    return [say("claimed", mobility=claims.mobility, reason=claims.reason.in_language(lang) if claims.reason else "")]
+    return [say("claimed", mobility=claims.mobility, reason=claims.reason or "")]
 
 
 def _dimension_lines(entry: Entry, say: Any) -> list[str]:

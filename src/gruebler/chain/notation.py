@@ -17,6 +17,7 @@ from collections.abc import Iterable, Sequence
 
 from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space, read_symbols
 from gruebler.errors import NotationError, PairError
+from gruebler.text import Message, message
 
 __all__ = ["joint_text", "link_name", "link_text", "read", "space_of", "split_links", "symbols_for", "write"]
 
@@ -69,27 +70,29 @@ def _read_space(text: str, space: str | Space | None) -> tuple[Space, int]:
         return wanted or Space.PLANAR, 0
     written = space_of(prefix[1].lower())
     if wanted is not None and wanted is not written:
-        raise NotationError("the text says {written}, but {wanted} was asked for", written=written, wanted=wanted)
+        raise NotationError(
+            "the text says {written}, but {wanted} was asked for", written=written.adjective, wanted=wanted.adjective
+        )
     return written, prefix.end()
 
 
 def _read_joint(text: str, position: int) -> tuple[str, tuple[str, ...], int]:
     head = _SYMBOL.match(text, position)
     if head is None:
-        raise _unreadable(text, position, "a joint such as R(frame-crank)")
+        raise _unreadable(text, position, message("a joint such as R(frame-crank)"))
     position = head.end()
     links = []
     while True:
         name = _LINK.match(text, position)
         if name is None:
-            raise _unreadable(text, position, "the name of a link")
+            raise _unreadable(text, position, message("the name of a link"))
         links.append(_unquoted(name[1]))
         position = name.end()
         separator = text[position : position + 1]
         if separator == ")":
             return head[1], tuple(links), position + 1
         if separator != "-":
-            raise _unreadable(text, position, "'-' and another link, or ')'")
+            raise _unreadable(text, position, message("'-' and another link, or ')'"))
         position = _BLANKS.match(text, position + 1).end()  # type: ignore[union-attr]  # it matches anywhere
 
 
@@ -101,7 +104,7 @@ def link_name(text: str) -> str:
     """
     if not re.fullmatch(_NAME, text):
         raise NotationError(
-            "expected the name of a link, bare or in double quotes, but found {shortened!r}", shortened=_shortened(text)
+            "expected the name of a link, bare or in double quotes, but found {name!r}", name=_shortened(text)
         )
     return _unquoted(text)
 
@@ -123,18 +126,19 @@ def _unquoted(name: str) -> str:
     try:
         return str(json.loads(name))
     except json.JSONDecodeError as error:
-        raise NotationError("the quoted name {name} is not valid: {msg}", name=name, msg=error.msg) from None
+        raise NotationError("the quoted name {name} is not valid: {reason}", name=name, reason=error.msg) from None
 
 
-def _unreadable(text: str, position: int, expected: str) -> NotationError:
+def _unreadable(text: str, position: int, expected: Message) -> NotationError:
     rest = text[position:].strip()
     position = len(text) - len(text[position:].lstrip())
-    found = f"found {_shortened(rest)!r}" if rest else "the text ends"
     return NotationError(
-        "expected {expected} at character {position}, but {found}",
+        "expected {expected} at character {position}, but found {found!r}"
+        if rest
+        else "expected {expected} at character {position}, but the text ends",
         expected=expected,
         position=position + 1,
-        found=found,
+        found=_shortened(rest),
     )
 
 

@@ -14,14 +14,15 @@ their sections 2.5 and 2.6.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
 
 from gruebler.errors import PairError, nearest
+from gruebler.text import Message, joined, joined_by_or, message
 
-__all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "pair", "read_symbols"]
+__all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "in_alphabets", "pair", "read_symbols"]
 
 
 class Space(StrEnum):
@@ -42,6 +43,11 @@ class Space(StrEnum):
         return _DIRECTIONS[self]
 
     @property
+    def adjective(self) -> Message:
+        """The word for a chain in it, for messages."""
+        return _ADJECTIVES[self]
+
+    @property
     def greatest_freedom(self) -> int:
         """The most freedoms that still make a joint: b - 1."""
         return self.b - 1
@@ -54,11 +60,27 @@ _DIRECTIONS = {
 }
 
 
+_ADJECTIVES = {
+    Space.PLANAR: message("planar"),
+    Space.SPHERICAL: message("spherical"),
+    Space.SPATIAL: message("spatial"),
+}
+
+
 class Alphabet(StrEnum):
     """A set of symbols that are read together."""
 
     GERMAN = "german"
     INTERNATIONAL = "international"
+
+    @classmethod
+    def of_language(cls, lang: str) -> Alphabet:
+        """The symbols that a reader of this language expects.
+
+        >>> Alphabet.of_language("de"), Alphabet.of_language("en")
+        (<Alphabet.GERMAN: 'german'>, <Alphabet.INTERNATIONAL: 'international'>)
+        """
+        return cls.GERMAN if lang == "de" else cls.INTERNATIONAL
 
 
 class Contact(StrEnum):
@@ -75,6 +97,33 @@ class Closure(StrEnum):
     FORM = "form"
     FORCE = "force"
     MATERIAL = "material"
+
+
+@dataclass(frozen=True)
+class PairTitle(Message):
+    """The full name of a pair, in the reader's language."""
+
+    def in_language(self, lang: str) -> str:
+        """The name in a language."""
+        return pair(self.text).full_name(lang)
+
+
+@dataclass(frozen=True)
+class SymbolText(Message):
+    """A text with joint symbols, in the alphabet that the reader expects; made by `in_alphabets`."""
+
+    def in_language(self, lang: str) -> str:
+        """The text in the alphabet of a language."""
+        return str(self.values[Alphabet.of_language(lang)])
+
+
+def in_alphabets(write: Callable[[Alphabet], str]) -> SymbolText:
+    """What a function writes in each alphabet, as one message.
+
+    >>> in_alphabets(pair("prismatic").symbol).in_language("de")
+    'S'
+    """
+    return SymbolText("", {alphabet: write(alphabet) for alphabet in Alphabet})
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +143,11 @@ class Pair:
     is_group: bool
     """Whether relative motions compose to motions of the same kind, so that more than two links can share it."""
 
+    @property
+    def title(self) -> PairTitle:
+        """Its full name, for messages."""
+        return PairTitle(self.name)
+
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Pair) and self.name == other.name
 
@@ -112,16 +166,30 @@ class Pair:
             return len(self.freedoms[space])
         except KeyError:
             raise PairError(
-                "the {name} pair ({german}) does not exist in {space} chains; it exists in {items}",
+                "the {name} pair ({german}) does not exist in {space} chains; it exists in {others}",
                 name=self.name,
                 german=self.german,
-                space=space,
-                items=" and ".join(f"{s} ones with f = {len(d)}" for s, d in self.freedoms.items()),
+                space=space.adjective,
+                others=joined(
+                    (
+                        message("{space} ones with f = {f}", space=s.adjective, f=len(d))
+                        for s, d in self.freedoms.items()
+                    ),
+                    ", ",
+                ),
             ) from None
 
     def u(self, space: Space) -> int:
         """Motions taken away in this space, u = b - f."""
         return space.b - self.f(space)
+
+    def full_name(self, lang: str = "en") -> str:
+        """The name in a language, as a text may write it.
+
+        >>> pair("revolute").full_name("de")
+        'Drehgelenk'
+        """
+        return self.german if lang == "de" else self.name
 
     def symbol(self, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str:
         """The symbol in this alphabet, or the full name where the alphabet has none."""
@@ -273,7 +341,7 @@ def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
             raise PairError(
                 "{symbol!r} is ambiguous: {meanings}; write the full name",
                 symbol=symbol,
-                meanings=" or ".join(f"{p.name} ({p.german})" for p in meanings),
+                meanings=joined_by_or([f"{p.name} ({p.german})" for p in meanings]),
             )
     return named | {symbol: meanings[0] for symbol, meanings in distinct[0].items()}
 
@@ -294,31 +362,32 @@ def _refuse_unknown(letters: list[str]) -> None:
     for symbol in letters:
         if symbol not in known:
             raise PairError(
-                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {items} (international) and "
-                "{fromkeys} (German), or the full name of a pair",
+                "unknown joint symbol {symbol!r}{suggestion}; the symbols are {international} (international) and "
+                "{german} (German), or the full name of a pair",
                 symbol=symbol,
                 suggestion=nearest(symbol, (*known, *_BY_FULL_NAME)),
-                items=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
-                fromkeys=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
+                international=", ".join(sorted({p.symbol() for p in PAIRS if Alphabet.INTERNATIONAL in p.symbols})),
+                german=", ".join(dict.fromkeys(p.symbols[Alphabet.GERMAN] for p in PAIRS)),
             )
 
 
 def _mixed(letters: list[str]) -> PairError:
-    readings = []
-    for alphabet in Alphabet:
-        words = [
-            f"{s} = {' or '.join(p.name for p in _meanings(s, alphabet))}"
-            if _meanings(s, alphabet)
-            else f"{s} is unknown"
-            for s in letters
-        ]
-        readings.append(f"{_TITLE[alphabet]}: {', '.join(words)}")
+    german, international = (
+        joined(_symbol_meaning(s, _meanings(s, alphabet)) for s in letters)
+        for alphabet in (Alphabet.GERMAN, Alphabet.INTERNATIONAL)
+    )
     return PairError(
-        "the symbols mix two alphabets ({readings}); write all joints in one of them", readings="; ".join(readings)
+        "the symbols mix two alphabets (German: {german}; international: {international}); write all joints in one of "
+        "them",
+        german=german,
+        international=international,
     )
 
 
-_TITLE = {Alphabet.GERMAN: "German", Alphabet.INTERNATIONAL: "international"}
+def _symbol_meaning(symbol: str, pairs: tuple[Pair, ...]) -> Message:
+    if not pairs:
+        return message("{symbol} is unknown", symbol=symbol)
+    return message("{symbol} = {pairs}", symbol=symbol, pairs=joined_by_or([p.title for p in pairs]))
 
 
 def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Space) -> PairError:
@@ -332,32 +401,30 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
         for p in _meanings(symbol, a)
         if space in p.freedoms
     }
-    hint = "".join(
-        f"; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}"
-        for name, right in others.items()
-    )
+    other_alphabet = message("; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}")
+    hints = [other_alphabet.filled(name=pair(name).title, symbol=symbol, right=right) for name, right in others.items()]
     freedom = len(next(iter(meant.freedoms.values())))
     return PairError(
         "{symbol!r} is the {name} pair ({german}, f = {freedom}), which {space} chains do not have: "
-        "their joints have at most f = {greatest_freedom} and are {pairs}{hint}",
+        "their joints have at most f = {greatest_freedom} and are {pairs}{hints}",
         symbol=symbol,
         name=meant.name,
         german=meant.german,
         freedom=freedom,
-        space=space,
+        space=space.adjective,
         greatest_freedom=space.greatest_freedom,
         pairs=", ".join(
             p.name if p.symbol(alphabet) == p.name else f"{p.symbol(alphabet)} ({p.name})"
             for p in PAIRS
             if space in p.freedoms
         ),
-        hint=hint,
+        hints=joined(hints, ""),
     )
 
 
 def _two_alphabets(german: dict[str, tuple[Pair, ...]], other: dict[str, tuple[Pair, ...]]) -> PairError:
     symbol = next(s for s in german if german[s] != other[s])
-    one, two = (" or ".join(p.name for p in r[symbol]) for r in (german, other))
+    one, two = (joined_by_or([p.title for p in r[symbol]]) for r in (german, other))
     return PairError(
         "{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; write "
         "the full name ({one} or {two}) or add a joint that only one alphabet has",

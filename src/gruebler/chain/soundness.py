@@ -7,11 +7,14 @@ from collections.abc import Iterable, Sequence
 
 from gruebler.chain.joint import Joint
 from gruebler.chain.pairs import Pair, Space, pair
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.errors import ChainError, PairError, nearest
+from gruebler.text import Message, joined, message
 
 __all__ = ["check_connected", "checked_joint", "checked_links"]
 
 _LONGEST_NAME = 200
+_MOST_NAMES = 5
 
 
 def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
@@ -22,23 +25,23 @@ def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Sp
     made = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
     if len(made.links) < 2:
         raise ChainError(
-            "the joint {made} has {links}; a joint joins at least two", made=made, links=_links(len(made.links))
+            "the joint {joint} has {links}; a joint joins at least two", joint=made, links=_links(len(made.links))
         )
     if len(set(made.links)) < len(made.links):
         twice = next(link for link, k in Counter(made.links).items() if k > 1)
         raise ChainError(
-            "the joint {made} names the link {twice!r} twice; a joint joins different links", made=made, twice=twice
+            "the joint {joint} names the link {twice!r} twice; a joint joins different links", joint=made, twice=twice
         )
     if space not in made.pair.freedoms:
         try:
             made.pair.f(space)
         except PairError as error:
-            raise PairError("the joint {made} is not possible: {error}", made=made, error=error) from None
+            raise PairError("the joint {joint} is not possible: {error}", joint=made, error=error) from None
     if len(made.links) > 2 and not made.pair.is_group:
         raise ChainError(
-            "the joint {made} has {count} links, but a {name} joint ({german}) joins exactly two: such "
+            "the joint {joint} has {count} links, but a {name} joint ({german}) joins exactly two: such "
             "relative motions do not compose; write one joint for each contact",
-            made=made,
+            joint=made,
             count=len(made.links),
             name=made.pair.name,
             german=made.pair.german,
@@ -48,7 +51,7 @@ def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Sp
 
 def _name(raw: str | int) -> str:
     if not isinstance(raw, str | int) or isinstance(raw, bool):
-        raise ChainError("a link is named by a text or a whole number, not by {raw!r}", raw=raw)
+        raise ChainError("a link is named by a text or a whole number, not by {name!r}", name=raw)
     name = str(raw)
     if not name.strip() or name != name.strip() or not name.isprintable():
         raise ChainError(
@@ -56,10 +59,10 @@ def _name(raw: str | int) -> str:
         )
     if len(name) > _LONGEST_NAME:
         raise ChainError(
-            "the link name {name!r}... has {count} characters; at most {longest_name}",
+            "the link name {name!r}... has {count} characters; at most {most}",
             name=name[:20],
             count=len(name),
-            longest_name=_LONGEST_NAME,
+            most=_LONGEST_NAME,
         )
     return name
 
@@ -75,8 +78,8 @@ def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tu
     if stranger is not None:
         where = next(j for j in joints if stranger in j.links)
         raise ChainError(
-            "the joint {where} names the link {stranger!r}, which is not among the links{suggestion}",
-            where=where,
+            "the joint {joint} names the link {stranger!r}, which is not among the links{suggestion}",
+            joint=where,
             stranger=stranger,
             suggestion=nearest(stranger, declared),
         )
@@ -90,31 +93,28 @@ def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
     """Refuse what is too small or in several parts."""
     if len(links) < 3:
         raise ChainError("a kinematic chain has at least three links, this one has {links}", links=_links(len(links)))
-    root = {link: link for link in links}
-
-    def find(link: str) -> str:
-        while root[link] != link:
-            root[link] = link = root[root[link]]
-        return link
-
+    sets = DisjointSets(links)
     for j in joints:
         for other in j.links[1:]:
-            root[find(other)] = find(j.links[0])
-    parts: dict[str, list[str]] = {}
-    for link in links:
-        parts.setdefault(find(link), []).append(link)
+            sets.unite(j.links[0], other)
+    parts = sets.classes()
     if len(parts) > 1:
-        sizes = sorted(parts.values(), key=len)
+        sizes = sorted(parts, key=len)
         raise ChainError(
-            "the chain falls into {count} parts: no joint connects {some} with the rest",
+            "the chain falls into {count} parts: no joint connects {links} with the rest",
             count=len(parts),
-            some=_some(sizes[0]),
+            links=_some(sizes[0]),
         )
 
 
-def _links(number: int) -> str:
-    return "one link" if number == 1 else f"{number or 'no'} links"
+def _links(count: int) -> Message:
+    if count == 1:
+        return message("one link")
+    return message("{count} links", count=count) if count else message("no links")
 
 
-def _some(names: Sequence[str]) -> str:
-    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
+def _some(names: Sequence[str]) -> Message:
+    shown = ", ".join(names[:_MOST_NAMES])
+    if len(names) <= _MOST_NAMES:
+        return joined([shown])
+    return message("{names} and {count} more", names=shown, count=len(names) - _MOST_NAMES)

@@ -16,13 +16,16 @@ from gruebler.analysis.outputs import Output
 from gruebler.arrays import Reals
 from gruebler.errors import GrueblerError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage
+from gruebler.linkages import CamDisc, GenevaDriver, Linkage, NonCircular
 
 __all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]
 
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
 _DEGREES = 180 / pi
+# Of derivatives of the orders 0 to 3 where polynomials stand for cams and non-circular wheels: each one multiplies
+# rounding. docs/theory/wheels.md has 1e-10, 1e-7, 1e-4 for velocities, accelerations, jerks of up to 24, 45, 310.
+_POLYNOMIAL_NOISE = (1e-12, 1e-10, 1e-8, 1e-6)
 _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
@@ -34,7 +37,9 @@ class Column(NamedTuple):
     values: Reals
     """(rows,); NaN where it is not defined."""
     natural: float = 0.0
-    """What such a quantity usually is: a value 12 digits below is rounding noise."""
+    """What such a quantity usually is."""
+    noise: float = 1e-12
+    """The part of the largest or usual value that rounding can make."""
 
     @property
     def header(self) -> str:
@@ -85,17 +90,21 @@ def columns(
             return track(2) * v**2 + track(1) * a
         return track(3) * v**3 + 3 * track(2) * v * a + track(1) * j
 
+    noise = (1e-12,) * 4
+    if any(isinstance(element, CamDisc | GenevaDriver | NonCircular) for element in linkage.elements.values()):
+        noise = _POLYNOMIAL_NOISE
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
     for output in outputs:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
         for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
-            by_drive = output.values(motion, order)
-            out.append(Column(f"{output.name}{'′' * order}", _by(own, per, order), by_drive, natural / unit**order))
+            name, usually = f"{output.name}{'′' * order}", natural / unit**order
+            out.append(Column(name, _by(own, per, order), output.values(motion, order), usually, noise[order]))
         for order in orders if timed else ():
             name = f"{('ωαj' if output.turning else 'vaj')[order - 1]} {output.name}"
             values = in_time(order, partial(output.values, motion))
-            out.append(Column(name, f"{own}/{_seconds(order)}", values, natural * usual[order - 1] / unit**order))
+            usually = natural * usual[order - 1] / unit**order
+            out.append(Column(name, f"{own}/{_seconds(order)}", values, usually, noise[order]))
     if transmission is not None:
         out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))
     for name in points:
@@ -106,7 +115,8 @@ def columns(
             written = f"{linkage.unit}/{_seconds(order)}" if timed else _by(linkage.unit, per, order)
             natural = linkage.size * usual[order - 1] / unit**order
             out += [
-                Column(f"{name} {axis}", written, values[:, k], natural) for k, axis in enumerate(_RATES[order - 1])
+                Column(f"{name} {axis}", written, values[:, k], natural, noise[order])
+                for k, axis in enumerate(_RATES[order - 1])
             ]
     return out
 
@@ -137,7 +147,7 @@ def shown(made: Sequence[Column]) -> list[list[str]]:
     cells = []
     for column in made:
         finite = np.abs(column.values[np.isfinite(column.values)])
-        noise = 1e-12 * max(finite.max(initial=0.0), column.natural)
+        noise = column.noise * max(finite.max(initial=0.0), column.natural)
         values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
         cells.append([_cell(value) for value in values])
     return [list(row) for row in zip(*cells, strict=True)]

@@ -22,7 +22,7 @@ from gruebler.formats.catalog_records import entry_of_data
 from gruebler.formats.linkages import linkage_from_json
 from gruebler.formats.screws import read_any_linkage, spatial_from_json
 from gruebler.mobility import mobility_report
-from gruebler.mobility.messages import verdict_word
+from gruebler.mobility.report import verdict_word
 
 __all__ = ["add", "explanation", "print_checked", "run"]
 
@@ -228,6 +228,8 @@ def _is_linkage(path: Path) -> bool:
 
 
 def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]:
+    if not text.strip():
+        raise NotationError(f"{path}: is empty")
     try:
         document = json.loads(text)
     except RecursionError:
@@ -240,14 +242,17 @@ def _json(path: Path, text: str, arguments: argparse.Namespace) -> Iterator[Chec
         raise NotationError("{path}: no chain in it; expected an object or a list of objects", path=path)
     documents = document if isinstance(document, list) else [document]
     for number, one in enumerate(documents, 1):
-        name = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        name = place = f"{path}[{number}]" if isinstance(document, list) else str(path)
+        if isinstance(one, dict) and isinstance(one.get("name"), str) and one["name"].strip():
+            name = one["name"].strip()
+            place += f" ({name})"
         if isinstance(one, dict) and "id" in one:
-            yield check_entry(entry_of_data(one, name), origin=name)
+            yield check_entry(entry_of_data(one, place), origin=place)
             continue
         try:
             yield _plain(_chain_of_json(one), name, arguments)
         except GrueblerError as error:
-            raise NotationError("{name}: {error}", name=name, error=error) from None
+            raise NotationError("{place}: {error}", place=place, error=error) from None
 
 
 def _chain_of_json(document: Any) -> Chain:

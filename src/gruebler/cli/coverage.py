@@ -22,6 +22,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError
+from gruebler.text import Message, message
 
 __all__ = ["Outcome", "Row", "add", "coverage_rows", "execute", "find_function", "run"]
 
@@ -84,13 +85,13 @@ def coverage_rows() -> tuple[Row, ...]:
     """The concepts, then the machines; every machine of the catalog is there, at least with nothing."""
     path: Path = catalog_folder() / "coverage.toml"
 
-    def fail(text: str) -> CatalogError:
-        return CatalogError("{path}: {text_}", path=path, text_=text)
+    def fail(text: Message) -> CatalogError:
+        return CatalogError("{path}: {problem}", path=path, problem=text)
 
     table = convert_document(load_document(path, fail), Coverage, fail)
     told = {machine.id: machine.commands for machine in table.machines}
     if strange := sorted(set(told) - set(entries())):
-        raise fail(f"machines: the catalog has no entry {strange[0]!r}")
+        raise fail(message("machines: the catalog has no entry {machine!r}", machine=strange[0]))
     concepts = [
         Row(
             concept.where,

@@ -11,7 +11,7 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
-from gruebler.kinematics import degrees
+from gruebler.kinematics import from_degrees
 from gruebler.linkages import Linkage
 
 if TYPE_CHECKING:
@@ -106,14 +106,14 @@ def _way(text: str, turning: bool) -> Reals:
         )
     if abs((stop - start) / step) >= _MOST_ROWS:
         raise GrueblerError("--drive {text_}: more than {most_rows:,} rows", text_=text, most_rows=_MOST_ROWS)
-    rows = degrees(start, stop, step)
+    rows = from_degrees(start, stop, step)
     return rows if turning else np.degrees(rows)
 
 
 def default_rows(span: CycleSpan, shown_range: tuple[float, float] | None, turning: bool) -> Reals:
     """A full turn by 15 degrees, or round numbers in the range; (rows, 1)."""
     if shown_range is None and span.full:
-        return degrees(0, 360 * span.turns, _STEP).reshape(-1, 1)
+        return from_degrees(0, 360 * span.turns, _STEP).reshape(-1, 1)
     scale = 180 / math.pi if turning else 1.0
     low, high = shown_range or (span.low * scale, span.high * scale)
     step = _round_step((high - low) / 20)

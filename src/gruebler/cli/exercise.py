@@ -27,18 +27,16 @@ from gruebler.exercises import (
     value_text,
 )
 from gruebler.formats import Exercise
-from gruebler.text import Text
+from gruebler.text import message, translate
 
 __all__ = ["add", "run"]
 
-_HEADERS = {"en": ("id", "name", "source"), "de": ("Kennung", "Name", "Quelle")}
+_HEADERS = (message("id"), message("name"), message("source"))
 _MARKS = {
-    Mark.RIGHT: Text("right", "richtig"),
-    Mark.NEAR: Text("nearly right", "fast richtig"),
-    Mark.WRONG: Text("wrong", "falsch"),
+    Mark.RIGHT: message("right"),
+    Mark.NEAR: message("nearly right"),
+    Mark.WRONG: message("wrong"),
 }
-_MISSING = Text("Not answered: {}", "Nicht beantwortet: {}")
-_SUMMARY = Text("{right} of {all} answers right.", "{right} von {all} Antworten richtig.")
 _MOST = 1000
 
 
@@ -102,7 +100,10 @@ def _list(arguments: argparse.Namespace) -> None:
         print_json([task_as_dict(one) for one in found])
         return
     lang = arguments.lang
-    print_table(_HEADERS[lang], [(one.id, one.name.in_language(lang), source_text(one.source, lang)) for one in found])
+    print_table(
+        [header.in_language(lang) for header in _HEADERS],
+        [(one.id, one.name.in_language(lang), source_text(one.source, lang)) for one in found],
+    )
 
 
 def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
@@ -123,7 +124,7 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
         if not equals or not key.strip() or not answer.strip():
             raise GrueblerError("an answer is written KEY=ANSWER, such as H=40, not {word!r}", word=word)
         if key.strip() in answers:
-            raise GrueblerError("{strip} is answered twice: give one answer for each", strip=key.strip())
+            raise GrueblerError("{word} is answered twice: give one answer for each", word=key.strip())
         answers[key.strip()] = answer
     marks = grade(task, answers)
     right = all(one.mark is Mark.RIGHT for one in marks)
@@ -144,5 +145,6 @@ def _say(task: Exercise, marks: list[Grade], lang: str) -> None:
     results = solve(task).results
     missing = [plain_name(results[asked.key]) for asked in task.asked if asked.key not in answered]
     if missing:
-        print(_MISSING.in_language(lang).format(", ".join(missing)))
-    print(_SUMMARY.in_language(lang).format(right=sum(one.mark is Mark.RIGHT for one in marks), all=len(marks)))
+        print(translate("Not answered: {results}", lang, results=", ".join(missing)))
+    right = sum(one.mark is Mark.RIGHT for one in marks)
+    print(translate("{right} of {all} answers right.", lang, right=right, all=len(marks)))

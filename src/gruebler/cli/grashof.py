@@ -171,8 +171,8 @@ def _document(four_bar: FourBar) -> dict[str, object]:
     document: dict[str, object] = {
         **grashof.lengths,
         "type": grashof.type.key,
-        "english": grashof.type.english,
-        "german": grashof.type.german,
+        "english": grashof.type.name("en"),
+        "german": grashof.type.name("de"),
         "condition": grashof.condition,
         "excess": grashof.excess,
         "shortest": list(grashof.shortest),

@@ -15,6 +15,7 @@ from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.geometry.guidance import GUIDANCES, Guidance, guidance
 from gruebler.geometry.sizing import Sizing
+from gruebler.text import LANGUAGES
 
 __all__ = ["add", "run"]
 
@@ -195,8 +196,8 @@ def _item(one: Guidance) -> dict[str, object]:
     contact = one.contact
     return {
         "name": one.key,
-        "finder": one.name._asdict(),
-        "proportions": one.proportions._asdict(),
+        "finder": {lang: one.name.in_language(lang) for lang in LANGUAGES},
+        "proportions": {lang: one.proportions.in_language(lang) for lang in LANGUAGES},
         "mechanism": str(one.linkage.mechanism),
         "exact": one.is_exact,
         "length": one.piece.length,

@@ -57,6 +57,14 @@ class Parser(argparse.ArgumentParser):
             )
         return arguments
 
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        """As argparse; a value that is none of the choices is answered by the nearest of them."""
+        try:
+            super()._check_value(action, value)
+        except argparse.ArgumentError as error:
+            suggestion = nearest(str(value)[:50], map(str, action.choices or ()))
+            raise argparse.ArgumentError(action, error.message + suggestion) from None
+
     def error(self, message: str) -> NoReturn:
         """Say in one sentence what is wrong and where the help is, and exit with status 2."""
         text = translate("{problem} (see {program} --help)", self.lang, problem=shortened(message), program=self.prog)

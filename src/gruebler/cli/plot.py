@@ -19,7 +19,6 @@ from gruebler.drawing.canvas.panels import ratio_diagram
 from gruebler.drawing.linkage.curve_plots import coupler_plot, family_plot, hodograph
 from gruebler.drawing.linkage.motion_plots import transfer_plot, transmission_plot
 from gruebler.errors import GrueblerError
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
 from gruebler.text import joined_by_or
 
@@ -197,7 +196,7 @@ def _ratio(asked: _Asked) -> Figure:
     point, middle = asked.points[0], math.radians(given.centre)
     motion = move(linkage, [middle], speed=1.0, branch=given.branch)
     if not len(motion):
-        raise GrueblerError("{reason}", reason=stop_message(motion))
+        raise GrueblerError("{reason}", reason=motion.reason)
     path = linkage_path(linkage, point, given.branch)
     tangent = cmath.phase(complex(motion.complex_point(point, 1)[0]))
 

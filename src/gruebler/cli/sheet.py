@@ -13,7 +13,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
-from gruebler.sheets.messages import LocalNumber, explanation_paragraphs
+from gruebler.sheets.messages import explanation_paragraphs, typeset_number
 
 __all__ = ["add", "run"]
 
@@ -157,7 +157,7 @@ def _row(value: StatedValue, lang: str) -> tuple[str, ...]:
         value.symbol,
         meaning,
         value.exact.typeset if value.exact else "",
-        format(LocalNumber(value.derived, lang), "g" if whole else ".6f") + value.unit,
+        typeset_number(value.derived, lang, "g" if whole else ".6f") + value.unit,
         printed.replace(".", ",") if lang == "de" else printed,
         remark if value.holds else words["wrong"],
     )
@@ -234,7 +234,7 @@ def _say_size(one: Sheet, found: SizedMechanism, unit: str, lang: str) -> None:
     behind = f" {unit}" if unit else ""
 
     def said(value: float, form: str) -> str:
-        return format(LocalNumber(value, lang), form)
+        return typeset_number(value, lang, form)
 
     text = _WORDS[lang]["size"].format(
         length=said(found.length, "g"),

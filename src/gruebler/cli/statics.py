@@ -20,9 +20,9 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
+from gruebler.forces import Loads, Statics, slide_friction, statics
 from gruebler.kinematics import Motion, move
 from gruebler.linkages import Linkage
-from gruebler.statics import Loads, Statics, slide_friction, statics
 
 __all__ = ["add", "run"]
 

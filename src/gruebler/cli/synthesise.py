@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import math
 import sys
 from collections.abc import Callable
@@ -11,6 +10,7 @@ from math import degrees, isnan, radians
 from pathlib import Path
 from typing import Any
 
+from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import SynthesisError
@@ -45,7 +45,6 @@ _WORDS: dict[str, dict[str, Any]] = {
         "none": "None of the designs examined meets the task.",
         "yes": "yes",
         "no": "no",
-        "written": "Written: {path}",
         "paths": "paths",
         "minimax": "Minimax optimum: largest error {error} (from {start}); lengths {lengths}; input from {phi}, "
         "output from {psi}.",
@@ -59,7 +58,6 @@ _WORDS: dict[str, dict[str, Any]] = {
         "none": "Keiner der untersuchten Entwürfe erfüllt die Aufgabe.",
         "yes": "ja",
         "no": "nein",
-        "written": "Geschrieben: {path}",
         "paths": "Pfade",
         "minimax": "Minimax-Optimum: größter Fehler {error} (vorher {start}); Längen {lengths}; Antrieb ab {phi}, "
         "Abtrieb ab {psi}.",
@@ -156,27 +154,21 @@ def run(arguments: argparse.Namespace) -> int:
     result = _solved(arguments, task, demands)
     best = result.designs[0] if result.designs else None
     optimum = _minimax(arguments, result) if arguments.action == "function" and arguments.minimax else None
+    if best is not None and arguments.output is not None:
+        write_linkage(arguments.output, best.linkage)
+        say_written(arguments.output, arguments.lang)
+    if result.designs and arguments.draw is not None:
+        _draw(arguments.draw, result, arguments.lang)
     if arguments.json:
         document = result.to_json()
         if optimum is not None:
             document["minimax"] = _optimum_document(optimum)
-        print(json.dumps(document, ensure_ascii=False, indent=2))
+        print_json(document)
     else:
         _print(result, words, arguments.rejected)
         if optimum is not None:
             _print_optimum(optimum, words)
-    if best is not None and arguments.output is not None:
-        write_linkage(arguments.output, best.linkage)
-        _say(arguments, words["written"].format(path=arguments.output))
-    if result.designs and arguments.draw is not None:
-        _draw(arguments.draw, result, arguments.lang)
-        _say(arguments, words["written"].format(path=arguments.draw))
     return 0 if result.designs else 1
-
-
-def _say(arguments: argparse.Namespace, text: str) -> None:
-    if not arguments.json:
-        print(text)
 
 
 def _demands(arguments: argparse.Namespace) -> Demands:
@@ -330,13 +322,11 @@ def _check_picture(path: Path) -> None:
 
 def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
     """The best design, or all on a page."""
-    from gruebler.atomic_files import atomic_file
     from gruebler.synthesis.pictures import design_figure, designs_page
 
     alone = path.suffix.lower() == ".svg"
     text = design_figure(found.task, found.designs[0], lang=lang).svg() if alone else designs_page(found, lang=lang)
-    with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+    write_file(path, text.encode("utf-8"), lang)
 
 
 def _minimax(arguments: argparse.Namespace, found: SynthesisResult) -> Minimax:

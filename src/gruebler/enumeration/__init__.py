@@ -3,8 +3,8 @@
 from gruebler.enumeration.assortment import Assortment, assortment_number, assortments, each_assortment, largest_degree
 from gruebler.enumeration.condition import fractionation
 from gruebler.enumeration.contracted import ContractedGraph, contracted_graphs
-from gruebler.enumeration.counting import ChainCount, count_chains
-from gruebler.enumeration.listing import chains, count_request
+from gruebler.enumeration.counting import ChainCount, count_simple_chains
+from gruebler.enumeration.listing import chains, count_chains
 from gruebler.enumeration.multiple_assortment import each_joint_assortment, joint_assortment_number, joint_assortments
 from gruebler.enumeration.request import Request, RequestCount
 from gruebler.enumeration.simple_chains import chains_of, edge_blocks, graph6_blocks
@@ -21,7 +21,7 @@ __all__ = [
     "chains_of",
     "contracted_graphs",
     "count_chains",
-    "count_request",
+    "count_simple_chains",
     "each_assortment",
     "each_joint_assortment",
     "edge_blocks",

@@ -54,7 +54,7 @@ class PieceFiles:
             return None
         except OSError as error:
             raise RunError(
-                "{path} cannot be read: {value}", path=self._path(number), value=error.strerror or error
+                "{path} cannot be read: {reason}", path=self._path(number), reason=error.strerror or error
             ) from None
         except (ValueError, RecursionError, LookupError, AttributeError, TypeError):
             return None  # no JSON, a number of thousands of digits, nested without end, no object, no seal
@@ -65,7 +65,7 @@ class PieceFiles:
             return self._path(number).read_bytes().partition(b"\n")[2]
         except OSError as error:
             raise RunError(
-                "{path} cannot be read: {value}", path=self._path(number), value=error.strerror or error
+                "{path} cannot be read: {reason}", path=self._path(number), reason=error.strerror or error
             ) from None
 
     def remove(self, number: int) -> None:
@@ -119,7 +119,7 @@ class Checkpoint(PieceFiles):
                     file.write(json.dumps(manifest, indent=2).encode())
         except OSError as error:
             raise RunError(
-                "{directory} cannot keep pieces of work: {value}", directory=directory, value=error.strerror or error
+                "{directory} cannot keep pieces of work: {reason}", directory=directory, reason=error.strerror or error
             ) from None
         except RunError:
             raise
@@ -134,11 +134,15 @@ def _compare(directory: Path, found: object, wanted: Mapping[str, Any]) -> None:
     if not isinstance(found, dict):
         raise ValueError("no manifest")
     if found.get("task") == wanted["task"]:
-        other = f"version {found.get('version')} of gruebler, this is version {wanted['version']}"
-    else:
-        other = f"another task, {json.dumps(found.get('task'))}"
+        raise RunError(
+            "{directory} keeps pieces of version {other} of gruebler, this is version {version}; give another "
+            "directory or remove this one",
+            directory=directory,
+            other=found.get("version"),
+            version=wanted["version"],
+        )
     raise RunError(
-        "{directory} keeps pieces of {other}; give another directory or remove this one",
+        "{directory} keeps pieces of another task, {task}; give another directory or remove this one",
         directory=directory,
-        other=other,
+        task=json.dumps(found.get("task")),
     )

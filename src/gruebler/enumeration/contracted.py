@@ -114,10 +114,10 @@ class ContractedGraph:
         """int64[16]; `GrueblerError` if the graph is too large for it."""
         if self.nodes > _NODES or max(k for _, _, k in self.bundles) > 15:
             raise GrueblerError(
-                "only contracted graphs of at most {nodes} nodes and 15 parallel strings can be worked on, this "
-                "one has {nodes_2} nodes",
-                nodes=_NODES,
-                nodes_2=self.nodes,
+                "only contracted graphs of at most {most} nodes and 15 parallel strings can be worked on, this one has "
+                "{nodes} nodes",
+                most=_NODES,
+                nodes=self.nodes,
             )
         rows = np.zeros(_NODES, np.uint64)
         for u, v, k in self.bundles:
@@ -130,13 +130,13 @@ def _check(graph: ContractedGraph) -> None:
     pairs = [(u, v) for u, v, _ in graph.bundles]
     wrong = next(((u, v, k) for u, v, k in graph.bundles if u < 0 or u == v or k < 1), None)
     if wrong is not None or not pairs:
-        raise GrueblerError("a bundle is (node, other node, number of strings >= 1), not {wrong}", wrong=wrong)
+        raise GrueblerError("a bundle is (node, other node, number of strings >= 1), not {found}", found=wrong)
     if len(set(pairs)) < len(pairs):
         raise GrueblerError("two bundles between the same nodes: give the number of all their strings in one")
     poor = next((v for v, degree in enumerate(graph.degrees) if degree < 3), None)
     if poor is not None:
         raise GrueblerError(
-            "every node has three strings or more, node {poor} has {degrees}", poor=poor, degrees=graph.degrees[poor]
+            "every node has three strings or more, node {node} has {degree}", node=poor, degree=graph.degrees[poor]
         )
     near: list[set[int]] = [set() for _ in graph.degrees]
     for u, v in pairs:
@@ -151,8 +151,12 @@ def _check(graph: ContractedGraph) -> None:
             seen |= fresh
             front.extend(fresh)
         if len(seen - {-1}) < graph.nodes:
-            what = "is in pieces" if missing < 0 else f"falls apart at node {missing}"
-            raise GrueblerError("a contracted graph is two-connected, this one {what}", what=what)
+            raise GrueblerError(
+                "a contracted graph is two-connected, this one is in pieces"
+                if missing < 0
+                else "a contracted graph is two-connected, this one falls apart at node {node}",
+                node=missing,
+            )
 
 
 def _unpacked(rows: Packed) -> ContractedGraph:

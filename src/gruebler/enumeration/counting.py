@@ -11,7 +11,7 @@ from typing import Any
 from gruebler.enumeration.assortment import Assortment, loop_count
 from gruebler.enumeration.pieces import PieceCount, count_piece, pieces, run_pieces
 
-__all__ = ["ChainCount", "count_chains"]
+__all__ = ["ChainCount", "count_simple_chains"]
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class ChainCount:
     def to_json(self) -> dict[str, Any]:
         """Plain data; an assortment is written ``4,4``, and orbits only if they were counted.
 
-        >>> count_chains(6).to_json()
+        >>> count_simple_chains(6).to_json()
         {'links': 6, 'mobility': 1, 'chains': 2, 'by_assortment': {'4,2': 2}}
         """
         found: dict[str, Any] = {"links": self.links, "mobility": self.mobility, "chains": self.chains}
@@ -42,7 +42,7 @@ class ChainCount:
         return found | {name: number for name, number in orbits.items() if number is not None}
 
 
-def count_chains(
+def count_simple_chains(
     links: int,
     mobility: int = 1,
     *,
@@ -65,7 +65,7 @@ def count_chains(
     Raises:
         GrueblerError: links < 1, mobility < 0, or more loops than can be worked on.
 
-    >>> count_chains(8, orbits=True)
+    >>> count_simple_chains(8, orbits=True)
     ChainCount(links=8, mobility=1, chains=16, by_assortment={(4, 4): 9, (5, 2, 1): 5, (6, 0, 2): 2},
                inversions=71, drives=153, joint_orbits=84)
     """

@@ -8,7 +8,7 @@ from concurrent.futures import Executor
 from gruebler.chain import Chain
 from gruebler.enumeration.request import Request, RequestCount
 
-__all__ = ["chains", "count_request"]
+__all__ = ["chains", "count_chains"]
 
 
 def chains(
@@ -41,7 +41,7 @@ def chains(
     return chains_of_request(Request(links, mobility, fractionated, wanted, multiple_joints))
 
 
-def count_request(
+def count_chains(
     links: int,
     mobility: int = 1,
     *,
@@ -64,7 +64,7 @@ def count_request(
 
     Chains that are not fractionated and have simple joints are counted without being built.
 
-    >>> count_request(9, 2, fractionated="all").to_json()["by_fractionation"]
+    >>> count_chains(9, 2, fractionated="all").to_json()["by_fractionation"]
     {'none': 35, 'link': 5, 'joint': 0}
     """
     from gruebler.enumeration.work_units import PieceCounter, add_tallies, work_units

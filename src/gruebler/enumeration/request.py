@@ -45,7 +45,7 @@ class Request:
     def __post_init__(self) -> None:
         for name in ("links", "mobility"):
             if not isinstance(getattr(self, name), int) or isinstance(getattr(self, name), bool):
-                raise RequestError("{name} is a whole number, not {getattr!r}", name=name, getattr=getattr(self, name))
+                raise RequestError("{name} is a whole number, not {found!r}", name=name, found=getattr(self, name))
         if self.links < 3:
             raise RequestError("a chain has at least three links, not {links}", links=self.links)
         if self.mobility < 0:
@@ -108,9 +108,9 @@ def _assortment(numbers: Sequence[int], links: int) -> tuple[int, ...]:
         )
     if sum(kept) != links:
         raise RequestError(
-            "the assortment {kept} has {sum} links in all, not {links}",
-            kept=",".join(map(str, kept)),
-            sum=sum(kept),
+            "the assortment {assortment} has {count} links in all, not {links}",
+            assortment=",".join(map(str, kept)),
+            count=sum(kept),
             links=links,
         )
     while kept[-1] == 0:

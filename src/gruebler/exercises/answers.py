@@ -41,19 +41,27 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
 
     Raises `GrueblerError` for what is no number and for a unit that does not measure the result.
 
-    >>> from gruebler.text import Text
-    >>> read_answer("7,2 cm", Result("H", Text("stroke", "Hub"), 72.0, "mm")).number
+    >>> from gruebler.text import message
+    >>> read_answer("7,2 cm", Result("H", message("stroke"), 72.0, "mm")).number
     72.0
     """
     form = _NUMBER.fullmatch(answer)
     if form is None or (form[1] and not result.either_sign) or not isfinite(float(form[2].replace(",", "."))):
-        wanted = f"a number in {result.unit}" if result.unit else "a number"
-        raise GrueblerError("expected {wanted}, not {answer!r}", wanted=wanted, answer=answer)
+        raise GrueblerError(
+            "expected a number in {unit}, not {answer!r}" if result.unit else "expected a number, not {answer!r}",
+            unit=result.unit,
+            answer=answer,
+        )
     text = form[2].replace(",", ".")
     scale = unit_scale(form[3], result.unit) if form[3] else 1.0
     if scale is None:
-        wanted = f"in {result.unit}" if result.unit else "without a unit"
-        raise GrueblerError("expected a number {wanted}, not {answer!r}", wanted=wanted, answer=answer)
+        raise GrueblerError(
+            "expected a number in {unit}, not {answer!r}"
+            if result.unit
+            else "expected a number without a unit, not {answer!r}",
+            unit=result.unit,
+            answer=answer,
+        )
     return GivenAnswer(float(text) * scale, last_place(text) * scale, bool(form[3]))
 
 

@@ -10,30 +10,21 @@ import numpy as np
 from gruebler.analysis import measures
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, as_step, figure
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.geometry import Path, coupler_path, linkage_path, path_piece
 from gruebler.geometry.sizing import longest_in_band
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage
-from gruebler.text import Text
+from gruebler.text import Message, in_every_language, message
 
 __all__ = ["conchoid", "four_bar"]
 
 
 STRIP = 1e-6
 """Tolerance of the width of a strip: its direction comes from samples."""
-PATH = Text("Path of the coupler point", "Koppelkurve")
-BY_SOLVER = (
-    "Largest distance of the path from that of the general solver",
-    "Größter Abstand der Koppelkurve von der des allgemeinen Lösers",
-)
-
-
-def headers(*names: str) -> list[Text]:
-    """Headers that are the same in both languages."""
-    return [Text(name, name) for name in names]
+PATH = message("Path of the coupler point")
+BY_SOLVER = message("Largest distance of the path from that of the general solver")
 
 
 def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
@@ -42,7 +33,7 @@ def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points
     apart = (
         float(np.abs(moved.complex_point("C") - (points[:, 0] + 1j * points[:, 1])).max()) if moved.complete else 1.0
     )
-    builder.check(*BY_SOLVER, 0.0, apart)
+    builder.check(BY_SOLVER, 0.0, apart)
 
 
 def _read_points(points: str) -> list[tuple[float, float]]:
@@ -70,32 +61,31 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
             b=b,
             c=c,
             d=d,
-            type=size.type,
+            type=in_every_language(size.type.name),
         )
     chosen = _read_points(points)
     as_step(step)
     way = SolutionBuilder(unit)
     way.say(
-        "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that of radius "
-        "c about B0, above the line A-B0:",
-        "A0 = (0; 0), B0 = (d; 0). Die Kurbel bestimmt A; B liegt auf dem Kreis um A mit Radius b und dem um B0 mit "
-        "Radius c, oberhalb der Geraden A-B0:",
+        message(
+            "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that "
+            "of radius c about B0, above the line A-B0:"
+        ),
         "A = a·(cos φ, sin φ), |AB| = b, |B0B| = c",
     )
     way.say(
-        "The coupler point lies u along A-B and v to its left; θ is the direction from A to B:",
-        "Der Koppelpunkt liegt um u längs A-B und um v links davon; θ ist die Richtung von A nach B:",
+        message("The coupler point lies u along A-B and v to its left; θ is the direction from A to B:"),
         "K = A + u·(cos θ, sin θ) + v·(-sin θ, cos θ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     motion = size.motion(drives)
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
     for name, (u, v) in zip(names, chosen, strict=True):
-        way.say(f"{name}: u = {number(u)}, v = {number(v)} {unit}", f"{name}: u = {number(u)}, v = {number(v)} {unit}")
+        way.say(message("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit))
     columns = ["φ [°]", *(f"{name}_{axis}" for name in names for axis in "xy")]
     rows = [(round(degrees(phi), 9), *(float(x) for path in paths for x in path[k])) for k, phi in enumerate(drives)]
-    way.table(PATH, headers(*columns), rows)
+    way.table(PATH, columns, rows)
     for (u, v), path in zip(chosen, paths, strict=True):
         check_path(way, size.linkage({"C": (u, v)}), drives, path, "+")
     return way.done()
@@ -114,18 +104,17 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
     as_step(step)
     builder = SolutionBuilder(unit)
     builder.say(
-        "The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:",
-        "Die Koppel zeigt stets von A durch den Gleitstein in B0 = (d; 0); C liegt an ihrem Ende, um b von A entfernt:",
+        message("The coupler always points from A through the block at B0 = (d, 0); C lies at its end, b from A:"),
         "C = A + b·(B0 - A)/|AB0|, |AB0| = √(a² + d² - 2·a·d·cos φ)",
     )
-    drives = turns(0, 360, step)
+    drives = from_degrees(0, 360, step)
     rows = []
     for phi in drives.tolist():
         joint = a * cmath.exp(1j * phi)
         way_out = d - joint
         end = joint + b * way_out / abs(way_out)
         rows.append((round(degrees(phi), 9), end.real, end.imag, abs(way_out), degrees(cmath.phase(way_out))))
-    builder.table(PATH, [*headers("φ [°]", "C_x", "C_y", "|AB0|"), Text("direction [°]", "Richtung [°]")], rows)
+    builder.table(PATH, ["φ [°]", "C_x", "C_y", "|AB0|", message("direction [°]")], rows)
     if a < d:
         _add_swing(builder, size)
     points = np.array([row[1:3] for row in rows])
@@ -138,43 +127,47 @@ def _add_straight(builder: SolutionBuilder, path: Path, by_solver: Path, band: f
     """The longest stretch that keeps within a band."""
     unit = builder.unit
     piece = longest_in_band(path, 0.0, pi, band)
-    en, de = f"a band of {number(band)} {unit}", f"einem Streifen von {number(band)} {unit}"
     builder.say(
-        f"Nearly straight: within {en} C runs {piece.length:.3f} {unit} far, from φ = {degrees(piece.start):.2f}° "
-        f"to {degrees(piece.end):.2f}°.",
-        f"Angenähert gerade: In {de} Breite läuft C {piece.length:.3f} {unit} weit, von φ = "
-        f"{degrees(piece.start):.2f}° bis {degrees(piece.end):.2f}°.",
+        message(
+            "Nearly straight: within a band of {band} {unit} C runs {length:.3f} {unit} far, from φ = {start:.2f}° to "
+            "{end:.2f}°.",
+            band=figure(band),
+            length=piece.length,
+            unit=unit,
+            start=degrees(piece.start),
+            end=degrees(piece.end),
+        )
     )
     builder.keep(
         "length",
-        Text("length of the nearly straight stretch", "Länge des angenähert geraden Stücks"),
+        message("length of the nearly straight stretch"),
         piece.length,
         unit=unit,
         symbol="L",
     )
     again = path_piece(by_solver, piece.start, piece.end, piece.direction, samples=2001)
-    en, de = "of this stretch, by the general solver", "dieses Stücks, mit dem allgemeinen Löser"
-    builder.check(f"Length {en}", f"Länge {de}", piece.length, again.length)
-    builder.check(f"Width {en}, and the band", f"Breite {de}, und der Streifen", band, again.band, tolerance=STRIP)
+    builder.check(message("Length of this stretch, by the general solver"), piece.length, again.length)
+    width = message("Width of this stretch, by the general solver, and the band")
+    builder.check(width, band, again.band, tolerance=STRIP)
 
 
 def _add_swing(way: SolutionBuilder, size: InvertedSliderCrank) -> None:
     a, d = size.a, size.d
-    name = Text("swing of the coupler", "Schwingwinkel der Koppel")
-    text = Text(
-        "swing: in the dead centres the crank is at right angles to the coupler",
-        "Schwingwinkel: In den Totlagen steht die Kurbel senkrecht auf der Koppel",
-    )
+    name = message("swing of the coupler")
+    text = message("swing: in the dead centres the crank is at right angles to the coupler")
     swing = way.find(
         "swing", name, "2·arcsin(a/d)", 2 * degrees(asin(a / d)), unit="°", symbol="ψ_H", text=text, a=a, d=d
     )
-    name = Text("crank angle of the dead centres", "Kurbelwinkel der Totlagen")
+    name = message("crank angle of the dead centres")
     dead = way.find("φ_T", name, "± arccos(a/d)", degrees(acos(a / d)), unit="°", either_sign=True, a=a, d=d)
-    name = Text("ratio of the times of both swings", "Zeitverhältnis der beiden Schwingungen")
+    name = message("ratio of the times of both swings")
     way.find("time_ratio", name, "(360° - 2·φ_T)/(2·φ_T)", (180 - dead) / dead, unit="", symbol="k", φ_T=angle(dead))
     found = measures(size.linkage())
-    en, de = "between the dead centres of the solved motion", "zwischen den Totlagen der durchgerechneten Bewegung"
-    way.check(f"Swing, {en}", f"Schwingwinkel, {de}", swing, degrees(found.travel or 0.0), "°")
-    way.check(f"Ratio of the times, {en}", f"Zeitverhältnis, {de}", (180 - dead) / dead, found.time_ratio or 0.0, "")
+
+    def between(quantity: Message) -> Message:
+        return message("{quantity}, between the dead centres of the solved motion", quantity=quantity)
+
+    way.check(between(message("Swing")), swing, degrees(found.travel or 0.0), "°")
+    way.check(between(message("Ratio of the times")), (180 - dead) / dead, found.time_ratio or 0.0, "")
     half = 180 - degrees(found.phi_max or 0.0) / 2
-    way.check(f"Crank angle of the dead centres, {en}", f"Kurbelwinkel der Totlagen, {de}", dead, half, "°")
+    way.check(between(message("Crank angle of the dead centres")), dead, half, "°")

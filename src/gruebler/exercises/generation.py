@@ -10,15 +10,16 @@ from random import Random
 from typing import NamedTuple
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.enumeration import chains
 from gruebler.errors import GrueblerError
-from gruebler.exercises.solution import number
+from gruebler.exercises.solution import figure
 from gruebler.exercises.solving import solve
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.mobility import counted, mobility_report
-from gruebler.text import Text
+from gruebler.text import Message, Text, in_every_language, joined, joined_by_and, message
 
 __all__ = ["KINDS", "LEVELS", "generate", "generated_from_id", "is_generated"]
 
@@ -32,7 +33,7 @@ class _Draft(NamedTuple):
     method: str
     given: Given
     asked: tuple[str, ...]
-    task: Text
+    task: Message
 
 
 def generate(kind: str, seed: int, level: int = 1) -> Exercise:
@@ -52,14 +53,13 @@ def generate(kind: str, seed: int, level: int = 1) -> Exercise:
         raise GrueblerError("the seed is a whole number from 0 to 999999999, not {seed!r}", seed=seed)
     name, maker = KINDS[kind]
     random = Random(f"gruebler {kind} {level} {seed}")
-    title = Text(f"{name.en}, level {level}", f"{name.de}, Stufe {level}")
+    title = in_every_language(message("{kind}, level {level}", kind=name, level=level).in_language)
     id = f"{kind}-{level}-{seed}"
     while True:
-        _draft = maker(random, level)
-        asked = tuple(Question(key) for key in _draft.asked)
-        task = Exercise(
-            id=id, name=title, source="", task=_draft.task, method=_draft.method, given=_draft.given, asked=asked
-        )
+        method, given, keys, text = maker(random, level)
+        asked = tuple(Question(key) for key in keys)
+        words = in_every_language(text.in_language)
+        task = Exercise(id=id, name=title, source="", task=words, method=method, given=given, asked=asked)
         if kind not in _MEASURED or _tells_mistakes(task):
             return task
 
@@ -105,16 +105,19 @@ def _mobility(random: Random, level: int) -> _Draft:
     while mobility_report(chain).generic != max(counted(chain), 0):
         chain = _typed(random, level)
     shuffled = _shuffled(random, chain)
-    text, german = str(shuffled), shuffled.text("german")
     letters = sorted({joint.pair.name for joint in shuffled.joints}, key=list(_LETTERS).index)
-    en, de = (", ".join(_LETTERS[name][column] for name in letters) for column in (0, 1))
-    task = Text(
-        f"Count links and joints of the planar chain {text} ({en}; the numbers name the links) and find its degree of "
-        "freedom F.",
-        f"Zählen Sie Glieder und Gelenke der ebenen Kette {german} ({de}; die Zahlen benennen die Glieder) und "
-        "bestimmen Sie den Getriebefreiheitsgrad F.",
+    task = message(
+        "Count links and joints of the planar chain {chain} ({letters}; the numbers name the links) and "
+        "find its degree of freedom F.",
+        chain=_written(shuffled),
+        letters=joined(_LETTERS[name] for name in letters),
     )
-    return _Draft("mobility.chain", {"chain": text}, ("n", "g1", "g2", "F"), task)
+    return _Draft("mobility.chain", {"chain": str(shuffled)}, ("n", "g1", "g2", "F"), task)
+
+
+def _written(chain: Chain) -> Text:
+    """The chain in the symbols of each language."""
+    return in_every_language(lambda lang: chain.text(Alphabet.of_language(lang)))
 
 
 def _shuffled(random: Random, chain: Chain) -> Chain:
@@ -131,9 +134,9 @@ def _typed(random: Random, level: int) -> Chain:
 
 
 _LETTERS = {
-    "revolute": ("R: turning pair", "D: Drehgelenk"),
-    "prismatic": ("P: sliding pair", "S: Schubgelenk"),
-    "roll_slide": ("G: rolling and sliding pair", "G: Gleitwälzgelenk"),
+    "revolute": message("R: turning pair"),
+    "prismatic": message("P: sliding pair"),
+    "roll_slide": message("G: rolling and sliding pair"),
 }
 
 
@@ -158,37 +161,32 @@ def _dyad(random: Random, level: int) -> _Draft:
     size = random.choice(sizes if is_dyad or level == 3 else ((5, 2), (6, 3)))
     start = _shuffled(random, random.choice(list(chains(*size))))
     given: Given = {"chain": str(start)}
-    text, german = str(start), start.text("german")
+    chain = _written(start)
     asked: tuple[str, ...] = ("F_before", "F_after")
-    more_en, more_de = "How does F change?", "Wie ändert sich F?"
+    more = [message("How does F change?")]
     if level > 1:
         asked += ("chains",)
-        more_en += " How many essentially different chains can come out (names of the links aside)?"
-        more_de += " Wie viele wesentlich verschiedene Ketten können entstehen (die Namen der Glieder zählen nicht)?"
+        more.append(message("How many essentially different chains can come out (names of the links aside)?"))
     if is_dyad or level == 3:
-        form, kind, art = random.choice(_DYADS if level > 1 else _DYADS[:1])
-        en = f"Extend the chain {{}} by a dyad of {kind} between two of its links."
-        de = f"Erweitern Sie die Kette {{}} um einen Zweischlag mit {art} zwischen zwei ihrer Glieder."
+        given["form"], kind = random.choice(_DYADS if level > 1 else _DYADS[:1])
         method = "dyads.dyad"
-        given["form"] = form
+        task = message(
+            "Extend the chain {chain} by a dyad of {joints} between two of its links.", chain=chain, joints=kind
+        )
     else:
-        en = (
-            "Connect two links of the chain {} by a coupler with two turning pairs, so that no rigid triangle comes "
-            "out."
-        )
-        de = (
-            "Verbinden Sie zwei Glieder der Kette {} durch eine Koppel mit zwei Drehgelenken, ohne dass ein starres "
-            "Dreieck entsteht."
-        )
         method = "dyads.coupler"
-    task = Text(f"{en.format(text)} {more_en}", f"{de.format(german)} {more_de}")
-    return _Draft(method, given, asked, task)
+        task = message(
+            "Connect two links of the chain {chain} by a coupler with two turning pairs, so that no rigid "
+            "triangle comes out.",
+            chain=chain,
+        )
+    return _Draft(method, given, asked, joined([task, *more], " "))
 
 
 _DYADS = (
-    ("RRR", "three turning pairs", "drei Drehgelenken"),
-    ("RPR", "two turning pairs and a sliding pair between them", "zwei Drehgelenken und einem Schubgelenk dazwischen"),
-    ("RRP", "two turning pairs and a sliding pair at one end", "zwei Drehgelenken und einem Schubgelenk an einem Ende"),
+    ("RRR", message("three turning pairs")),
+    ("RPR", message("two turning pairs and a sliding pair between them")),
+    ("RRP", message("two turning pairs and a sliding pair at one end")),
 )
 """Forms with what they are called."""
 
@@ -211,14 +209,10 @@ def _lengths(random: Random, **ranges: tuple[int, int]) -> Iterator[tuple[str, i
         yield name, 5 * random.randint(low, high)
 
 
-def _told(given: Given, names: str = "abcde") -> tuple[str, str]:
-    """The lengths as they stand in a task, in English and German."""
-    words = [f"{name} = {number(abs(float(given[name])))} mm" for name in names if given.get(name)]
-    return _listed(words, "and"), _listed([word.replace(".", ",") for word in words], "und")
-
-
-def _listed(words: list[str], last: str) -> str:
-    return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else words[0]
+def _given_lengths(given: Given, names: str = "abcde") -> Message:
+    """The lengths as they stand in a task."""
+    lengths = {name: abs(float(given[name])) for name in names if given.get(name)}
+    return joined_by_and([message("{name} = {length} mm", name=k, length=figure(v)) for k, v in lengths.items()])
 
 
 def _four_bar(given: Given) -> FourBar:
@@ -246,31 +240,26 @@ def _grashof(random: Random, level: int) -> _Draft:
         wanted = random.choice(_TYPES)
         make = _change_point if wanted.startswith("change") else _any_four_bar
         given = _until(lambda: make(random), lambda g: _four_bar(g).type.key == wanted)
-        en, de = _told(given)
-        task = Text(
-            f"A four-bar has the crank, coupler, rocker and frame {en}. Does the crank a turn fully, and what kind of "
-            "mechanism is it?",
-            f"Ein Gelenkviereck hat Kurbel, Koppel, Schwinge und Gestell {de}. Ist die Kurbel a umlauffähig, und "
-            "welcher Getriebetyp ist es?",
+        task = message(
+            "A four-bar has the crank, coupler, rocker and frame {lengths}. Does the crank a turn fully, and "
+            "what kind of mechanism is it?",
+            lengths=_given_lengths(given),
         )
         return _Draft("grashof.condition", given | {"unit": "mm"}, ("sum_ends", "sum_others", "turns", "type"), task)
     free = random.choice("bcd") if level == 2 else "d"
     given = _until(lambda: _any_four_bar(random), lambda g: _range_worth_asking(g, free, level))
     del given[free]
-    en, de = _told(given)
-    task = Text(
-        f"A four-bar has {en} (a crank, b coupler, c rocker, d frame). Within which limits may the length {free} lie "
-        "for a crank-rocker with the rotating crank a?",
-        f"Ein Gelenkviereck hat {de} (a Kurbel, b Koppel, c Schwinge, d Gestell). In welchen Grenzen darf die Länge "
-        f"{free} liegen, damit eine Kurbelschwinge mit umlaufender Kurbel a entsteht?",
+    task = message(
+        "A four-bar has {lengths} (a crank, b coupler, c rocker, d frame). Within which limits may the "
+        "length {free} lie for a crank-rocker with the rotating crank a?",
+        lengths=_given_lengths(given),
+        free=free,
     )
     asked: tuple[str, ...] = (f"{free}_min", f"{free}_max")
     if level == 3:
         asked += ("shortest_upper",)
-        task = Text(
-            f"{task.en} Up to which length of the frame does a turn fully with the frame as the shortest link?",
-            f"{task.de} Bis zu welcher Gestelllänge läuft a auch mit dem Gestell als kürzestem Glied um?",
-        )
+        more = message("Up to which length of the frame does a turn fully with the frame as the shortest link?")
+        task = joined([task, more], " ")
     return _Draft("grashof.length_range", given | {"free": free, "unit": "mm"}, asked, task)
 
 
@@ -306,39 +295,25 @@ def _slider(random: Random, eccentric: bool) -> Given:
     return _until(make, good)
 
 
-def _article(kind: str) -> str:
-    return "An" if kind[0] in "aeiou" else "A"
-
-
-_SLIDER = ("central slider-crank", "zentrische Schubkurbel"), ("eccentric slider-crank", "exzentrische Schubkurbel")
-
-
 def _dead_centre(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2)
-        (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
         asked: tuple[str, ...] = ("l_a", "l_i", "H") if level == 1 else ("H", "φ_max", "time_ratio")
-        more = (
-            ("", "")
+        task = message(
+            "A central slider-crank has {lengths}. Find the dead centres and the stroke H."
             if level == 1
-            else (
-                ", the larger crank angle between the dead centres and the ratio of times",
-                ", den größeren Kurbelwinkel zwischen den Totlagen und das Zeitverhältnis",
-            )
-        )
-        task = Text(
-            f"{_article(kind)} {kind} has {en}. Find the dead centres and the stroke H{more[0]}.",
-            f"Eine {art} hat {de}. Bestimmen Sie die Totlagen und den Hub H{more[1]}.",
+            else "An eccentric slider-crank has {lengths}. Find the dead centres and the stroke H, the larger crank "
+            "angle between the dead centres and the ratio of times.",
+            lengths=_given_lengths(given),
         )
         return _Draft("dead_centres.slider_crank", given | {"unit": "mm"}, asked, task)
     given = _until(lambda: _any_four_bar(random), lambda g: _good_rocker(g) and not _four_bar(g).is_central)
     rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
-    en, de = _told(given)
-    task = Text(
-        f"A crank-rocker has {en}; the crank makes {rpm} turns a minute. Find the swing of the rocker, the larger "
+    task = message(
+        "A crank-rocker has {lengths}; the crank makes {rpm} turns a minute. Find the swing of the rocker, the larger "
         "crank angle between the dead centres and the times of both ways.",
-        f"Eine Kurbelschwinge hat {de}; die Kurbel macht {rpm} Umdrehungen je Minute. Bestimmen Sie den "
-        "Schwingwinkel, den größeren Kurbelwinkel zwischen den Totlagen und die Zeiten beider Wege.",
+        lengths=_given_lengths(given),
+        rpm=rpm,
     )
     asked = ("φ_i", "φ_a", "φ_max", "ψ_H", "T_max", "T_min")
     return _Draft("dead_centres.crank_rocker", given | {"rpm": rpm, "unit": "mm"}, asked, task)
@@ -347,19 +322,20 @@ def _dead_centre(random: Random, level: int) -> _Draft:
 def _transmission(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2)
-        (en, de), (kind, art) = _told(given), _SLIDER[level - 1]
-        task = Text(
-            f"{_article(kind)} {kind} has {en}. Find the largest deviation angle and the smallest transmission angle.",
-            f"Eine {art} hat {de}. Bestimmen Sie den größten Ablenkwinkel und den kleinsten Übertragungswinkel.",
+        task = message(
+            "A central slider-crank has {lengths}. Find the largest deviation angle and the smallest "
+            "transmission angle."
+            if level == 1
+            else "An eccentric slider-crank has {lengths}. Find the largest deviation angle and the smallest "
+            "transmission angle.",
+            lengths=_given_lengths(given),
         )
         return _Draft("transmission_angle.slider_crank", given | {"unit": "mm"}, ("α_max", "μ_min"), task)
     given = _until(lambda: _any_four_bar(random), _good_rocker)
-    en, de = _told(given)
-    task = Text(
-        f"A crank-rocker has {en}. Find the transmission angle in both frame positions and the smallest one. Is it at "
-        "least 40°?",
-        f"Eine Kurbelschwinge hat {de}. Bestimmen Sie den Übertragungswinkel in beiden Steglagen und den kleinsten. "
-        "Beträgt er mindestens 40°?",
+    task = message(
+        "A crank-rocker has {lengths}. Find the transmission angle in both frame positions and the smallest one. Is it "
+        "at least 40°?",
+        lengths=_given_lengths(given),
     )
     asked = ("μ_I*", "μ_II*", "μ_min", "good")
     return _Draft("transmission_angle.four_bar", given | {"unit": "mm"}, asked, task)
@@ -367,36 +343,38 @@ def _transmission(random: Random, level: int) -> _Draft:
 
 def _velocity(random: Random, level: int) -> _Draft:
     omega, phi = random.choice((5, 8, 10, 12, 20)), 5 * random.randint(4, 31)
-    turn_en, turn_de = f"The crank turns left at ω = {omega} rad/s", f"Die Kurbel dreht links mit ω = {omega} 1/s"
     if level < 3:
         given = _slider(random, level == 2) | {"phi": phi, "omega": omega, "unit": "mm"}
-        (en, de), (kind, art) = _told(given, "abe"), _SLIDER[level - 1]
-        more = ("", "") if level == 1 else (" (e above the crank's pivot)", " (e über dem Kurbeldrehpunkt)")
-        acceleration = ("", "") if level == 1 else (" and acceleration", " und Beschleunigung")
-        task = Text(
-            f"{_article(kind)} {kind} has {en}{more[0]}. {turn_en} and stands at φ = {phi}° to the slider's way. Find "
-            f"velocity{acceleration[0]} of the slider.",
-            f"Eine {art} hat {de}{more[1]}. {turn_de} und steht unter φ = {phi}° zum Schieberweg. Bestimmen Sie die "
-            f"Geschwindigkeit{acceleration[1]} des Schiebers.",
+        task = message(
+            "A central slider-crank has {lengths}. The crank turns left at ω = {omega} rad/s and stands at φ = "
+            "{phi}° to the slider's way. Find velocity of the slider."
+            if level == 1
+            else "An eccentric slider-crank has {lengths} (e above the crank's pivot). The crank turns left at ω = "
+            "{omega} rad/s and stands at φ = {phi}° to the slider's way. Find velocity and acceleration of the "
+            "slider.",
+            lengths=_given_lengths(given, "abe"),
+            omega=omega,
+            phi=phi,
         )
         return _Draft("velocities.slider_crank", given, ("v_B",) if level == 1 else ("v_B", "a_B"), task)
     given = _until(lambda: _any_four_bar(random), _good_rocker)
-    en, de = _told(given)
-    task = Text(
-        f"A crank-rocker has {en}, B above the line A-B0. {turn_en} and stands at φ = {phi}° to the frame. Find the "
-        "velocity of B, the transmission ratio and the acceleration of B.",
-        f"Eine Kurbelschwinge hat {de}, B oberhalb der Geraden A-B0. {turn_de} und steht unter φ = {phi}° zum "
-        "Gestell. Bestimmen Sie die Geschwindigkeit von B, das Übersetzungsverhältnis und die Beschleunigung von B.",
+    task = message(
+        "A crank-rocker has {lengths}, B above the line A-B0. The crank turns left at ω = {omega} rad/s "
+        "and stands at φ = {phi}° to the frame. Find the velocity of B, the transmission ratio and the "
+        "acceleration of B.",
+        lengths=_given_lengths(given),
+        omega=omega,
+        phi=phi,
     )
     return _Draft("velocities.four_bar", given | {"phi": phi, "omega": omega, "unit": "mm"}, ("v_B", "i", "a_B"), task)
 
 
-KINDS: dict[str, tuple[Text, Callable[[Random, int], _Draft]]] = {
-    "mobility": (Text("Degree of freedom", "Getriebefreiheitsgrad"), _mobility),
-    "grashof": (Text("Grashof's theorem", "Satz von Grashof"), _grashof),
-    "dead-centre": (Text("Dead centres", "Totlagen"), _dead_centre),
-    "transmission-angle": (Text("Transmission angle", "Übertragungswinkel"), _transmission),
-    "dyad": (Text("Dyad and coupler", "Zweischlag und Koppel"), _dyad),
-    "velocity": (Text("Velocities", "Geschwindigkeiten"), _velocity),
+KINDS: dict[str, tuple[Message, Callable[[Random, int], _Draft]]] = {
+    "mobility": (message("Degree of freedom"), _mobility),
+    "grashof": (message("Grashof's theorem"), _grashof),
+    "dead-centre": (message("Dead centres"), _dead_centre),
+    "transmission-angle": (message("Transmission angle"), _transmission),
+    "dyad": (message("Dyad and coupler"), _dyad),
+    "velocity": (message("Velocities"), _velocity),
 }
 """Name and maker of each kind."""

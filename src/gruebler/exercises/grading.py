@@ -13,7 +13,7 @@ from gruebler.exercises.solution import Mistake, Result, Value
 from gruebler.exercises.solving import scale_of, solve
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
-from gruebler.text import Text
+from gruebler.text import LANGUAGES, Readable, message
 
 __all__ = ["Grade", "Mark", "ascii_key", "grade", "plain_name"]
 
@@ -38,37 +38,35 @@ class Grade:
     answer: str
     result: Result
     mark: Mark
-    hint: Text | None = None
+    hint: Readable | None = None
     """What may have gone wrong."""
 
 
 # What goes wrong with any measured number: the answer as a function of the right one, where it applies (by unit), hint.
 _ANYWHERE = (
-    (lambda x: -x, "", Text("Look at the sign.", "Auf das Vorzeichen achten.")),
+    (lambda x: -x, "", message("Look at the sign.")),
     (
         math.radians,
         "°",
-        Text(
-            "That is the angle in radians; degrees are asked for.", "Das ist der Winkel im Bogenmaß; gefragt sind Grad."
-        ),
+        message("That is the angle in radians; degrees are asked for."),
     ),
     (
         lambda x: math.degrees(math.sin(math.radians(x))) if abs(x) < 360 else math.nan,
         "°",
-        Text("The inverse function is missing (arcsin, arccos).", "Die Umkehrfunktion fehlt (arcsin, arccos)."),
+        message("The inverse function is missing (arcsin, arccos)."),
     ),
     (
         lambda x: 180 - x,
         "°",
-        Text("That is the supplementary angle, 180° less it.", "Das ist der Ergänzungswinkel zu 180°."),
+        message("That is the supplementary angle, 180° less it."),
     ),
-    (lambda x: 90 - x, "°", Text("That is the complement, 90° less it.", "Das ist der Ergänzungswinkel zu 90°.")),
-    (lambda x: x / 10, "", Text("Look at the unit: a factor of 10.", "Auf die Einheit achten: Faktor 10.")),
-    (lambda x: 10 * x, "", Text("Look at the unit: a factor of 10.", "Auf die Einheit achten: Faktor 10.")),
-    (lambda x: x / 1000, "", Text("Look at the unit: a factor of 1000.", "Auf die Einheit achten: Faktor 1000.")),
-    (lambda x: 1000 * x, "", Text("Look at the unit: a factor of 1000.", "Auf die Einheit achten: Faktor 1000.")),
-    (lambda x: 2 * x, "", Text("That is twice as much.", "Das ist das Doppelte.")),
-    (lambda x: x / 2, "", Text("That is half of it.", "Das ist die Hälfte.")),
+    (lambda x: 90 - x, "°", message("That is the complement, 90° less it.")),
+    (lambda x: x / 10, "", message("Look at the unit: a factor of 10.")),
+    (lambda x: 10 * x, "", message("Look at the unit: a factor of 10.")),
+    (lambda x: x / 1000, "", message("Look at the unit: a factor of 1000.")),
+    (lambda x: 1000 * x, "", message("Look at the unit: a factor of 1000.")),
+    (lambda x: 2 * x, "", message("That is twice as much.")),
+    (lambda x: x / 2, "", message("That is half of it.")),
 )
 
 
@@ -82,8 +80,8 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
     >>> from gruebler.exercises.generation import generate
     >>> [m.mark.value for m in grade(generate("dead-centre", 7), {"H": "60", "l_a": "130"})]
     ['right', 'right']
-    >>> grade(generate("dead-centre", 7), {"H": "30"})[0].hint.en
-    'The stroke is twice the crank, not once.'
+    >>> print(grade(generate("dead-centre", 7), {"H": "30"})[0].hint)
+    The stroke is twice the crank, not once.
     """
     solution = solve(exercise)
     if not solution.results:
@@ -163,8 +161,7 @@ _GREEK = {
 def _misprint(asked: Question, result: Result) -> Iterator[Mistake]:
     """The printed answer as a mistake, where it is one."""
     if asked.printed is not None and asked.reason is not None:
-        why = asked.reason
-        hint = Text(f"That is the printed answer. {why.en}", f"Das ist die gedruckte Antwort. {why.de}")
+        hint = message("That is the printed answer. {reason}", reason=asked.reason)
         yield Mistake(asked.key, float(asked.printed) * scale_of(asked, result), hint)
 
 
@@ -195,9 +192,7 @@ def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales
         ]
     if hints:
         return Grade(result.key, answer, result, Mark.WRONG, hints[0])
-    near = Text(
-        "Right in principle; carry more digits on the way.", "Im Ansatz richtig; unterwegs mit mehr Stellen rechnen."
-    )
+    near = message("Right in principle; carry more digits on the way.")
     return Grade(result.key, answer, result, worth, near if worth is Mark.NEAR else None)
 
 
@@ -209,7 +204,7 @@ def _rather(mistake: Value, right: float, given: GivenAnswer) -> bool:
 
 
 def _worth(value: Value, given: GivenAnswer) -> Mark:
-    if isinstance(value, str | Text | bool):
+    if isinstance(value, str | Readable | bool):
         return Mark.WRONG
     off, size = abs(given.number - value), abs(value)
     if isinstance(value, int):
@@ -224,7 +219,7 @@ def _worth_of_words(value: Value, answer: str) -> Mark:
         if answer.casefold() not in _WORDS:
             raise GrueblerError("expected yes or no (ja, nein), not {answer!r}", answer=answer)
         return Mark.RIGHT if _WORDS[answer.casefold()] == value else Mark.WRONG
-    names = [value.en, value.de] if isinstance(value, Text) else [str(value)]
+    names = [value.in_language(lang) for lang in LANGUAGES] if isinstance(value, Readable) else [str(value)]
     return Mark.RIGHT if _plain(answer) in map(_plain, names) else Mark.WRONG
 
 

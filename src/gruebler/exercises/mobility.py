@@ -11,22 +11,19 @@ from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
 from gruebler.exercises.solution import Heading, Solution, SolutionBuilder, SolutionStep
 from gruebler.mobility import count_freedoms, mobility_report
-from gruebler.mobility.messages import verdict_word
-from gruebler.text import Text
+from gruebler.mobility.report import verdict_word
+from gruebler.text import Message, Text, in_every_language, joined, message, plural, translate
 
 __all__ = ["chain", "machines"]
 
-_LINKS = Text("number of links, the frame included", "Anzahl der Glieder einschließlich Gestell")
-_FREEDOM = Text("degree of freedom", "Getriebefreiheitsgrad")
-_BY_RANK = Text(
-    "F (at least 0) by the rank of the constraints at random sizes",
-    "F (mindestens 0) aus dem Rang der Bindungen bei zufälligen Abmessungen",
-)
+_LINKS = message("number of links, the frame included")
+_FREEDOM = message("degree of freedom")
+_BY_RANK = message("F (at least 0) by the rank of the constraints at random sizes")
 _CRITERION = {
-    True: Text("Criterion of constrained motion holds (0)", "Zwangslaufkriterium erfüllt (0)"),
-    False: Text("Criterion of constrained motion does not hold (not 0)", "Zwangslaufkriterium nicht erfüllt (nicht 0)"),
+    True: message("Criterion of constrained motion holds (0)"),
+    False: message("Criterion of constrained motion does not hold (not 0)"),
 }
-_TIMES = {2: Text("twice", "zweifach"), 3: Text("three times", "dreifach")}
+_TIMES = {2: message("twice"), 3: message("three times")}
 
 
 def chain(chain: str, space: str = "planar") -> Solution:
@@ -53,9 +50,7 @@ def machines(machines: str) -> Solution:
         if len(ids) > 1:
             builder.parts.append(Heading(record.name))
         if record.figure_lost:
-            builder.say(
-                "The figure is lost; the structure is an assumption.", "Das Bild fehlt; die Struktur ist angenommen."
-            )
+            builder.say(message("The figure is lost; the structure is an assumption."))
         mark = _Mark(f".{id}", record.name) if len(ids) > 1 else _Mark("", None)
         _add_count(builder, record.chain(), mark, record.links)
     return builder.done()
@@ -65,10 +60,10 @@ class _Mark(NamedTuple):
     """What tells the results of one of several machines from those of the others."""
 
     key: str
-    name: Text | None
+    machine: Text | None
 
-    def named(self, text: Text) -> Text:
-        return text if self.name is None else Text(f"{self.name.en}: {text.en}", f"{self.name.de}: {text.de}")
+    def named(self, quantity: Message) -> Message:
+        return quantity if self.machine is None else joined([self.machine, quantity], ": ")
 
     def __str__(self) -> str:
         return self.key
@@ -78,7 +73,7 @@ def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: 
     numbered = all(link.isdigit() for link in structure.links)
     links = sorted(structure.links, key=int) if numbered else structure.links
     names = Text(", ".join(links), ", ".join(german.get(link, link) for link in links))
-    builder.parts.append(SolutionStep(Text(f"Links: {names.en}.", f"Glieder: {names.de}."), "n", "", structure.n))
+    builder.parts.append(SolutionStep(message("Links: {links}.", links=names), "n", "", structure.n))
     builder.keep(f"n{mark}", mark.named(_LINKS), structure.n, symbol="n")
     _add_joints(builder, structure, mark, german)
     formula = count_freedoms(structure)
@@ -88,19 +83,15 @@ def _add_count(builder: SolutionBuilder, structure: Chain, mark: _Mark, german: 
     sides = formula.criterion().split(" = ")
     builder.parts.append(SolutionStep(_CRITERION[formula.value == 1], " = ".join(sides[:2]), "", float(sides[2])))
     report = mobility_report(structure)
-    verdict = Text(*(verdict_word(report.verdict, lang) for lang in ("en", "de")))
-    drives = "one drive is" if report.generic == 1 else f"{report.generic} drives are"
-    antriebe = "ist ein Antrieb" if report.generic == 1 else f"sind {report.generic} Antriebe"
-    need = (f": {drives} needed", f": nötig {antriebe}") if report.generic > 0 else ("", "")
-    builder.say(f"The chain is {verdict.en}{need[0]}.", f"Die Kette ist {verdict.de}{need[1]}.")
-    check = mark.named(_BY_RANK)
-    builder.check(
-        check.en,
-        check.de,
-        float(max(formula.value, 0)),
-        float(report.generic),
-        "",
-    )
+    verdict = in_every_language(lambda lang: verdict_word(report.verdict, lang))
+    if report.generic > 0:
+        drives = in_every_language(
+            lambda lang: plural("one drive is needed", "{count} drives are needed", report.generic, lang)
+        )
+        builder.say(message("The chain is {verdict}: {drives}.", verdict=verdict, drives=drives))
+    else:
+        builder.say(message("The chain is {verdict}.", verdict=verdict))
+    builder.check(mark.named(_BY_RANK), float(max(formula.value, 0)), float(report.generic), "")
     _add_mistakes(builder, structure, mark)
 
 
@@ -109,26 +100,30 @@ def _add_joints(builder: SolutionBuilder, structure: Chain, mark: _Mark, german:
     by_freedom = {1: 0, 2: 0} | structure.joints_by_freedom
     for f, number in by_freedom.items():
         which = [k for k, joint in enumerate(structure.joints) if joint.pair.f(structure.space) == f]
-        words = Text(
-            ", ".join(structure.joint_names(Alphabet.INTERNATIONAL)[k] for k in which) or "none",
-            ", ".join(short.joint_names(Alphabet.GERMAN)[k] for k in which) or "keine",
+        names = Text(
+            ", ".join(structure.joint_names(Alphabet.INTERNATIONAL)[k] for k in which),
+            ", ".join(short.joint_names(Alphabet.GERMAN)[k] for k in which),
         )
-        text = Text(f"Joints with f = {f}: {words.en}.", f"Gelenke mit f = {f}: {words.de}.")
+        text = message("Joints with f = {f}: {joints}.", f=f, joints=names if which else message("none"))
         builder.parts.append(SolutionStep(text, f"g{f}", "", number))
-        name = Text(f"number of joints with f = {f}", f"Anzahl der Gelenke mit f = {f}")
+        name = message("number of joints with f = {f}", f=f)
         builder.keep(f"g{f}{mark}", mark.named(name), number, symbol=f"g{f}")
     for joint, named in zip(structure.multiple_joints, short.multiple_joints, strict=True):
         k = len(joint.links)
-        times = _TIMES.get(k - 1, Text(f"{k - 1} times", f"{k - 1}-fach"))
         builder.say(
-            f"The joint {'-'.join(joint.links)} connects {k} links and counts {times.en}.",
-            f"Das Gelenk {'-'.join(named.links)} verbindet {k} Glieder und zählt {times.de}.",
+            message(
+                "The joint {joint} connects {links} links and counts {times}.",
+                joint=Text("-".join(joint.links), "-".join(named.links)),
+                links=k,
+                times=_TIMES.get(k - 1, message("{count} times", count=k - 1)),
+            )
         )
 
 
 def _short(structure: Chain, german: Mapping[str, str]) -> dict[str, str]:
     """The German names of the links cut short to one word, where they stay different."""
-    names = {link: re.sub(r"^Glied | \(.*| mit .*| ", "", german.get(link, link)) for link in structure.links}
+    left_out = rf"^{translate('link', 'de')} | \(.*| {translate('with', 'de')} .*| "
+    names = {link: re.sub(left_out, "", german.get(link, link)) for link in structure.links}
     return names if len(set(names.values())) == len(names) else {link: german.get(link, link) for link in names}
 
 
@@ -138,27 +133,20 @@ def _add_mistakes(builder: SolutionBuilder, structure: Chain, mark: _Mark) -> No
     extra = [(joint, joint.count - 1) for joint in structure.multiple_joints]
     lost = sum((b - joint.pair.f(structure.space)) * more for joint, more in extra)
     if extra:
-        hint = (
-            "A joint of three links is a double joint and counts twice, one of four three times.",
-            "Ein Gelenk dreier Glieder ist ein Doppelgelenk und zählt zweifach, eines von vier Gliedern dreifach.",
-        )
-        builder.mistake(f"F{mark}", right + lost, *hint)
+        hint = message("A joint of three links is a double joint and counts twice, one of four three times.")
+        builder.mistake(f"F{mark}", right + lost, hint)
         simple = sum(1 for joint in structure.joints if joint.pair.f(structure.space) == 1)
-        builder.mistake(f"g1{mark}", simple, *hint)
-    frame = ("The frame is a link too: n counts it.", "Das Gestell ist auch ein Glied und zählt in n mit.")
-    builder.mistake(f"n{mark}", n - 1, *frame)
-    builder.mistake(f"F{mark}", right - b, *frame)
+        builder.mistake(f"g1{mark}", simple, hint)
+    frame = message("The frame is a link too: n counts it.")
+    builder.mistake(f"n{mark}", n - 1, frame)
+    builder.mistake(f"F{mark}", right - b, frame)
     builder.mistake(
         f"F{mark}",
         right + b,
-        "The frame does not move: the formula has n - 1 free links, not n.",
-        "Das Gestell bewegt sich nicht: In der Formel stehen n - 1 bewegliche Glieder, nicht n.",
+        message("The frame does not move: the formula has n - 1 free links, not n."),
     )
     higher = structure.joints_by_freedom.get(2, 0)
     if b == 3 and higher:
-        hint = (
-            "A joint that rolls and slides has f = 2 and takes away one motion only.",
-            "Ein Gleitwälzgelenk hat f = 2 und nimmt nur eine Bewegung weg.",
-        )
-        builder.mistake(f"F{mark}", right - higher, *hint)
-        builder.mistake(f"g2{mark}", 0, *hint)
+        hint = message("A joint that rolls and slides has f = 2 and takes away one motion only.")
+        builder.mistake(f"F{mark}", right - higher, hint)
+        builder.mistake(f"g2{mark}", 0, hint)

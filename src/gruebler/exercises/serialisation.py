@@ -1,4 +1,4 @@
-"""Exercises, solutions and marks as plain data, both languages side by side."""
+"""Exercises, solutions and marks as plain data, all languages side by side."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gruebler.exercises.grading import Grade, ascii_key
 from gruebler.exercises.solution import Heading, Part, Solution, SolutionStep, Table, Value
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
-from gruebler.text import Text
+from gruebler.text import LANGUAGES, Readable
 
 __all__ = ["grades_as_list", "solution_as_dict", "table_as_dict", "task_as_dict"]
 
@@ -101,4 +101,4 @@ def _comparison(one: Comparison) -> dict[str, Any]:
 
 
 def _value(value: Value) -> Any:
-    return {"en": value.en, "de": value.de} if isinstance(value, Text) else value
+    return {lang: value.in_language(lang) for lang in LANGUAGES} if isinstance(value, Readable) else value

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_finite
 from gruebler.notebook import Brief
-from gruebler.text import Text
+from gruebler.text import Message, Readable, message
 
 __all__ = [
     "Check",
@@ -29,12 +29,13 @@ __all__ = [
     "Value",
     "angle",
     "as_step",
+    "figure",
     "fill_template",
     "number",
 ]
 
-Value = float | bool | str | Text
-"""A number, yes or no, a name that is the same in both languages, or one that is not."""
+Value = float | bool | str | Readable
+"""A number, yes or no, a name that is the same in all languages, or one that is not."""
 
 _SYMBOL = re.compile(r"[^\W\d_][^\W²³]*(?:\*|''|')?")
 
@@ -43,7 +44,7 @@ _SYMBOL = re.compile(r"[^\W\d_][^\W²³]*(?:\*|''|')?")
 class SolutionStep:
     """One step: what is done, the formula, the formula with its numbers, the value."""
 
-    text: Text
+    text: Readable
     formula: str = ""
     numbers: str = ""
     value: Value | None = None
@@ -55,8 +56,8 @@ class SolutionStep:
 class Table:
     """Rows of values under headers."""
 
-    title: Text
-    headers: tuple[Text, ...]
+    title: Message
+    headers: tuple[str | Readable, ...]
     rows: tuple[tuple[Value, ...], ...]
     decimals: int = 3
     """Of the numbers that are not whole."""
@@ -66,7 +67,7 @@ class Table:
 class Heading:
     """Where a new part of the solution begins, with steps counted from 1 again."""
 
-    text: Text
+    text: Readable
 
 
 Part = SolutionStep | Table | Heading
@@ -77,7 +78,7 @@ class Result:
     """A quantity that the solution has found."""
 
     key: str
-    name: Text
+    name: Readable
     value: Value
     unit: str = ""
     symbol: str = ""
@@ -89,7 +90,7 @@ class Result:
 class Check:
     """One quantity found in two ways."""
 
-    text: Text
+    text: Readable
     first: float
     second: float
     unit: str = ""
@@ -109,7 +110,7 @@ class Mistake:
 
     key: str
     value: Value
-    hint: Text
+    hint: Readable
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -139,7 +140,7 @@ class Solution(Brief):
 
 
 def number(value: float) -> str:
-    """A number with up to six digits, as people write it.
+    """A number with up to six digits, as people write it in a formula.
 
     >>> number(40.0), number(78.46304096718453), number(-1e-14), number(2024475.3)
     ('40', '78.463', '0', '2024475')
@@ -147,6 +148,17 @@ def number(value: float) -> str:
     if abs(value) < 5e-10:
         return "0"
     return f"{value:.0f}" if abs(value) >= 1e5 else f"{value:.6g}"
+
+
+def figure(value: float) -> Message:
+    """The same in a text, with the decimal sign of its language.
+
+    >>> figure(78.46304096718453).in_language("de")
+    '78,463'
+    """
+    if abs(value) < 5e-10:
+        return message("0")
+    return message("{value:.0f}" if abs(value) >= 1e5 else "{value:.6g}", value=value)
 
 
 def angle(value: float) -> str:
@@ -203,13 +215,13 @@ class SolutionBuilder:
     def find(
         self,
         key: str,
-        name: Text,
+        name: Readable,
         formula: str,
         value: float,
         *,
         unit: str | None = None,
         symbol: str | None = None,
-        text: Text | None = None,
+        text: Readable | None = None,
         values: Mapping[str, float | str] | None = None,
         either_sign: bool = False,
         **more: float | str,
@@ -228,7 +240,7 @@ class SolutionBuilder:
         return value
 
     def keep(
-        self, key: str, name: Text, value: Value, *, unit: str = "", symbol: str = "", either_sign: bool = False
+        self, key: str, name: Readable, value: Value, *, unit: str = "", symbol: str = "", either_sign: bool = False
     ) -> None:
         """A result without a step of its own."""
         self.results[key] = Result(key, name, value, unit, symbol or key, either_sign)
@@ -237,29 +249,29 @@ class SolutionBuilder:
         """A result found before, which is a number."""
         return self.done().number(key)
 
-    def say(self, en: str, de: str, formula: str = "") -> None:
+    def say(self, text: Readable, formula: str = "") -> None:
         """A step in words."""
-        self.parts.append(SolutionStep(Text(en, de), formula))
+        self.parts.append(SolutionStep(text, formula))
 
     def table(
-        self, title: Text, headers: Sequence[Text], rows: Iterable[Sequence[Value]], *, decimals: int = 3
+        self, title: Message, headers: Sequence[str | Readable], rows: Iterable[Sequence[Value]], *, decimals: int = 3
     ) -> None:
         """A table."""
         self.parts.append(Table(title, tuple(headers), tuple(tuple(row) for row in rows), decimals))
 
     def check(
-        self, en: str, de: str, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8
+        self, text: Readable, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8
     ) -> None:
         """The same quantity by the way above and by a second one."""
-        self.checks.append(Check(Text(en, de), first, second, self.unit if unit is None else unit, tolerance))
+        self.checks.append(Check(text, first, second, self.unit if unit is None else unit, tolerance))
 
-    def mistake(self, key: str, value: Value, en: str, de: str) -> None:
+    def mistake(self, key: str, value: Value, hint: Readable) -> None:
         """A wrong answer that is often given; left out where it happens to be right."""
         right = self.results[key].value
         alike = isinstance(right, float | int) and isinstance(value, float | int) and abs(right - value) < 1e-9
         if right != value and not alike:
             value = float(value) if isinstance(right, float) and isinstance(value, int) else value
-            self.mistakes.append(Mistake(key, value, Text(en, de)))
+            self.mistakes.append(Mistake(key, value, hint))
 
     def done(self) -> Solution:
         """The solution."""

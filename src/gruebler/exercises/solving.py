@@ -13,7 +13,7 @@ from gruebler.errors import CatalogError, nearest
 from gruebler.exercises.solution import Result, Solution, Value
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
-from gruebler.text import Text
+from gruebler.text import LANGUAGES, Readable
 
 __all__ = ["Comparison", "compare", "last_place", "methods", "scale_of", "solve"]
 
@@ -58,7 +58,7 @@ def solve(exercise: Exercise) -> Solution:
 def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], cases: tuple[object, ...]) -> Solution:
     if name not in methods():
         raise CatalogError(
-            "{id}: unknown method {name!r}{suggestion}", id=id, name=name, suggestion=nearest(name, methods())
+            "{id}: unknown method {method!r}{suggestion}", id=id, method=name, suggestion=nearest(name, methods())
         )
     method, given = methods()[name], dict(quantities)
     if name == "mobility.machines" and not given:
@@ -66,7 +66,7 @@ def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], 
     try:
         inspect.signature(method).bind(**given)
     except TypeError as error:
-        raise CatalogError("{id}: given: {error} of {name}", id=id, error=error, name=name) from None
+        raise CatalogError("{id}: given: {error} of {method}", id=id, error=error, method=name) from None
     return method(**given)
 
 
@@ -110,8 +110,10 @@ def _agrees(asked: Question, result: Result) -> bool:
     value: Value = result.value
     if isinstance(value, bool):
         return asked.printed == ("yes" if value else "no")
-    if isinstance(value, str | Text):
-        return asked.printed in ((value.en, value.de) if isinstance(value, Text) else (value,))
+    if isinstance(value, Readable):
+        return asked.printed in [value.in_language(lang) for lang in LANGUAGES]
+    if isinstance(value, str):
+        return asked.printed == value
     scale = scale_of(asked, result)
     return abs(float(asked.printed) * scale - value) <= last_place(asked.printed) * scale * (0.5 + 1e-9)
 

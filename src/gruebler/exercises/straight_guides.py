@@ -8,15 +8,14 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path, headers
-from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, number
+from gruebler.exercises.coupler_points import BY_SOLVER, PATH, STRIP, check_path
+from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, figure
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.geometry import Path, PathPiece, coupler_path, linkage_path, path_piece
 from gruebler.geometry.contact import tangent_contact
 from gruebler.geometry.lever_contact import lever_contact
-from gruebler.kinematics import degrees as turns
-from gruebler.kinematics import move
-from gruebler.text import Text
+from gruebler.kinematics import from_degrees, move
+from gruebler.text import Message, message
 
 __all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
 
@@ -33,75 +32,64 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
     size = FourBar(a, b, c, d)
     builder = SolutionBuilder(unit)
     builder.say(
-        "B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one.",
-        "B ist von A, B0 und C gleich weit entfernt (b = c = e): Nach Thales ist der Winkel A-B0-C ein rechter.",
+        message("B is equally far from A, B0 and C (b = c = e): by Thales the angle A-B0-C is a right one."),
         "|B0C| = √((b + e)² - |AB0|²)",
     )
-    text = Text(
-        "height of C at φ = 180°, where A lies on the frame line and C straight above B0",
-        "Abstand h bei φ = 180°: A liegt auf der Gestellgeraden, C senkrecht über B0",
-    )
-    name = Text("height of C above the frame line", "Abstand des Punktes C von der Gestellgeraden")
+    text = message("height of C at φ = 180°, where A lies on the frame line and C straight above B0")
+    name = message("height of C above the frame line")
     height = builder.find(
         "h", name, "√((b + e)² - (a + d)²)", sqrt((b + e) ** 2 - (a + d) ** 2), text=text, a=a, b=b, d=d, e=e
     )
-    drives = turns(0, 360, as_step(step))
+    drives = from_degrees(0, 360, as_step(step))
     motion = size.motion(drives)
     points = motion.point(b + e).value
     rows = [
         (round(degrees(p), 9), *map(float, (*c_, *b_)))
         for p, c_, b_ in zip(drives, points, motion.B.value, strict=True)
     ]
-    builder.table(PATH, headers("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
+    builder.table(PATH, ("φ [°]", "C_x", "C_y", "B_x", "B_y"), rows)
     _add_straight(builder, size, b + e)
     _check_piece(
         builder, path_piece(linkage_path(size.linkage({"C": (b + e, 0)}), "C"), pi / 2, 3 * pi / 2, direction=0)
     )
     check_path(builder, size.linkage({"C": (b + e, 0)}), drives, points, "+")
     builder.check(
-        "h, from the path at φ = 180°",
-        "h, aus der Bahn bei φ = 180°",
+        message("h, from the path at φ = 180°"),
         height,
         float(coupler_path(size, b + e, 0)(np.array([pi]))[0].imag),
     )
     builder.mistake(
         "h",
         sqrt((b + e) ** 2 - (d - a) ** 2),
-        "That is the height at φ = 0°, where the path is not straight.",
-        "Das ist die Höhe bei φ = 0°; dort ist die Bahn nicht gerade.",
+        message("That is the height at φ = 0°, where the path is not straight."),
     )
-    builder.mistake(
-        "h", b + e, "C is not vertically above A but above B0.", "C liegt nicht senkrecht über A, sondern über B0."
-    )
+    builder.mistake("h", b + e, message("C is not vertically above A but above B0."))
     return builder.done()
 
 
 def _check_piece(builder: SolutionBuilder, again: PathPiece) -> None:
     """Length and width of the straight stretch against those of the path of the general solver."""
-    builder.check("L, by the general solver", "L, mit dem allgemeinen Löser", builder.number("length"), again.length)
+    builder.check(message("{quantity}, by the general solver", quantity="L"), builder.number("length"), again.length)
     builder.check(
-        "Δ, by the general solver", "Δ, mit dem allgemeinen Löser", builder.number("band"), again.band, tolerance=STRIP
+        message("{quantity}, by the general solver", quantity="Δ"), builder.number("band"), again.band, tolerance=STRIP
     )
 
 
 def _add_straight(builder: SolutionBuilder, size: FourBar, reach: float) -> None:
     """The straight stretch of the lambda linkage's path, over half a turn of the crank."""
     half = path_piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
-    text = Text(
-        "straight stretch: from φ = 90° to 270° C runs along a length of",
-        "gerades Stück: Von φ = 90° bis 270° läuft C über eine Länge von",
-    )
+    text = message("straight stretch: from φ = 90° to 270° C runs along a length of")
     builder.find(
         "length",
-        Text("length of the straight stretch", "Länge des geraden Stücks"),
+        message("length of the straight stretch"),
         "|C_x(90°) - C_x(270°)|",
         half.length,
         symbol="L",
         text=text,
     )
-    name = Text("deviation from the straight line there", "Abweichung von der Geraden dort")
+    name = message("deviation from the straight line there")
     builder.find("band", name, "max C_y - min C_y", half.band, symbol="Δ")
-    name = Text("deviation by length", "bezogene Abweichung")
+    name = message("deviation by length")
     builder.find("ratio", name, "Δ/L", half.ratio, unit="", symbol="Q", Δ=half.band, L=half.length)
 
 
@@ -120,20 +108,19 @@ def watt_linkage(
     left = complex(-rocker, height / 2)
     builder = SolutionBuilder(unit)
     builder.say(
-        "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, -c/2), "
-        "the coupler upright with its middle F in the origin.",
-        "Mittellage (angenommen, das Bild fehlt): beide Schwingen waagerecht, Drehpunkte A0 = (-a; c/2) und B0 = (a; "
-        "-c/2), die Koppel senkrecht mit ihrer Mitte F im Ursprung.",
+        message(
+            "Mid position (assumed, the figure is lost): both rockers level, pivots A0 = (-a, c/2) and B0 = (a, "
+            "-c/2), the coupler upright with its middle F in the origin."
+        ),
     )
     builder.say(
-        "For each angle t of the left rocker: A by t, B on both circles, F in the middle.",
-        "Zu jedem Winkel t der linken Schwinge: A aus t, B auf beiden Kreisen, F in der Mitte.",
+        message("For each angle t of the left rocker: A by t, B on both circles, F in the middle."),
         "A = A0 + a·(cos t, sin t), |AB| = c, |B0B| = a, F = (A + B)/2",
     )
-    values = turns(start, stop, as_step(step))
+    values = from_degrees(start, stop, as_step(step))
     motion = size.motion(values - tilt, branch=-1)
     if not motion.complete:
-        raise LinkageError("the left rocker cannot reach these angles: {message}", message=motion.message)
+        raise LinkageError("the left rocker cannot reach these angles: {reason}", reason=motion.message)
     local = motion.point(coupler / 2).value
     path = left + (local[:, 0] + 1j * local[:, 1]) * cmath.exp(1j * tilt)
     right = np.degrees(motion.output.value + tilt) % 360 - 180
@@ -141,12 +128,12 @@ def watt_linkage(
         (round(degrees(t), 9), float(z.real), float(z.imag), float(r))
         for t, z, r in zip(values, path, right, strict=True)
     ]
-    last = Text("right rocker [°]", "rechte Schwinge [°]")
-    builder.table(PATH, [*headers("t [°]", "F_x", "F_y"), last], rows)
+    last = message("right rocker [°]")
+    builder.table(PATH, ["t [°]", "F_x", "F_y", last], rows)
     _add_watt_stroke(builder, size, tilt, left, coupler)
     _check_watt(builder, size, tilt, left, coupler)
     moved = move(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
-    builder.check(*BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
+    builder.check(BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
     return builder.done()
 
 
@@ -168,18 +155,19 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left:
         )
     ends = [float(brentq(excess[sign], 0, sign * reach, xtol=1e-14)) for sign in (-1, 1)]
     low, high = (at(t).imag for t in ends)
-    name = Text(f"stroke with |F_x| ≤ {number(side)} {builder.unit}", f"Hub mit |F_x| ≤ {number(side)} {builder.unit}")
+    name = message("stroke with |F_x| ≤ {side} {unit}", side=figure(side), unit=builder.unit)
     builder.find("stroke", name, "F_y2 - F_y1", high - low, symbol="H", F_y1=low, F_y2=high)
-    builder.keep("t_low", Text("rocker at the lower end", "Schwinge am unteren Ende"), degrees(ends[0]), unit="°")
-    builder.keep("t_high", Text("rocker at the upper end", "Schwinge am oberen Ende"), degrees(ends[1]), unit="°")
+    builder.keep("t_low", message("rocker at the lower end"), degrees(ends[0]), unit="°")
+    builder.keep("t_high", message("rocker at the upper end"), degrees(ends[1]), unit="°")
     contact = lever_contact(size, coupler / 2, 0, -tilt, branch=-1)
-    name = Text("points that path and tangent have in common in the middle", "Punkte, in denen die Tangente berührt")
+    name = message("points that path and tangent have in common in the middle")
     builder.keep("n", name, contact.points)
     builder.say(
-        f"About the middle F_x grows with the power {contact.points} of F_y only: path and tangent have "
-        f"{contact.points} points in common there.",
-        f"Um die Mittellage wächst F_x nur mit der {contact.points}. Potenz von F_y: Die Tangente berührt die "
-        f"Koppelkurve {contact.points}-punktig.",
+        message(
+            "About the middle F_x grows with the power {points} of F_y only: path and tangent have {points} "
+            "points in common there.",
+            points=contact.points,
+        ),
     )
 
 
@@ -188,12 +176,15 @@ def _check_watt(builder: SolutionBuilder, size: FourBar, tilt: float, left: comp
     linkage = size.linkage({"F": (coupler / 2, 0)})
     ends = [radians(builder.number(key)) for key in ("t_low", "t_high")]
     moved = left + move(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(1j * tilt)
-    en, de = "by the general solver", "mit dem allgemeinen Löser"
-    builder.check(f"Stroke, {en}", f"Hub, {de}", builder.number("stroke"), float(np.ptp(moved.imag)))
+
+    def solved(quantity: Message) -> Message:
+        return message("{quantity}, by the general solver", quantity=quantity)
+
+    builder.check(solved(message("Stroke")), builder.number("stroke"), float(np.ptp(moved.imag)))
     for name, place in zip(("F_y1", "F_y2"), moved, strict=True):
-        builder.check(f"|F_x| at {name}, {en}", f"|F_x| bei {name}, {de}", size.a / 600, float(abs(place.real)))
+        builder.check(solved(message("|F_x| at {end}", end=name)), size.a / 600, float(abs(place.real)))
     met = tangent_contact(move(linkage, -tilt, speed=1, branch="-"), "F").points
-    builder.check(f"Points in common, {en}", f"Gemeinsame Punkte, {de}", builder.number("n"), float(met or 0), "")
+    builder.check(solved(message("Points in common")), builder.number("n"), float(met or 0), "")
 
 
 def double_rocker(
@@ -216,25 +207,27 @@ def double_rocker(
     """
     size = FourBar(d, a, b, c)
     builder = SolutionBuilder(unit)
-    pair = f"{number(c * cos(radians(frame)))}, {number(c * sin(radians(frame)))}"
     builder.say(
-        f"Pivot of the rocker d in the origin, of the rocker b at ({pair}): the frame c lies at {number(frame)}° to "
-        "the horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
-        "lost).",
-        f"Drehpunkt der Schwinge d im Ursprung, der Schwinge b bei ({pair.replace(',', ';')}): Das Gestell c liegt "
-        f"unter {number(frame)}° zur Waagerechten. D ist das Gelenk von d, A das von b; C liegt auf der Geraden A-D "
-        "jenseits von D (angenommen, das Bild fehlt).",
+        message(
+            "Pivot of the rocker d in the origin, of the rocker b at ({x}, {y}): the frame c lies at {angle}° to the "
+            "horizontal. D is the joint of d, A that of b; C lies beyond D on the line A-D (assumed, the figure is "
+            "lost).",
+            x=figure(c * cos(radians(frame))),
+            y=figure(c * sin(radians(frame))),
+            angle=figure(frame),
+        )
     )
     builder.say(
-        "D follows from φ; A lies on the circle of radius a about D and that of radius b about the other pivot:",
-        "D folgt aus φ; A liegt auf dem Kreis um D mit Radius a und dem um den anderen Drehpunkt mit Radius b:",
+        message(
+            "D follows from φ; A lies on the circle of radius a about D and that of radius b about the other pivot:"
+        ),
         "D = d·(cos φ, sin φ), C = A + AC·(D - A)/a",
     )
-    values = turns(start, stop, as_step(step))
+    values = from_degrees(start, stop, as_step(step))
     tilt = radians(frame)
     motion = size.motion(values - tilt)
     if not motion.complete:
-        raise LinkageError("the rocker d cannot reach these angles: {message}", message=motion.message)
+        raise LinkageError("the rocker d cannot reach these angles: {reason}", reason=motion.message)
     spin = cmath.exp(1j * tilt)
     local = motion.point(a - ac).value
     columns = [spin * (z[:, 0] + 1j * z[:, 1]) for z in (motion.B.value, motion.A.value, local)]
@@ -242,7 +235,7 @@ def double_rocker(
         (round(degrees(phi), 9), *(float(x) for column in columns for x in (column[k].real, column[k].imag)))
         for k, phi in enumerate(values)
     ]
-    builder.table(PATH, headers("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
+    builder.table(PATH, ("φ [°]", "A_x", "A_y", "D_x", "D_y", "C_x", "C_y"), rows)
     ends = radians(start) - tilt, radians(stop) - tilt
     _add_strip(builder, size, coupler_path(size, a - ac, 0), ends, frame)
     _check_piece(builder, path_piece(linkage_path(size.linkage({"C": (a - ac, 0)}), "C", "+"), *ends))
@@ -255,41 +248,46 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
     """How straight C runs, and which angles the rocker could reach with a horizontal frame."""
     unit = builder.unit
     piece = path_piece(path, *ends)
-    name = Text("width of the strip in which C keeps", "Breite des Streifens, in dem C bleibt")
+    name = message("width of the strip in which C keeps")
     builder.keep("band", name, piece.band, unit=unit, symbol="Δ")
     builder.keep(
         "length",
-        Text("length of the path along it", "Länge der Bahn längs des Streifens"),
+        message("length of the path along it"),
         piece.length,
         unit=unit,
         symbol="L",
     )
     direction = (degrees(piece.direction) + frame) % 180
-    builder.keep("direction", Text("direction of the strip", "Richtung des Streifens"), direction, unit="°")
+    builder.keep("direction", message("direction of the strip"), direction, unit="°")
     builder.say(
-        f"C keeps in a strip of {number(piece.band)} {unit} over {number(piece.length)} {unit}, at "
-        f"{number(direction)}° to the horizontal. Turned by a right angle that is the level way of the load.",
-        f"C bleibt über {number(piece.length)} {unit} in einem Streifen von {number(piece.band)} {unit} Breite, unter "
-        f"{number(direction)}° zur Waagerechten. Um 90° gedreht ist das der waagerechte Lastweg.",
+        message(
+            "C keeps in a strip of {band} {unit} over {length} {unit}, at {direction}° to the horizontal. Turned "
+            "by a right angle that is the level way of the load.",
+            band=figure(piece.band),
+            unit=unit,
+            length=figure(piece.length),
+            direction=figure(direction),
+        ),
     )
     arc = size.limits[0]
     builder.keep(
         "lowest",
-        Text("smallest angle of rocker and frame", "kleinster Winkel zwischen Schwinge d und Gestell"),
+        message("smallest angle of rocker and frame"),
         degrees(arc.start),
         unit="°",
     )
     builder.keep(
         "highest",
-        Text("largest angle of rocker and frame", "größter Winkel zwischen Schwinge d und Gestell"),
+        message("largest angle of rocker and frame"),
         degrees(arc.end),
         unit="°",
     )
     builder.say(
-        f"With a horizontal frame the chain would close only for φ from {number(degrees(arc.start))}° to "
-        f"{number(degrees(arc.end))}°.",
-        f"Bei waagerechtem Gestell schlösse sich die Kette nur für φ von {number(degrees(arc.start))}° bis "
-        f"{number(degrees(arc.end))}°.",
+        message(
+            "With a horizontal frame the chain would close only for φ from {start}° to {end}°.",
+            start=figure(degrees(arc.start)),
+            end=figure(degrees(arc.end)),
+        ),
     )
 
 
@@ -302,8 +300,7 @@ def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
             move(linkage, [radians(limit + off)], branch="+").complete for off in (-side * 1e-6, side * 1e-6)
         )
         builder.check(
-            f"{number(limit)}° is the limit (1) or not (0), by the general solver",
-            f"{number(limit)}° ist die Grenze (1) oder nicht (0), mit dem allgemeinen Löser",
+            message("{limit}° is the limit (1) or not (0), by the general solver", limit=figure(limit)),
             1.0,
             float(inside and not beyond),
             "",
@@ -321,19 +318,19 @@ def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "m
     size = SliderCrank(a, b)
     builder = SolutionBuilder(unit)
     builder.say(
-        "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line through "
-        "A0 at right angles to the slider's way.",
-        "A ist von A0, B und C gleich weit entfernt: Nach Thales ist der Winkel B-A0-C ein rechter; C liegt also auf "
-        "der Geraden durch A0 senkrecht zum Schieberweg.",
+        message(
+            "A is equally far from A0, B and C: by Thales the angle B-A0-C is a right one, so C lies on the line "
+            "through A0 at right angles to the slider's way."
+        ),
         "C = A - e·(B - A)/b, C_x = 0, C_y = 2·a·sin φ",
     )
-    drives = turns(-60, 60, as_step(step))
+    drives = from_degrees(-60, 60, as_step(step))
     points = size.motion(drives).point(-e).value
     rows = [(round(degrees(p), 9), round(float(z[0]), 12), float(z[1])) for p, z in zip(drives, points, strict=True)]
-    builder.table(PATH, headers("φ [°]", "C_x", "C_y"), rows)
-    name = Text("largest deviation from the straight line", "größte Abweichung von der Geraden")
+    builder.table(PATH, ("φ [°]", "C_x", "C_y"), rows)
+    name = message("largest deviation from the straight line")
     builder.find("deviation", name, "max |C_x|", max(abs(row[1]) for row in rows), symbol="Δ")
     check_path(builder, size.linkage({"C": (-e, 0)}), drives, points, "+")
     expected = max(abs(z[1] - 2 * a * sin(p)) for p, z in zip(drives.tolist(), points.tolist(), strict=True))
-    builder.check("Largest difference from 2a·sin φ", "Größter Unterschied zu 2a·sin φ", 0.0, expected)
+    builder.check(message("Largest difference from 2a·sin φ"), 0.0, expected)
     return builder.done()

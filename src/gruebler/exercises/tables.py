@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from itertools import product
 from math import degrees, pi, radians, tau
 
@@ -18,28 +19,24 @@ from gruebler.exercises.solution import Table, Value
 from gruebler.fourbar import FOUR_BAR_TYPES, FourBar, InvertedSliderCrank, SliderCrank, grashof
 from gruebler.geneva import Geneva
 from gruebler.linkages import Linkage
-from gruebler.text import Text
+from gruebler.text import Message, Text, arity, in_every_language, joined, message
 
 __all__ = ["TABLES", "teaching_table"]
-
-
-def _both(word: str) -> Text:
-    return Text(word, word)
 
 
 def joints() -> tuple[Table, ...]:
     """The kinds of joints by their freedoms (table 2.2 of the seeds), from the table of pairs."""
     headers = (
-        _both("f"),
-        Text("u = 6 - f", "u = 6 - f"),
-        Text("f planar", "f eben"),
-        Text("symbol", "Symbol"),
-        Text("name", "Name"),
-        Text("contact", "Elementenpaar"),
-        Text("held by", "Schluss"),
+        "f",
+        "u = 6 - f",
+        message("f planar"),
+        message("symbol"),
+        message("name"),
+        message("contact"),
+        message("held by"),
     )
     ranked = sorted(PAIRS, key=lambda p: (len(_freedoms(p)), list(Contact).index(p.contact)))
-    title = Text("Joints by their degree of freedom f", "Gelenke nach ihrem Freiheitsgrad f")
+    title = message("Joints by their degree of freedom f")
     return (Table(title, headers, tuple(_joint_row(p) for p in ranked)),)
 
 
@@ -48,51 +45,41 @@ def _freedoms(kind: Pair) -> tuple[str, ...]:
 
 
 _CONTACTS = {
-    Contact.LOWER: Text("lower", "niederes (NEP)"),
-    Contact.HIGHER: Text("higher", "höheres (HEP)"),
-    Contact.COMPOUND: Text("compound", "zusammengesetzt"),
+    Contact.LOWER: message("lower"),
+    Contact.HIGHER: message("higher"),
+    Contact.COMPOUND: message("compound"),
 }
-_CLOSURES = {"form": Text("form", "Form"), "force": Text("force", "Kraft"), "material": Text("material", "Stoff")}
+_CLOSURES = {"form": message("form"), "force": message("force"), "material": message("material")}
 
 
 def _joint_row(kind: Pair) -> tuple[Value, ...]:
     spatial, planar = (kind.freedoms.get(space) for space in (Space.SPATIAL, Space.PLANAR))
-    closures = [_CLOSURES[closure.value] for closure in kind.closures]
     return (
         str(len(spatial)) if spatial else "-",
         str(6 - len(spatial)) if spatial else "-",
         str(len(planar)) if planar else "-",
-        Text(kind.symbols.get(Alphabet.INTERNATIONAL, "-"), kind.symbols[Alphabet.GERMAN]),
+        in_every_language(lambda lang: kind.symbols.get(Alphabet.of_language(lang), "-")),
         Text(kind.name.replace("_", " "), kind.german),
         _CONTACTS[kind.contact],
-        Text(", ".join(c.en for c in closures), ", ".join(c.de for c in closures)),
+        joined(_CLOSURES[closure.value] for closure in kind.closures),
     )
-
-
-_KINDS = {
-    1: Text("singular", "singulär"),
-    2: Text("binary", "binär"),
-    3: Text("ternary", "ternär"),
-    4: Text("quaternary", "quaternär"),
-    5: Text("quinary", "quinär"),
-}
 
 
 def links() -> tuple[Table, ...]:
     """Links by the number of their joints, counted in the machines of the catalog, and by their motion."""
     planar = {id: e.chain() for id, e in entries().items() if e.space == "planar"}
     rows: list[tuple[Value, ...]] = []
-    for k, name in _KINDS.items():
+    for k in range(1, 6):
         having = {id: chain.link_kinds[k] for id, chain in planar.items() if chain.link_kinds.get(k)}
         shown = ", ".join(f"{id} ({number})" for id, number in sorted(having.items(), key=lambda item: -item[1])[:3])
-        rows.append((str(k), name, sum(having.values()), shown or "-"))
+        rows.append((str(k), in_every_language(partial(arity, k)), sum(having.values()), shown or "-"))
     kinds = Table(
-        Text("Links by their number of joints", "Glieder nach der Zahl ihrer Gelenke"),
+        message("Links by their number of joints"),
         (
-            Text("joints", "Gelenke"),
-            Text("name", "Name"),
-            Text("in the catalog", "im Katalog"),
-            Text("most in", "vor allem in"),
+            message("joints"),
+            message("name"),
+            message("in the catalog"),
+            message("most in"),
         ),
         tuple(rows),
     )
@@ -108,28 +95,22 @@ def _identity(planar: dict[str, Chain]) -> Table:
         kinds = chain.link_kinds
         shown = " + ".join(f"{k}·{number}" for k, number in kinds.items())
         rows.append((id, len(chain.links), str(2 * chain.g), f"{shown} = {sum(k * v for k, v in kinds.items())}"))
-    title = Text(
-        "Every simple joint joins two links: 2g = Σ i·n_i", "Jedes einfache Gelenk verbindet zwei Glieder: 2g = Σ i·n_i"
-    )
-    return Table(title, (Text("chain", "Kette"), _both("n"), _both("2g"), _both("Σ i·n_i")), tuple(rows))
+    title = message("Every simple joint joins two links: 2g = Σ i·n_i")
+    return Table(title, (message("chain"), "n", "2g", "Σ i·n_i"), tuple(rows))
 
 
 def _roles() -> Table:
-    examples: tuple[tuple[Text, Linkage], ...] = (
-        (Text("crank-rocker", "Kurbelschwinge"), FourBar(2, 5, 4, 5).linkage()),
-        (Text("slider-crank", "Schubkurbel"), SliderCrank(2, 5).linkage()),
-        (Text("inverted slider-crank", "Kurbelschleife"), InvertedSliderCrank(3, 5).linkage()),
-        (Text("double crank", "Doppelkurbel"), FourBar(5, 4, 5, 2).linkage()),
+    examples: tuple[tuple[Message, Linkage], ...] = (
+        (message("crank-rocker"), FourBar(2, 5, 4, 5).linkage()),
+        (message("slider-crank"), SliderCrank(2, 5).linkage()),
+        (message("inverted slider-crank"), InvertedSliderCrank(3, 5).linkage()),
+        (message("double crank"), FourBar(5, 4, 5, 2).linkage()),
     )
     rows: list[tuple[Value, ...]] = []
     for name, linkage in examples:
-        found = [(str(link), role) for link, role in motion_roles(linkage).items()]
-        en, de = (", ".join(role.in_language(lang) for _, role in found) for lang in ("en", "de"))
-        rows.append((name, Text(en, de)))
-    title = Text("Links by their motion (computed from it)", "Glieder nach ihrer Bewegung (aus ihr berechnet)")
-    return Table(
-        title, (Text("mechanism", "Getriebe"), Text("its links in turn", "seine Glieder der Reihe nach")), tuple(rows)
-    )
+        rows.append((name, joined(motion_roles(linkage).values())))
+    title = message("Links by their motion (computed from it)")
+    return Table(title, (message("mechanism"), message("its links in turn")), tuple(rows))
 
 
 _SIDES = (("d", "b"), ("e", "d"), ("f", "a"), ("g", "c"))
@@ -147,13 +128,10 @@ def inversion_table() -> tuple[Table, ...]:
             crank, rocker = rocker, crank
         size = FourBar(*(chain[name] for name in (crank, coupler, rocker, frame)))
         roles = dict(zip((frame, crank, coupler, rocker), motion_roles(size.linkage()).values(), strict=True))
-        cells = [Text(roles[name].in_language("en"), roles[name].in_language("de")) for name in ring]
-        rows.append((f"({row})", frame, *cells, Text(size.type.english, size.type.german)))
-    title = Text(
-        "One chain, four mechanisms: a = 2, b = 5, c = 4, d = 5",
-        "Eine Kette, vier Getriebe: a = 2, b = 5, c = 4, d = 5",
-    )
-    headers = (_both(""), Text("frame", "Gestell"), *map(_both, ring), Text("mechanism", "Getriebe"))
+        cells = [roles[name] for name in ring]
+        rows.append((f"({row})", frame, *cells, in_every_language(size.type.name)))
+    title = message("One chain, four mechanisms: a = 2, b = 5, c = 4, d = 5")
+    headers = ("", message("frame"), *ring, message("mechanism"))
     return (Table(title, headers, tuple(rows)),)
 
 
@@ -175,20 +153,22 @@ def grashof_types() -> tuple[Table, ...]:
         lengths = found[kind.key]
         turning = ", ".join(grashof(*lengths).turning) or "-"
         shortest = " = ".join(place) or "-"
-        rows.append((_CONDITIONS[condition], shortest, *map(str, lengths), turning, Text(kind.english, kind.german)))
-    title = Text(
-        "Four-bars by Grashof's condition and the place of the shortest link (a crank, b coupler, c rocker, d frame)",
-        "Viergelenkgetriebe nach der Bedingung von Grashof und der Stelle des kürzesten Gliedes (a Kurbel, b Koppel, "
-        "c Schwinge, d Gestell)",
+        rows.append((_CONDITIONS[condition], shortest, *map(str, lengths), turning, in_every_language(kind.name)))
+    title = message(
+        "Four-bars by Grashof's condition and the place of the shortest link (a crank, b coupler, c rocker, d frame)"
     )
     headers = (
-        Text("condition", "Bedingung"),
-        Text("shortest", "kürzestes"),
-        *map(_both, "abcd"),
-        Text("turning", "umlauffähig"),
-        Text("type", "Typ"),
+        message("condition"),
+        message("shortest"),
+        *"abcd",
+        message("turning"),
+        message("type"),
     )
     return (Table(title, headers, tuple(rows)),)
+
+
+_Column = tuple[Message, str, Callable[[np.ndarray], np.ndarray]]
+"""A mechanism, the quantity of its output, and the transfer function."""
 
 
 def transfer() -> tuple[Table, ...]:
@@ -199,42 +179,43 @@ def transfer() -> tuple[Table, ...]:
     lift = read_lift("rise 20 90; dwell 90; fall 20 90; dwell")
     cross = Geneva(4)
     first = float(slider.motion(0.0).output.value)
-    columns: dict[Text, Callable[[np.ndarray], np.ndarray]] = {
-        Text("gears i = 2: ψ [°]", "Zahnräder i = 2: ψ [°]"): lambda x: np.degrees(x / 2),
-        Text("crank-rocker: ψ [°]", "Kurbelschwinge: ψ [°]"): lambda x: np.degrees(rocker.motion(x).output.value),
-        Text("slider-crank: s [mm]", "Schubkurbel: s [mm]"): lambda x: first - slider.motion(x).output.value,
-        Text("cam: s [mm]", "Kurve: s [mm]"): lambda x: lift.at(x % tau),
-        Text("Geneva: ψ [°]", "Malteserkreuz: ψ [°]"): lambda x: (
-            -np.degrees(cross.move(x - pi).angle) + np.degrees(cross.move(-pi).angle)
+    columns: list[_Column] = [
+        (message("gears i = 2"), "ψ [°]", lambda x: np.degrees(x / 2)),
+        (message("crank-rocker"), "ψ [°]", lambda x: np.degrees(rocker.motion(x).output.value)),
+        (message("slider-crank"), "s [mm]", lambda x: first - slider.motion(x).output.value),
+        (message("cam"), "s [mm]", lambda x: lift.at(x % tau)),
+        (
+            message("Geneva"),
+            "ψ [°]",
+            lambda x: -np.degrees(cross.move(x - pi).angle) + np.degrees(cross.move(-pi).angle),
         ),
-    }
-    values = {name: function(phi) for name, function in columns.items()}
-    rows = [(round(degrees(x), 6), *(float(v[k]) for v in values.values())) for k, x in enumerate(phi)]
-    title = Text(
-        "Transfer functions over one turn of the drive", "Übertragungsfunktionen über eine Umdrehung des Antriebs"
-    )
-    table = Table(title, (_both("φ [°]"), *values), tuple(rows), decimals=2)
+    ]
+    values = [function(phi) for _, _, function in columns]
+    rows = [(round(degrees(x), 6), *(float(v[k]) for v in values)) for k, x in enumerate(phi)]
+    title = message("Transfer functions over one turn of the drive")
+    headers = [joined([mechanism, quantity], ": ") for mechanism, quantity, _ in columns]
+    table = Table(title, ("φ [°]", *headers), tuple(rows), decimals=2)
     return table, _kinds_of_transfer(columns)
 
 
-def _kinds_of_transfer(columns: dict[Text, Callable[[np.ndarray], np.ndarray]]) -> Table:
+def _kinds_of_transfer(columns: list[_Column]) -> Table:
     fine = np.radians(np.arange(0, 360, 0.25) + 0.125)
     step = radians(0.05)
     rows: list[tuple[Value, ...]] = []
-    for name, function in columns.items():
+    for mechanism, _, function in columns:
         slope = (function(fine + step) - function(fine - step)) / (2 * step)
         steady = float(np.ptp(slope)) <= 1e-6 * float(np.abs(slope).max())
         still = float(np.mean(np.abs(slope) < 1e-9 * np.abs(slope).max()))
         back = float(slope.min()) < -1e-9 * np.abs(slope).max() < 1e-9 * np.abs(slope).max() < float(slope.max())
-        kind = Text("uniform, linear", "gleichmäßig, linear") if steady else Text("non-uniform", "ungleichmäßig")
-        way = Text("to and fro", "hin und her") if back else Text("one sense", "gleichsinnig")
-        rows.append((Text(name.en.partition(":")[0], name.de.partition(":")[0]), kind, way, f"{still:.0%}"))
-    title = Text("What the transfer function says", "Was die Übertragungsfunktion sagt")
+        kind = message("uniform, linear") if steady else message("non-uniform")
+        way = message("to and fro") if back else message("one sense")
+        rows.append((mechanism, kind, way, f"{still:.0%}"))
+    title = message("What the transfer function says")
     headers = (
-        Text("mechanism", "Getriebe"),
-        Text("transmission", "Übersetzung"),
-        Text("output", "Abtrieb"),
-        Text("dwell", "Rast"),
+        message("mechanism"),
+        message("transmission"),
+        message("output"),
+        message("dwell"),
     )
     return Table(title, headers, tuple(rows))
 
@@ -252,7 +233,7 @@ TABLES: dict[str, Callable[[], tuple[Table, ...]]] = {
 def teaching_table(name: str) -> tuple[Table, ...]:
     """The tables of a name: joints, links, inversions, grashof, transfer.
 
-    >>> [row[-1].de for row in teaching_table("inversions")[0].rows]
+    >>> [row[-1].in_language("de") for row in teaching_table("inversions")[0].rows]
     ['Kurbelschwinge', 'Kurbelschwinge', 'Doppelkurbel', 'Doppelschwinge mit umlaufender Koppel']
     """
     if name not in TABLES:

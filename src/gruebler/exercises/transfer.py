@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, as_step, figure, number
 from gruebler.gears import read_train, speeds
 from gruebler.linkages.quantities import as_positive
-from gruebler.text import Text
+from gruebler.text import message
 
 __all__ = ["gear_pair"]
 
@@ -27,28 +27,25 @@ def gear_pair(i: float, step: float = 90) -> Solution:
             step=step,
         )
     builder = SolutionBuilder()
-    name = Text("slope of the transfer function", "Steigung der Übertragungsfunktion")
+    name = message("slope of the transfer function")
     builder.find("slope", name, "1/i", 1 / i, symbol="ψ'", i=i)
     builder.say(
-        "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in opposite "
-        "senses; with signs the line falls, ψ = -φ/i.",
-        "ψ wächst gleichmäßig mit φ: Die Übertragungsfunktion ist eine Gerade durch den Ursprung. Ein Außenradpaar "
-        "dreht gegenläufig; mit Vorzeichen fällt die Gerade, ψ = -φ/i.",
+        message(
+            "ψ grows evenly with φ: the graph is a straight line through the origin. An external pair turns in "
+            "opposite senses; with signs the line falls, ψ = -φ/i."
+        ),
         "ψ = φ/i",
     )
     rows = [(k * step, k * step / i) for k in range(int(360 * i / step + 1e-9) + 1)]
-    title = Text("Transfer function, magnitudes", "Übertragungsfunktion, Beträge")
-    builder.table(title, [Text("φ [°]", "φ [°]"), Text("ψ [°]", "ψ [°]")], rows)
-    builder.keep(
-        "turns", Text("turns of the drive for one of the output", "Umdrehungen des Antriebs für eine des Abtriebs"), i
-    )
+    title = message("Transfer function, magnitudes")
+    builder.table(title, ["φ [°]", "ψ [°]"], rows)
+    builder.keep("turns", message("turns of the drive for one of the output"), i)
     teeth = 20
     reading = read_train(f"drive:{teeth} wheel:{number(teeth * i)}; drive=1") if float(teeth * i).is_integer() else None
     if reading is not None:
         speed = speeds(reading.train, {"drive": 1}).values["wheel"]
         builder.check(
-            f"Slope by the gear train {teeth}:{number(teeth * i)}",
-            f"Steigung aus dem Räderpaar {teeth}:{number(teeth * i)}",
+            message("Slope by the gear train {driver}:{wheel}", driver=teeth, wheel=figure(teeth * i)),
             1 / i,
             abs(float(speed or 0)),
             "",
@@ -56,7 +53,6 @@ def gear_pair(i: float, step: float = 90) -> Solution:
     builder.mistake(
         "slope",
         float(i),
-        "i is input by output; the slope is output by input, 1/i.",
-        "i ist Antrieb durch Abtrieb; die Steigung ist Abtrieb durch Antrieb, 1/i.",
+        message("i is input by output; the slope is output by input, 1/i."),
     )
     return builder.done()

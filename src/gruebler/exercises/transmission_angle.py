@@ -10,19 +10,16 @@ from gruebler.exercises.solution import Solution, SolutionBuilder, angle, number
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage
-from gruebler.text import Text
+from gruebler.text import in_every_language, message
 
 __all__ = ["compare_rods", "four_bar", "slider_crank"]
 
-_SMALLEST = Text("smallest transmission angle", "kleinster Übertragungswinkel")
-_LARGEST = Text("largest transmission angle", "größter Übertragungswinkel")
-_DEVIATION = Text("largest deviation angle", "größter Ablenkwinkel")
-_RATIO = Text("crank-conrod ratio", "Schubstangenverhältnis")
-_FOLD = (
-    "A transmission angle is at most 90°: what lies above is taken from 180°.",
-    "Ein Übertragungswinkel ist höchstens 90°: Was darüber liegt, wird von 180° abgezogen.",
-)
-_IS_DEVIATION = ("That is the deviation angle α; μ = 90° - α.", "Das ist der Ablenkwinkel α; μ = 90° - α.")
+_SMALLEST = message("smallest transmission angle")
+_LARGEST = message("largest transmission angle")
+_DEVIATION = message("largest deviation angle")
+_RATIO = message("crank-conrod ratio")
+_FOLD = message("A transmission angle is at most 90°: what lies above is taken from 180°.")
+_IS_DEVIATION = message("That is the deviation angle α; μ = 90° - α.")
 
 
 def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solution:
@@ -39,28 +36,25 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
             b=b,
             c=c,
             d=d,
-            type=size.type,
+            type=in_every_language(size.type.name),
         )
     builder = SolutionBuilder(unit)
     builder.say(
-        "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - a or d + "
-        "a.",
-        "Der Übertragungswinkel ist in den Steglagen am größten und am kleinsten: Dort ist der Abstand A-B0 gleich d "
-        "- a oder d + a.",
+        message(
+            "The transmission angle is extreme where the crank lies on the frame line: the distance A-B0 is d - "
+            "a or d + a."
+        ),
         "(d ∓ a)² = b² + c² - 2·b·c·cos μ",
     )
     folded, deviations = [], []
     for key, sign in (("I", "-"), ("II", "+")):
         across = d - a if sign == "-" else d + a
         value = degrees(acos((b**2 + c**2 - across**2) / (2 * b * c)))
-        name = Text(
-            f"angle between coupler and rocker, frame position {key}",
-            f"Winkel zwischen Koppel und Schwinge, Steglage {key}",
-        )
+        name = message("angle between coupler and rocker, frame position {key}", key=key)
         formula = f"arccos((b² + c² - (d {sign} a)²)/(2·b·c))"
         builder.find(f"μ_{key}", name, formula, value, unit="°", a=a, b=b, c=c, d=d)
         folded.append(_add_folded(builder, key, value))
-        name = Text(f"deviation angle, frame position {key}", f"Ablenkwinkel, Steglage {key}")
+        name = message("deviation angle, frame position {key}", key=key)
         small = f"μ_{key}*" if value > 90 else f"μ_{key}"
         values = {small: angle(folded[-1])}
         deviations.append(builder.find(f"α_{key}", name, f"90° - {small}", 90 - folded[-1], unit="°", values=values))
@@ -77,48 +71,44 @@ def four_bar(a: float, b: float, c: float, d: float, unit: str = "mm") -> Soluti
     _check_smallest(builder, size.linkage(), mu)
     moved = move(size.linkage(), [0.0, pi], branch="+")
     for key, turned in zip(("I", "II"), abs(moved.angle("rocker") - moved.angle("coupler")).tolist(), strict=True):
-        en, de = f"μ_{key}, by the general solver", f"μ_{key}, mit dem allgemeinen Löser"
+        quantity = message("{quantity}, by the general solver", quantity=f"μ_{key}")
         between = degrees(turned) % 360
-        builder.check(en, de, builder.number(f"μ_{key}"), min(between, 360 - between), "°")
+        builder.check(quantity, builder.number(f"μ_{key}"), min(between, 360 - between), "°")
     builder.mistake(
         "μ_min",
         max(folded),
-        "That is the better of the two frame positions.",
-        "Das ist die günstigere der beiden Steglagen.",
+        message("That is the better of the two frame positions."),
     )
     for value in folded:
-        builder.mistake("μ_min", 180 - value, *_FOLD)
-    builder.mistake("μ_min", min(deviations), *_IS_DEVIATION)
-    builder.mistake("μ_min", max(deviations), *_IS_DEVIATION)
+        builder.mistake("μ_min", 180 - value, _FOLD)
+    builder.mistake("μ_min", min(deviations), _IS_DEVIATION)
+    builder.mistake("μ_min", max(deviations), _IS_DEVIATION)
     return builder.done()
 
 
 def _add_folded(builder: SolutionBuilder, key: str, value: float) -> float:
-    name = Text(f"transmission angle, frame position {key}", f"Übertragungswinkel, Steglage {key}")
+    name = message("transmission angle, frame position {key}", key=key)
     if value <= 90:
         builder.keep(f"μ_{key}*", name, value, unit="°")
         return value
     found = builder.find(f"μ_{key}*", name, f"180° - μ_{key}", 180 - value, unit="°", values={f"μ_{key}": angle(value)})
-    builder.mistake(f"μ_{key}*", value, *_FOLD)
+    builder.mistake(f"μ_{key}*", value, _FOLD)
     return found
 
 
 def _add_rule(builder: SolutionBuilder, mu: float) -> None:
-    builder.keep(
-        "good", Text("good transmission (μ_min at least 40°)", "gute Kraftübertragung (μ_min mindestens 40°)"), mu >= 40
-    )
-    good = ("at least", "mindestens") if mu >= 40 else ("below", "unter")
+    builder.keep("good", message("good transmission (μ_min at least 40°)"), mu >= 40)
     builder.say(
-        f"μ_min is {good[0]} the 40° of the rule of thumb.",
-        f"μ_min liegt {'bei ' if mu >= 40 else ''}{good[1]} 40°, der Faustregel für langsam laufende Getriebe.",
+        message("μ_min is at least the 40° of the rule of thumb.")
+        if mu >= 40
+        else message("μ_min is below the 40° of the rule of thumb.")
     )
 
 
 def _check_smallest(builder: SolutionBuilder, linkage: Linkage, mu: float) -> None:
     extremes = measures(linkage).transmission
     builder.check(
-        "Smallest transmission angle, from the solved motion",
-        "Kleinster Übertragungswinkel, aus der durchgerechneten Bewegung",
+        message("Smallest transmission angle, from the solved motion"),
         mu,
         degrees(extremes.smallest.mu) if extremes else 0.0,
         "°",
@@ -149,9 +139,7 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     rise = "(a + e)/b" if off else "a/b"
     if off and not mark:
         builder.say(
-            "The joint A is farthest from the slider's line, by a + e, where the crank points away from it.",
-            "Am weitesten, nämlich a + e, ist das Gelenk A von der Totlagengeraden entfernt, wenn die Kurbel von ihr "
-            "weg zeigt.",
+            message("The joint A is farthest from the slider's line, by a + e, where the crank points away from it."),
         )
     values = {"a": number(a), f"b{mark}": number(b), "e": number(off)}
     alpha = degrees(asin((a + off) / b))
@@ -162,33 +150,28 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
         f"μ_min{mark}", _SMALLEST, f"90° - α_max{mark}", 90 - worst, unit="°", values={f"α_max{mark}": angle(worst)}
     )
     _check_smallest(builder, size.linkage(), mu)
-    builder.mistake(f"μ_min{mark}", worst, *_IS_DEVIATION)
+    builder.mistake(f"μ_min{mark}", worst, _IS_DEVIATION)
     if off:
         _add_other_extreme(builder, a, b, off)
         moved = move(size.linkage(), pi / 2 if e > 0 else -pi / 2)
         there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
-        builder.check(
-            "μ_II, by the general solver", "μ_II, mit dem allgemeinen Löser", builder.number("μ_II"), there, "°"
-        )
+        builder.check(message("{quantity}, by the general solver", quantity="μ_II"), builder.number("μ_II"), there, "°")
         builder.mistake(
             "μ_min",
             90 - degrees(asin(a / b)),
-            "The eccentricity counts too: sin α_max = (a + e)/b.",
-            "Die Exzentrizität zählt mit: sin α_max = (a + e)/b.",
+            message("The eccentricity counts too: sin α_max = (a + e)/b."),
         )
         builder.mistake(
             "μ_min",
             degrees(acos((a - off) / b)),
-            "On the worse side e is added to a: sin α_max = (a + e)/b.",
-            "Auf der ungünstigen Seite wird e zu a addiert: sin α_max = (a + e)/b.",
+            message("On the worse side e is added to a: sin α_max = (a + e)/b."),
         )
     else:
-        largest = Text("largest transmission angle, in the dead centres", "größter Übertragungswinkel, in den Totlagen")
+        largest = message("largest transmission angle, in the dead centres")
         builder.keep(f"μ_max{mark}", largest, 90.0, unit="°")
     extremes = measures(size.linkage()).transmission
     builder.check(
-        "Largest transmission angle, from the solved motion",
-        "Größter Übertragungswinkel, aus der durchgerechneten Bewegung",
+        message("Largest transmission angle, from the solved motion"),
         builder.number(f"μ_max{mark}"),
         degrees(extremes.largest.mu) if extremes else 0.0,
         "°",
@@ -197,23 +180,19 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
 
 
 def _add_other_extreme(builder: SolutionBuilder, a: float, b: float, e: float) -> None:
-    name = Text("deviation angle with the crank on the other side", "Ablenkwinkel mit der Kurbel auf der anderen Seite")
+    name = message("deviation angle with the crank on the other side")
     other = builder.find("α_II", name, "arcsin((a - e)/b)", degrees(asin((a - e) / b)), unit="°", a=a, b=b, e=e)
-    name = Text("transmission angle there", "Übertragungswinkel dort")
+    name = message("transmission angle there")
     mu = builder.find("μ_II", name, "90° - |α_II|", 90 - abs(other), unit="°", α_II=angle(other))
     if a >= e:
         touches = isclose(a, e)
-        text = Text(
-            "largest transmission angle: with a = e the joint A just touches the slider's line on that side, and the "
-            "rod lies along it",
-            "größter Übertragungswinkel: Wegen a = e berührt das Gelenk A auf dieser Seite gerade die Totlagengerade, "
-            "und die Koppel liegt auf ihr",
+        text = message(
+            "largest transmission angle: with a = e the joint A just touches the slider's line on that side, and "
+            "the rod lies along it"
         )
-        crosses = Text(
-            "largest transmission angle: in between the joint A crosses the slider's line, as a is larger than e, and "
-            "the rod lies along it there",
-            "größter Übertragungswinkel: Dazwischen kreuzt das Gelenk A die Totlagengerade, da a größer ist als e; die "
-            "Koppel liegt dort auf ihr",
+        crosses = message(
+            "largest transmission angle: in between the joint A crosses the slider's line, as a is larger than "
+            "e, and the rod lies along it there"
         )
         builder.find("μ_max", _LARGEST, "90° - arcsin(0/b)", 90.0, unit="°", text=text if touches else crosses, b=b)
     else:
@@ -230,9 +209,10 @@ def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
         found.append(_add_slider_crank(builder, a, b, 0.0, mark))
     better = 1 if found[0] > found[1] else 2
     builder.say(
-        f"Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the larger "
-        "μ_min.",
-        f"Schubkurbel {better} mit der längeren Koppel hat das kleinere Schubstangenverhältnis, den kleineren "
-        "Ablenkwinkel und das größere μ_min.",
+        message(
+            "Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the "
+            "larger μ_min.",
+            better=better,
+        ),
     )
     return builder.done()

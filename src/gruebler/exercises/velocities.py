@@ -8,24 +8,19 @@ from math import atan2, cos, degrees, hypot, pi, radians, sin, sqrt
 import numpy as np
 
 from gruebler.errors import LinkageError
-from gruebler.exercises.solution import Solution, SolutionBuilder, angle, number
+from gruebler.exercises.solution import Solution, SolutionBuilder, angle, figure
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import Motion, move
 from gruebler.linkages.quantities import as_finite
-from gruebler.text import Text
+from gruebler.text import message
 
 __all__ = ["four_bar", "slider_crank"]
 
-_COUPLER_RATE = Text("angular velocity of the coupler", "Winkelgeschwindigkeit der Koppel")
-_COUPLER_ACCELERATION = Text("angular acceleration of the coupler", "Winkelbeschleunigung der Koppel")
-_SPEED_A = Text("velocity of the crank pin A", "Geschwindigkeit des Kurbelzapfens A")
-_ACCELERATION_A = Text(
-    "acceleration of A, towards A0 (constant speed of the crank)", "Beschleunigung von A, zu A0 hin (Drehzahl konstant)"
-)
-_TURNED = (
-    "The sign says in which sense: positive is counter-clockwise, as the crank turns.",
-    "Das Vorzeichen gibt den Drehsinn an: positiv ist gegen den Uhrzeigersinn, wie die Kurbel dreht.",
-)
+_COUPLER_RATE = message("angular velocity of the coupler")
+_COUPLER_ACCELERATION = message("angular acceleration of the coupler")
+_SPEED_A = message("velocity of the crank pin A")
+_ACCELERATION_A = message("acceleration of A, towards A0 (constant speed of the crank)")
+_TURNED = message("The sign says in which sense: positive is counter-clockwise, as the crank turns.")
 
 
 def four_bar(
@@ -47,10 +42,10 @@ def four_bar(
     builder = SolutionBuilder(unit)
     theta, psi = _directions(builder, size, phi, side)
     builder.say(
-        "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the coupler; "
-        "the triangle of velocities has the angles between them.",
-        "Geschwindigkeiten: v_B = v_A + v_BA. v_A steht senkrecht auf der Kurbel, v_B auf der Schwinge, v_BA auf der "
-        "Koppel; das Geschwindigkeitsdreieck hat die Winkel zwischen ihnen.",
+        message(
+            "Velocities: v_B = v_A + v_BA. v_A is at right angles to the crank, v_B to the rocker, v_BA to the "
+            "coupler; the triangle of velocities has the angles between them."
+        ),
     )
     rates = _four_bar_rates(builder, size, (phi, theta, psi), omega)
     _four_bar_accelerations(builder, size, (phi, theta, psi), (omega, *rates))
@@ -65,33 +60,36 @@ def _directions(way: SolutionBuilder, size: FourBar, phi: float, side: int) -> t
     crank = radians(phi)
     joint = a * cmath.exp(1j * crank)
     diagonal = way.find(
-        "f", Text("diagonal A-B0", "Diagonale A-B0"), "√(a² + d² - 2·a·d·cos φ)", abs(d - joint), a=a, d=d, φ=angle(phi)
+        "f", message("diagonal A-B0"), "√(a² + d² - 2·a·d·cos φ)", abs(d - joint), a=a, d=d, φ=angle(phi)
     )
-    name = Text("direction of the diagonal", "Richtung der Diagonalen")
+    name = message("direction of the diagonal")
     values: dict[str, float | str] = {"a": a, "d": d, "φ": angle(phi)}
     delta = degrees(cmath.phase(d - joint))
     way.find("δ", name, "-arctan(a·sin φ/(d - a·cos φ))", delta, unit="°", values=values)
     opening = degrees(np.arccos((b**2 + diagonal**2 - c**2) / (2 * b * diagonal)))
-    name = Text("angle between coupler and diagonal", "Winkel zwischen Koppel und Diagonale")
+    name = message("angle between coupler and diagonal")
     way.find("ε", name, "arccos((b² + f² - c²)/(2·b·f))", opening, unit="°", b=b, f=diagonal, c=c)
-    name = Text("direction of the coupler, from A to B", "Richtung der Koppel, von A nach B")
+    name = message("direction of the coupler, from A to B")
     sign = "+" if side > 0 else "-"
     theta = way.find("θ", name, f"δ {sign} ε", delta + side * opening, unit="°", δ=angle(delta), ε=angle(opening))
     end = joint + b * cmath.exp(1j * radians(theta))
-    name = Text("direction of the rocker, from B0 to B", "Richtung der Schwinge, von B0 nach B")
+    name = message("direction of the rocker, from B0 to B")
     psi = degrees(cmath.phase(end - d))
     values = {"B_x": end.real, "B_y": end.imag, "d": d}
     way.say(
-        f"Joint B = ({number(end.real)}, {number(end.imag)}) {way.unit}, in the frame with A0 = (0, 0) and B0 = (d, "
-        "0).",
-        f"Gelenk B = ({number(end.real)}; {number(end.imag)}) {way.unit} im Gestell mit A0 = (0; 0) und B0 = (d; 0).",
+        message(
+            "Joint B = ({real}, {imag}) {unit}, in the frame with A0 = (0, 0) and B0 = (d, 0).",
+            real=figure(end.real),
+            imag=figure(end.imag),
+            unit=way.unit,
+        ),
         "B = A + b·(cos θ, sin θ)",
     )
     half = "" if end.real > d else " + 180°" if psi > 0 else " - 180°"
     way.find("ψ", name, f"arctan(B_y/(B_x - d)){half}", psi, unit="°", values=values)
     mu = abs(psi - theta) % 360
     mu = min(mu, 360 - mu)
-    name = Text("transmission angle", "Übertragungswinkel")
+    name = message("transmission angle")
     way.keep("μ", name, min(mu, 180 - mu), unit="°")
     return theta, psi
 
@@ -103,31 +101,25 @@ def _four_bar_rates(
     phi, theta, psi = (radians(x) for x in angles)
     shown = dict(zip("φθψ", map(angle, angles), strict=True))
     speed = builder.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{builder.unit}/s", a=a, ω=abs(omega))
-    name = Text("angular velocity of the rocker", "Winkelgeschwindigkeit der Schwinge")
+    name = message("angular velocity of the rocker")
     if min(abs(sin(psi - theta)), abs(sin(phi - theta))) < 1e-9:
-        raise LinkageError("in the dead centre at φ = {angles:g}° there is no transmission ratio", angles=angles[0])
+        raise LinkageError("in the dead centre at φ = {angle:g}° there is no transmission ratio", angle=angles[0])
     rocker = omega * a * sin(phi - theta) / (c * sin(psi - theta))
     formula = "ω·a·sin(φ - θ)/(c·sin(ψ - θ))"
     builder.find("ω_c", name, formula, rocker, unit="1/s", a=a, c=c, ω=omega, values=shown)
     coupler = omega * a * sin(phi - psi) / (b * sin(psi - theta))
     formula = "ω·a·sin(φ - ψ)/(b·sin(ψ - θ))"
     builder.find("ω_b", _COUPLER_RATE, formula, coupler, unit="1/s", a=a, b=b, ω=omega, values=shown)
-    builder.say(*_TURNED)
-    name = Text("velocity of the joint B", "Geschwindigkeit des Gelenkpunktes B")
+    builder.say(_TURNED)
+    name = message("velocity of the joint B")
     builder.find("v_B", name, "c·|ω_c|", c * abs(rocker), unit=f"{builder.unit}/s", c=c, ω_c=rocker)
-    name = Text("velocity of B about A", "Geschwindigkeit von B um A")
+    name = message("velocity of B about A")
     builder.find("v_BA", name, "b·|ω_b|", b * abs(coupler), unit=f"{builder.unit}/s", b=b, ω_b=coupler)
-    name = Text("transmission ratio in this pose", "Übersetzungsverhältnis in dieser Stellung")
+    name = message("transmission ratio in this pose")
     ratio = builder.find("i", name, "ω/ω_c", omega / rocker, unit="", ω=omega, ω_c=rocker)
-    builder.mistake(
-        "i", 1 / ratio, "i is the input speed by the output speed.", "i ist Antriebs- durch Abtriebsdrehzahl."
-    )
-    builder.mistake(
-        "v_B", speed, "v_A and v_B differ: the coupler turns.", "v_A und v_B sind verschieden: Die Koppel dreht sich."
-    )
-    builder.mistake(
-        "v_B", c * abs(omega), "The rocker turns with ω_c, not with ω.", "Die Schwinge dreht mit ω_c, nicht mit ω."
-    )
+    builder.mistake("i", 1 / ratio, message("i is the input speed by the output speed."))
+    builder.mistake("v_B", speed, message("v_A and v_B differ: the coupler turns."))
+    builder.mistake("v_B", c * abs(omega), message("The rocker turns with ω_c, not with ω."))
     return coupler, rocker
 
 
@@ -139,37 +131,37 @@ def _four_bar_accelerations(
     omega, coupler, rocker = rates
     unit = f"{builder.unit}/s²"
     builder.say(
-        "Accelerations: a_B = a_A + a_BA, each with a normal part towards the centre, r·ω², and a tangential one, r·α.",
-        "Beschleunigungen: a_B = a_A + a_BA, jeweils mit einem Normalanteil r·ω² zum Drehpunkt hin und einem "
-        "Tangentialanteil r·α.",
+        message(
+            "Accelerations: a_B = a_A + a_BA, each with a normal part towards the centre, r·ω², and a tangential "
+            "one, r·α."
+        ),
     )
     a_a = builder.find("a_A", _ACCELERATION_A, "a·ω²", a * omega**2, unit=unit, a=a, ω=omega)
-    name = Text("centripetal part of B about A", "Zentripetalanteil von B um A")
+    name = message("centripetal part of B about A")
     about = builder.find("a_BAn", name, "b·ω_b²", b * coupler**2, unit=unit, b=b, ω_b=coupler)
-    name = Text("centripetal part of B about B0", "Zentripetalanteil von B um B0")
+    name = message("centripetal part of B about B0")
     normal = builder.find("a_Bn", name, "c·ω_c²", c * rocker**2, unit=unit, c=c, ω_c=rocker)
     shown: dict[str, float | str] = dict(zip("φθψ", map(angle, angles), strict=True))
     values = shown | {"a_A": a_a, "a_BAn": about, "a_Bn": normal, "b": b, "c": c}
-    name = Text("angular acceleration of the rocker", "Winkelbeschleunigung der Schwinge")
+    name = message("angular acceleration of the rocker")
     alpha_c = (a_a * cos(phi - theta) + about - normal * cos(psi - theta)) / (c * sin(psi - theta))
     formula = "(a_A·cos(φ - θ) + a_BAn - a_Bn·cos(ψ - θ))/(c·sin(ψ - θ))"
     builder.find("α_c", name, formula, alpha_c, unit="1/s²", values=values)
     alpha_b = (a_a * cos(phi - psi) + about * cos(psi - theta) - normal) / (b * sin(psi - theta))
     formula = "(a_A·cos(φ - ψ) + a_BAn·cos(ψ - θ) - a_Bn)/(b·sin(ψ - θ))"
     builder.find("α_b", _COUPLER_ACCELERATION, formula, alpha_b, unit="1/s²", values=values)
-    name = Text("tangential part of B about B0", "Tangentialanteil von B um B0")
+    name = message("tangential part of B about B0")
     tangential = builder.find("a_Bt", name, "c·|α_c|", c * abs(alpha_c), unit=unit, c=c, α_c=alpha_c)
-    name = Text("tangential part of B about A", "Tangentialanteil von B um A")
+    name = message("tangential part of B about A")
     builder.find("a_BAt", name, "b·|α_b|", b * abs(alpha_b), unit=unit, b=b, α_b=alpha_b)
-    name = Text("acceleration of the joint B", "Beschleunigung des Gelenkpunktes B")
+    name = message("acceleration of the joint B")
     builder.find("a_B", name, "√(a_Bn² + a_Bt²)", hypot(normal, tangential), unit=unit, a_Bn=normal, a_Bt=tangential)
     builder.mistake(
         "a_B",
         normal + tangential,
-        "The parts are at right angles: add them by Pythagoras.",
-        "Die Anteile stehen senkrecht aufeinander: nach Pythagoras addieren.",
+        message("The parts are at right angles: add them by Pythagoras."),
     )
-    builder.mistake("a_B", normal, "The tangential part is missing.", "Der Tangentialanteil fehlt.")
+    builder.mistake("a_B", normal, message("The tangential part is missing."))
 
 
 def _add_vectors(builder: SolutionBuilder, moved: Motion) -> None:
@@ -191,11 +183,8 @@ def _add_vectors(builder: SolutionBuilder, moved: Motion) -> None:
         ("a_BAt", ab - aa - relative),
     ]
     rows += [("a_Bn", along), ("a_Bt", ab - along), ("a_B", ab)]
-    title = Text(
-        "Vectors of the plans of velocities and accelerations",
-        "Vektoren des Geschwindigkeits- und Beschleunigungsplans",
-    )
-    headers = (Text("vector", "Vektor"), Text("x", "x"), Text("y", "y"), Text("magnitude", "Betrag"))
+    title = message("Vectors of the plans of velocities and accelerations")
+    headers = (message("vector"), "x", "y", message("magnitude"))
     builder.table(title, headers, [(name, float(z.real), float(z.imag), float(abs(z))) for name, z in rows])
 
 
@@ -211,32 +200,32 @@ def _check_four_bar(builder: SolutionBuilder, size: FourBar, moved: Motion, phi:
         pole = u * ((size.d * np.conj(w)).imag / (u * np.conj(w)).imag)
         builder.keep(
             "P_x",
-            Text("instant centre of the coupler, x", "Momentanpol der Koppel, x"),
+            message("instant centre of the coupler, x"),
             float(pole.real),
             unit=builder.unit,
         )
         builder.keep(
             "P_y",
-            Text("instant centre of the coupler, y", "Momentanpol der Koppel, y"),
+            message("instant centre of the coupler, y"),
             float(pole.imag),
             unit=builder.unit,
         )
         builder.check(
-            "v_B by the instant centre P of the coupler, v_A·PB/PA",
-            "v_B über den Momentanpol P der Koppel, v_A·PB/PA",
+            message("v_B by the instant centre P of the coupler, v_A·PB/PA"),
             v_b,
             v_a * float(abs(b - pole) / abs(a - pole)),
             speed,
         )
     vector = moved.complex_point("R(coupler-rocker)", 1)[0]
-    builder.check("v_B by the general solver", "v_B mit dem allgemeinen Löser", v_b, float(abs(vector)), speed)
+    builder.check(message("{quantity} by the general solver", quantity="v_B"), v_b, float(abs(vector)), speed)
     acceleration = float(abs(moved.complex_point("R(coupler-rocker)", 2)[0]))
     a_b = builder.number("a_B")
-    builder.check("a_B by the general solver", "a_B mit dem allgemeinen Löser", a_b, acceleration, f"{builder.unit}/s²")
+    builder.check(message("{quantity} by the general solver", quantity="a_B"), a_b, acceleration, f"{builder.unit}/s²")
     for key, link in (("α_b", "coupler"), ("α_c", "rocker")):
         value = builder.number(key)
-        en, de = f"{key} by the general solver", f"{key} mit dem allgemeinen Löser"
-        builder.check(en, de, value, float(moved.angular(link, 2)[0]), "1/s²")
+        builder.check(
+            message("{quantity} by the general solver", quantity=key), value, float(moved.angular(link, 2)[0]), "1/s²"
+        )
 
 
 def slider_crank(
@@ -257,10 +246,7 @@ def slider_crank(
     crank = radians(phi)
     low = "e - a·sin φ" if e else "-a·sin φ"
     beta = atan2(e - a * sin(crank), sqrt(b**2 - (e - a * sin(crank)) ** 2))
-    name = Text(
-        "inclination of the connecting rod (negative: it falls towards the slider)",
-        "Neigung der Koppel (negativ: sie fällt zum Kolben hin)",
-    )
+    name = message("inclination of the connecting rod (negative: it falls towards the slider)")
     values: dict[str, float | str] = {"a": a, "b": b, "e": e, "φ": angle(phi)}
     numerator = f"({low})" if e else low
     builder.find("β", name, f"arcsin({numerator}/b)", degrees(beta), unit="°", values=values)
@@ -268,9 +254,7 @@ def slider_crank(
     builder.find("v_A", _SPEED_A, "a·ω", a * abs(omega), unit=f"{unit}/s", a=a, ω=abs(omega))
     rate = -omega * a * cos(crank) / (b * cos(beta))
     builder.find("ω_b", _COUPLER_RATE, "-ω·a·cos φ/(b·cos β)", rate, unit="1/s", values=values)
-    name = Text(
-        "velocity of the slider (negative: towards the crank)", "Geschwindigkeit des Kolbens (negativ: zur Kurbel hin)"
-    )
+    name = message("velocity of the slider (negative: towards the crank)")
     v = builder.find(
         "v_B",
         name,
@@ -285,14 +269,11 @@ def slider_crank(
     builder.find(
         "α_b", _COUPLER_ACCELERATION, "(a·ω²·sin φ + b·ω_b²·sin β)/(b·cos β)", alpha, unit="1/s²", values=values
     )
-    name = Text(
-        "acceleration of the slider (negative: towards the crank)",
-        "Beschleunigung des Kolbens (negativ: zur Kurbel hin)",
-    )
+    name = message("acceleration of the slider (negative: towards the crank)")
     acceleration = -a * omega**2 * cos(crank) - b * rate**2 * cos(beta) - b * alpha * sin(beta)
     formula = "-a·ω²·cos φ - b·ω_b²·cos β - b·α_b·sin β"
     builder.find("a_B", name, formula, acceleration, unit=f"{unit}/s²", values=values, α_b=alpha)
-    builder.keep("μ", Text("transmission angle", "Übertragungswinkel"), 90 - abs(degrees(beta)), unit="°")
+    builder.keep("μ", message("transmission angle"), 90 - abs(degrees(beta)), unit="°")
     if either and not e:
         _add_inner(builder, size, phi, omega)
     _check_slider(builder, size, (phi, omega), (v, acceleration))
@@ -306,21 +287,24 @@ def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: f
     unit = builder.unit
     builder.keep(
         "v_B_i",
-        Text("velocity from the inner dead centre", "Geschwindigkeit ab der inneren Totlage"),
+        message("velocity from the inner dead centre"),
         v,
         unit=f"{unit}/s",
     )
     builder.keep(
         "a_B_i",
-        Text("acceleration from the inner dead centre", "Beschleunigung ab der inneren Totlage"),
+        message("acceleration from the inner dead centre"),
         a,
         unit=f"{unit}/s²",
     )
     builder.say(
-        f"Counted from the inner dead centre (crank and rod overlapping) it would be v_B = {number(v)} {unit}/s and "
-        f"a_B = {number(a)} {unit}/s².",
-        f"Ab der inneren Totlage (Decklage) gezählt wären es v_B = {number(v)} {unit}/s und a_B = {number(a)} "
-        f"{unit}/s².",
+        message(
+            "Counted from the inner dead centre (crank and rod overlapping) it would be v_B = {v} {unit}/s and "
+            "a_B = {a} {unit}/s².",
+            v=figure(v),
+            unit=unit,
+            a=figure(a),
+        ),
     )
 
 
@@ -333,37 +317,26 @@ def _check_slider(
     moved = move(size.linkage(), [radians(phi)], speed=omega)
     slide = "P(frame-slider)"
     way.check(
-        "v_B by the general solver",
-        "v_B mit dem allgemeinen Löser",
+        message("{quantity} by the general solver", quantity="v_B"),
         v,
         float(moved.displacement(slide, 1)[0]),
         f"{unit}/s",
     )
     second = float(moved.displacement(slide, 2)[0])
-    way.check("a_B by the general solver", "a_B mit dem allgemeinen Löser", acceleration, second, f"{unit}/s²")
+    way.check(message("{quantity} by the general solver", quantity="a_B"), acceleration, second, f"{unit}/s²")
     crank, lam = radians(phi), a / b
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))
     rough_a = -a * omega**2 * (cos(crank) + lam * cos(2 * crank))
-    way.mistake("v_B", -v, "The slider moves towards the crank: negative.", "Der Kolben läuft zur Kurbel hin: negativ.")
+    way.mistake("v_B", -v, message("The slider moves towards the crank: negative."))
     way.mistake(
         "a_B",
         -acceleration,
-        "The acceleration points towards the crank: negative.",
-        "Die Beschleunigung zeigt zur Kurbel hin: negativ.",
+        message("The acceleration points towards the crank: negative."),
     )
     if not size.e:
-        near = (
-            "That is the approximation for small λ: sin φ + λ/2·sin 2φ.",
-            "Das ist die Näherung für kleines λ: sin φ + λ/2·sin 2φ.",
-        )
-        way.mistake("v_B", rough_v, *near)
-        way.mistake(
-            "a_B", rough_a, "That is the approximation cos φ + λ·cos 2φ.", "Das ist die Näherung cos φ + λ·cos 2φ."
-        )
-        way.keep("v_approx", Text("velocity for small λ", "Näherung der Geschwindigkeit"), rough_v, unit=f"{unit}/s")
-        way.keep(
-            "a_approx", Text("acceleration for small λ", "Näherung der Beschleunigung"), rough_a, unit=f"{unit}/s²"
-        )
-    way.mistake(
-        "v_B", -a * omega * sin(crank), "The tilt of the rod is missing.", "Der Anteil der Koppelneigung fehlt."
-    )
+        near = message("That is the approximation for small λ: sin φ + λ/2·sin 2φ.")
+        way.mistake("v_B", rough_v, near)
+        way.mistake("a_B", rough_a, message("That is the approximation cos φ + λ·cos 2φ."))
+        way.keep("v_approx", message("velocity for small λ"), rough_v, unit=f"{unit}/s")
+        way.keep("a_approx", message("acceleration for small λ"), rough_a, unit=f"{unit}/s²")
+    way.mistake("v_B", -a * omega * sin(crank), message("The tilt of the rod is missing."))

@@ -20,7 +20,7 @@ from gruebler.formats.screws import ScrewsRecord, spatial_linkage_from_record
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import SpatialLinkage, has_only_lower_pairs
-from gruebler.text import Text
+from gruebler.text import Message, Text
 
 __all__ = [
     "Case",
@@ -179,7 +179,11 @@ def read_entry(path: Path) -> Entry:
 
 def entry_of_data(data: object, where: str) -> Entry:
     """The machine of plain data, as ``gruebler catalog show --json`` prints it; ``where`` begins a `CatalogError`."""
-    entry = convert_document(data, Entry, lambda text: CatalogError("{where}: {text_}", where=where, text_=text))
+
+    def fail(problem: Message) -> CatalogError:
+        return CatalogError("{where}: {problem}", where=where, problem=problem)
+
+    entry = convert_document(data, Entry, fail)
     _check(entry, where)
     return entry
 
@@ -190,8 +194,8 @@ def read_exercise(path: Path) -> Exercise:
 
 
 def _read(path: Path, kind: type[Record]) -> Record:
-    def fail(text: str) -> CatalogError:
-        return CatalogError("{path}: {text_}", path=path, text_=text)
+    def fail(problem: Message) -> CatalogError:
+        return CatalogError("{path}: {problem}", path=path, problem=problem)
 
     return convert_document(load_document(path, fail), kind, fail)
 
@@ -215,10 +219,10 @@ def _check(entry: Entry, path: Path | str) -> None:
     for drive in entry.drives:
         if chain.find_joint(drive) is None:
             raise CatalogError(
-                "{path}: drives: {drive!r} is not one of the joints; they are {joint_names}",
+                "{path}: drives: {drive!r} is not one of the joints; they are {joints}",
                 path=path,
                 drive=drive,
-                joint_names=", ".join(chain.joint_names()),
+                joints=", ".join(chain.joint_names()),
             )
     if entry.screws is not None:
         if entry.screws.assumed == bool(entry.screws.source):

@@ -22,6 +22,7 @@ from gruebler.fourbar.slider_crank import SliderCrank
 from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
 from gruebler.linkages.model import Linkage, joint_number
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message, joined, joined_by_and, joined_by_or, message
 
 __all__ = ["Dimensions", "linkage_from_record"]
 
@@ -122,7 +123,9 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
     given = [way for way in _WAYS if getattr(sizes, way) is not None]
     if len(given) != 1:
         raise LinkageError(
-            "expected one of {ways}, but found {value}", ways=", ".join(_WAYS), value=" and ".join(given) or "none"
+            "expected one of {ways}, but found {found}",
+            ways=", ".join(_WAYS),
+            found=joined_by_and(given) if given else message("none"),
         )
     way = given[0]
     if sizes.home is not None and way != "elements":
@@ -149,7 +152,7 @@ def linkage_from_record(sizes: Dimensions, mechanism: Mechanism | None, outputs:
         _check_link(link, mechanism.chain.links, "elements")
         if not isinstance(mine, Mapping):
             raise LinkageError(
-                "elements.{link}: expected a table of joints, but found {short}", link=link, short=_short(mine)
+                "elements.{link}: expected a table of joints, but found {found}", link=link, found=_short(mine)
             )
         elements[link] = _by_joint(mechanism, mine, f"elements.{link}")
     home = None if sizes.home is None else _home(sizes.home, mechanism.chain.links)
@@ -198,12 +201,14 @@ def _aimed(mechanism: Mechanism, places: Mapping[str, Any]) -> dict[str, Any]:
         where, target = f"places.{joint}", by_number.get(chain.find_joint(raw[2]))
         if not isinstance(target, list):
             raise LinkageError(
-                "{where}: {raw!r} has no place through which the slide could pass", where=where, raw=raw[2][:60]
+                "{where}: {joint!r} has no place through which the slide could pass", where=where, joint=raw[2][:60]
             )
         (x, y), (u, v) = _numbers(raw[:2], where, (2,)), _numbers(target[:2], f"places.{raw[2]}", (2,))
         if (x, y) == (u, v):
             raise LinkageError(
-                "{where}: {raw} is at the slide's own point; give another point of its line", where=where, raw=raw[2]
+                "{where}: {joint} is at the slide's own point; give another point of its line",
+                where=where,
+                joint=raw[2],
             )
         out[joint] = [raw[0], raw[1], in_degrees(math.atan2(v - y, u - x))]
     return out
@@ -225,16 +230,16 @@ def _refuse_rounded_axes(mechanism: Mechanism, places: Mapping[str | int, object
             continue
         angle = raw[2] if len(raw) == 3 else 0.0
         on = [[k for k in pins if isinstance(k, int) and link in chain.joints[k].links] for link in joint.links]
-        for one, other in itertools.product(*on[:2]):
-            across = (pins[other][0] - pins[one][0], pins[other][1] - pins[one][1])
+        for pin, other in itertools.product(*on[:2]):
+            across = (pins[other][0] - pins[pin][0], pins[other][1] - pins[pin][1])
             far, miss = math.hypot(*across), abs(math.cos(angle) * across[1] - math.sin(angle) * across[0])
             if _ROUNDED * far < miss < _MEANT * far:
                 raise LinkageError(
-                    'places.{names}: the slide through {names_2} misses {names_3} by {miss:.2g}; write "{names_3}" '
+                    'places.{slide}: the slide through {pin} misses {other} by {miss:.2g}; write "{other}" '
                     "instead of the angle, or the angle with all its digits",
-                    names=names[number],
-                    names_2=names[one],
-                    names_3=names[other],
+                    slide=names[number],
+                    pin=names[pin],
+                    other=names[other],
                     miss=miss,
                 )
 
@@ -255,7 +260,7 @@ def _round(record: RoundRecord, given: Mapping[str, Any], where: str) -> Element
     wrong = next((key for key in given if key not in {"at", *allowed}), None)
     if wrong is not None:
         raise LinkageError(
-            "{where}.{wrong}: does not go with {value}", where=where, wrong=wrong, value=kind or "a wheel"
+            "{where}.{wrong}: does not go with {kind}", where=where, wrong=wrong, kind=kind or message("a wheel")
         )
     if kind in ("", "circle"):
         x, y = _numbers(record.at, f"{where}.at", (2,))
@@ -290,20 +295,20 @@ def _wheel(record: RoundRecord, x: float, y: float, where: str) -> Wheel:
 def _numbers(raw: Any, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
     """x, y and perhaps an angle, which comes in degrees and goes in radians."""
     if not isinstance(raw, list) or len(raw) not in counts:
-        wanted = " or ".join("[x, y]" if count == 2 else "[x, y, degrees]" for count in counts)
+        wanted = joined_by_or([message("[x, y]" if count == 2 else "[x, y, degrees]") for count in counts])
         raise LinkageError(
-            "{where}: expected {wanted}, but found {short}", where=where, wanted=wanted, short=_short(raw)
+            "{where}: expected {wanted}, but found {found}", where=where, wanted=wanted, found=_short(raw)
         )
     for value in raw[:2]:
         if isinstance(value, bool) or not isinstance(value, int | float) or not -1e100 < value < 1e100:
             raise LinkageError(
-                "{where}: expected numbers below 1e100, but found {short}", where=where, short=_short(value)
+                "{where}: expected numbers below 1e100, but found {found}", where=where, found=_short(value)
             )
     try:
         return (float(raw[0]), float(raw[1]), *(in_radians(angle) for angle in raw[2:]))
     except ValueError:
         raise LinkageError(
-            "{where}: expected an angle in degrees, but found {short}", where=where, short=_short(raw[2])
+            "{where}: expected an angle in degrees, but found {found}", where=where, found=_short(raw[2])
         ) from None
 
 
@@ -338,13 +343,15 @@ def _check_link(link: str, links: tuple[str, ...], where: str) -> None:
         )
 
 
-def _short(value: object) -> str:
+def _short(value: object) -> Message:
     match value:
+        case list() if len(value) > 4:
+            return message("a list of {count}", count=len(value))
         case list():
-            return f"a list of {len(value)}" if len(value) > 4 else f"[{', '.join(_short(one) for one in value)}]"
+            return message("[{items}]", items=joined(map(_short, value)))
         case Mapping():
-            return "a table"
+            return message("a table")
         case int() if not -(10**20) < value < 10**20:
-            return "a number of many digits"
+            return message("a number of many digits")
     shown = repr(value)
-    return shown if len(shown) < 40 else shown[:37] + "..."
+    return message("{value}", value=shown if len(shown) < 40 else shown[:37] + "...")

@@ -16,6 +16,7 @@ from gruebler.documents import convert_document, load_document
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.formats.angles import in_degrees
 from gruebler.formats.linkage_records import Dimensions, linkage_from_record
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.elements import CamDisc, Circle, Element, GenevaDriver, GenevaWheel, NonCircular, Pose2D, Wheel
 from gruebler.linkages.model import Linkage
 from gruebler.mechanism import Mechanism
@@ -50,7 +51,7 @@ def read_linkage(path: Path | str) -> Linkage:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
-    data = load_document(path, lambda text: LinkageError("{path}: {text_}", path=path, text_=text))
+    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
             "{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler "
@@ -203,10 +204,11 @@ def check_linkage_path(path: Path) -> None:
         raise LinkageError("{path}: there is no folder {parent!r}", path=path, parent=str(path.parent))
 
 
-def write_linkage(path: Path | str, linkage: Linkage) -> None:
+def write_linkage(path: Path | str, linkage: LinkageLike) -> None:
     """Write a ``.toml`` or ``.json`` file; it appears whole or not at all."""
     path = Path(path)
     check_linkage_path(path)
+    linkage = as_linkage(linkage)
     if path.suffix.lower() == ".toml":
         text = linkage_to_toml(linkage)
     else:

@@ -128,7 +128,7 @@ def read_any_linkage(path: Path | str) -> Linkage | SpatialLinkage:
     path = Path(path)
     if path.suffix.lower() not in (".toml", ".json"):
         raise LinkageError("{path}: a linkage is in a .toml or .json file", path=path)
-    data = load_document(path, lambda text: LinkageError("{path}: {text_}", path=path, text_=text))
+    data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
     try:
         if isinstance(data, Mapping) and "screws" in data:
             return spatial_from_json(data)

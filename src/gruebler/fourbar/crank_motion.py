@@ -12,6 +12,7 @@ import numpy.typing as npt
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_finite, as_numbers
+from gruebler.text import Message
 
 __all__ = [
     "CrankMotion",
@@ -55,13 +56,18 @@ class CrankMotion:
     mu: Reals
     """The angle between coupler and output in 0..pi, not folded."""
     branch: int
-    message: str
-    """Empty if every pose is assembled and every rate determined."""
+    reason: Message | None
+    """Why some pose is not assembled or some rate not determined; None if all are."""
+
+    @property
+    def message(self) -> str:
+        """The reason in English; empty if there is none."""
+        return str(self.reason or "")
 
     @property
     def complete(self) -> bool:
         """Whether every pose is assembled and every rate determined."""
-        return not self.message
+        return self.reason is None
 
     @property
     def assembled(self) -> npt.NDArray[np.bool_]:

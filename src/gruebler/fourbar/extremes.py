@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_finite
+from gruebler.text import Message, joined, joined_by_or, message
 
 __all__ = [
     "CrankRange",
@@ -232,16 +233,22 @@ class TransmissionAngle:
         return self.smallest >= as_finite("least", least)
 
 
-def cannot_assemble(arcs: Sequence[CrankRange], missing: Mask, undetermined: Mask, singular: Mask) -> str:
-    """The sentence about poses and rates that are NaN; empty if there are none."""
-    poses = f"of {missing.size} poses"
+def cannot_assemble(arcs: Sequence[CrankRange], missing: Mask, undetermined: Mask, singular: Mask) -> Message | None:
+    """What is said of poses and rates that are NaN; None if there are none."""
     parts = []
-    if missing.any():
-        where = " or ".join(f"{math.degrees(arc.start):.6g}..{math.degrees(arc.end):.6g} deg" for arc in arcs)
-        reason = f"the crank angle must lie in {where}" if arcs else "the linkage is not assemblable"
-        parts.append(f"{missing.sum()} {poses} cannot be assembled: {reason}")
+    if missing.any() and arcs:
+        text = message("{count} of {poses} poses cannot be assembled: the crank angle must lie in {ranges}")
+        ranges = joined_by_or(
+            [message("{low:.6g}..{high:.6g} deg", low=math.degrees(a.start), high=math.degrees(a.end)) for a in arcs]
+        )
+        parts.append(text.filled(count=int(missing.sum()), ranges=ranges))
+    elif missing.any():
+        text = message("{count} of {poses} poses cannot be assembled: the linkage is not assemblable")
+        parts.append(text.filled(count=int(missing.sum())))
     if undetermined.any():
-        parts.append(f"in {undetermined.sum()} {poses} A lies on B0 and the position is not determined")
+        text = message("in {count} of {poses} poses A lies on B0 and the position is not determined")
+        parts.append(text.filled(count=int(undetermined.sum())))
     if singular.any():
-        parts.append(f"in {singular.sum()} {poses} the crank does not determine the rates (transmission angle 0)")
-    return "; ".join(parts)
+        text = message("in {count} of {poses} poses the crank does not determine the rates (transmission angle 0)")
+        parts.append(text.filled(count=int(singular.sum())))
+    return joined([part.filled(poses=missing.size) for part in parts], "; ") if parts else None

@@ -82,10 +82,10 @@ class FourBar:
         four_bar = cls(**given, **{missing: math.sqrt(square)})
         if four_bar.dead_centres is None:
             raise LinkageError(
-                "a^2 + d^2 = b^2 + c^2 asks for {missing} = {sqrt:g}: {type}",
+                "a^2 + d^2 = b^2 + c^2 asks for {missing} = {length:g}: {type}",
                 missing=missing,
-                sqrt=math.sqrt(square),
-                type=four_bar.type,
+                length=math.sqrt(square),
+                type=four_bar.type.title,
             )
         return four_bar
 
@@ -265,7 +265,7 @@ class FourBar:
             B=CrankRates(*map(points, joint_b)),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
+            reason=cannot_assemble(self.limits, np.isnan(area), undetermined, singular),
         )
 
     def _add_rates(self, crank: CrankRates, theta: list[Reals], psi: list[Reals], sine: Reals) -> None:

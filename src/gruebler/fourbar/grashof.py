@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from gruebler.errors import LinkageError
 from gruebler.linkages.quantities import as_lengths, given_and_missing
+from gruebler.text import Message, message, number, translate
 
 __all__ = ["FOUR_BAR_TYPES", "Grashof", "LengthRange", "LinkageType", "grashof", "turning_ranges", "types_along"]
 
-LINKS = {
-    "a": ("crank", "Kurbel"),
-    "b": ("coupler", "Koppel"),
-    "c": ("output", "Abtrieb"),
-    "d": ("frame", "Gestell"),
-}
+_LINKS = {"a": message("crank"), "b": message("coupler"), "c": message("output")}
 _CLOSE = 1e-12
 
 
@@ -26,67 +22,42 @@ class LinkageType:
     """What a linkage is called for the way it moves."""
 
     key: str
-    english: str
-    german: str
+    title: Message = field(compare=False)
 
     def name(self, lang: str = "en") -> str:
         """The name in English (``en``) or German (``de``)."""
-        return self.german if lang == "de" else self.english
+        return self.title.in_language(lang)
 
     def __str__(self) -> str:
-        return self.english
+        return self.name()
 
+
+SINGLE_POSITION = LinkageType("single_position", message("stretched: one single position"))
+NOT_ASSEMBLABLE = LinkageType("not_assemblable", message("not assemblable"))
 
 # By the relation of l_min + l_max to the sum of the other two, and by the links that are the shortest.
-_TABLE = {
-    ("<", "a"): ("crank_rocker", "crank-rocker", "Kurbelschwinge"),
-    ("<", "b"): (
-        "grashof_double_rocker",
-        "Grashof double rocker (the coupler turns fully)",
-        "Doppelschwinge mit umlaufender Koppel",
+FOUR_BAR_TYPES = {
+    ("<", "a"): LinkageType("crank_rocker", message("crank-rocker")),
+    ("<", "b"): LinkageType("grashof_double_rocker", message("Grashof double rocker (the coupler turns fully)")),
+    ("<", "c"): LinkageType("rocker_crank", message("crank-rocker driven at the rocker")),
+    ("<", "d"): LinkageType("double_crank", message("double crank")),
+    ("=", "a"): LinkageType("change_point_crank_rocker", message("change-point crank-rocker")),
+    ("=", "b"): LinkageType("change_point_double_rocker", message("change-point double rocker")),
+    ("=", "c"): LinkageType("change_point_rocker_crank", message("change-point crank-rocker driven at the rocker")),
+    ("=", "d"): LinkageType("change_point_double_crank", message("change-point double crank")),
+    ("=", "ac"): LinkageType("parallelogram", message("parallelogram or antiparallelogram, short cranks")),
+    ("=", "bd"): LinkageType("parallelogram_short_frame", message("parallelogram or antiparallelogram, short frame")),
+    ("=", "ab"): LinkageType("kite_crank_rocker", message("isosceles crank-rocker (kite)")),
+    ("=", "bc"): LinkageType("kite_rocker_crank", message("isosceles crank-rocker (kite) driven at the rocker")),
+    ("=", "ad"): LinkageType("kite_double_crank", message("isosceles double crank (kite)")),
+    ("=", "cd"): LinkageType(
+        "kite_double_crank_reversed", message("isosceles double crank (kite) driven at the long crank")
     ),
-    ("<", "c"): (
-        "rocker_crank",
-        "crank-rocker driven at the rocker",
-        "Kurbelschwinge mit Antrieb an der Schwinge",
-    ),
-    ("<", "d"): ("double_crank", "double crank", "Doppelkurbel"),
-    ("=", "a"): ("change_point_crank_rocker", "change-point crank-rocker", "durchschlagende Kurbelschwinge"),
-    ("=", "b"): ("change_point_double_rocker", "change-point double rocker", "durchschlagende Doppelschwinge"),
-    ("=", "c"): (
-        "change_point_rocker_crank",
-        "change-point crank-rocker driven at the rocker",
-        "durchschlagende Kurbelschwinge mit Antrieb an der Schwinge",
-    ),
-    ("=", "d"): ("change_point_double_crank", "change-point double crank", "durchschlagende Doppelkurbel"),
-    ("=", "ac"): (
-        "parallelogram",
-        "parallelogram or antiparallelogram, short cranks",
-        "Parallelkurbel oder gegenläufige Antiparallelkurbel",
-    ),
-    ("=", "bd"): (
-        "parallelogram_short_frame",
-        "parallelogram or antiparallelogram, short frame",
-        "Parallelkurbel oder gleichläufige Antiparallelkurbel",
-    ),
-    ("=", "ab"): ("kite_crank_rocker", "isosceles crank-rocker (kite)", "gleichschenklige Kurbelschwinge"),
-    ("=", "bc"): (
-        "kite_rocker_crank",
-        "isosceles crank-rocker (kite) driven at the rocker",
-        "gleichschenklige Kurbelschwinge mit Antrieb an der Schwinge",
-    ),
-    ("=", "ad"): ("kite_double_crank", "isosceles double crank (kite)", "gleichschenklige Doppelkurbel"),
-    ("=", "cd"): (
-        "kite_double_crank_reversed",
-        "isosceles double crank (kite) driven at the long crank",
-        "gleichschenklige Doppelkurbel mit Antrieb an der langen Kurbel",
-    ),
-    ("=", "abcd"): ("rhombus", "rhombus (four equal links)", "Rhombus (vier gleiche Glieder)"),
-    (">", ""): ("triple_rocker", "triple rocker (no link turns fully)", "Totalschwinge (kein Glied umlauffähig)"),
-    ("rigid", ""): ("single_position", "stretched: one single position", "gestreckt: nur eine einzige Lage"),
-    ("open", ""): ("not_assemblable", "not assemblable", "nicht montierbar"),
+    ("=", "abcd"): LinkageType("rhombus", message("rhombus (four equal links)")),
+    (">", ""): LinkageType("triple_rocker", message("triple rocker (no link turns fully)")),
+    ("rigid", ""): SINGLE_POSITION,
+    ("open", ""): NOT_ASSEMBLABLE,
 }
-FOUR_BAR_TYPES = {place: LinkageType(*row) for place, row in _TABLE.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,19 +106,18 @@ class Grashof:
         >>> grashof(40, 100, 70, 90).explain()
         'l_min + l_max = 40 + 100 = 140 < 160 = 90 + 70: crank-rocker. Turns fully against the frame: a (crank).'
         """
-        ordered = sorted(self.lengths.values())
-        low, first, second, high = ordered
-        sums = f"{low + high:g} {self.condition} {first + second:g}"
-        line = f"l_min + l_max = {low:g} + {high:g} = {sums} = {second:g} + {first:g}: {self.name(lang)}."
+        lengths = sorted(self.lengths.values())
+        low, first, second, high = (number(length, lang, "g") for length in lengths)
+        outer, inner, others = (number(sum(some), lang, "g") for some in (lengths[::3], lengths[1:3], lengths[:3]))
+        line = f"l_min + l_max = {low} + {high} = {outer} {self.condition} {inner} = {second} + {first}"
         if self.type.key in {"not_assemblable", "single_position"}:
             sign = "=" if self.type.key == "single_position" else ">"
-            others = f"{low + first + second:g} = {low:g} + {first:g} + {second:g}"
-            line = f"l_max = {high:g} {sign} {others}: {self.name(lang)}."
+            line = f"l_max = {high} {sign} {others} = {low} + {first} + {second}"
+        line += f": {self.name(lang)}."
         if not self.turning:
             return line
-        german = lang == "de"
-        links = ", ".join(f"{link} ({LINKS[link][german]})" for link in self.turning)
-        return f"{line} {'Gegen das Gestell umlauffähig' if german else 'Turns fully against the frame'}: {links}."
+        links = ", ".join(f"{link} ({_LINKS[link].in_language(lang)})" for link in self.turning)
+        return f"{line} {translate('Turns fully against the frame: {links}.', lang, links=links)}"
 
 
 def grashof(a: float, b: float, c: float, d: float) -> Grashof:

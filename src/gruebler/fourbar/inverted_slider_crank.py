@@ -51,7 +51,7 @@ class InvertedSliderCrank:
     swinging block, conchoid linkage) and to a block on the crank pin in a slotted lever pivoted in B0.
 
     >>> shaper = InvertedSliderCrank(a=30, d=50)
-    >>> print(shaper.type.german, round(shaper.dead_centres.time_ratio, 6))
+    >>> print(shaper.type.name("de"), round(shaper.dead_centres.time_ratio, 6))
     schwingende Kurbelschleife 2.38791
     """
 
@@ -187,7 +187,7 @@ class InvertedSliderCrank:
             B=CrankRates(b0 - foot[0], *(-rate for rate in foot[1:])),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
+            reason=cannot_assemble(self.limits, np.isnan(slide[0]), undetermined, singular),
             displacement=block,
         )
 

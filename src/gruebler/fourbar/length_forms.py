@@ -50,7 +50,7 @@ def linkage_on_mechanism(
     return Linkage(mechanism, elements, unit=unit, reference_pose=home, outputs=outputs or ())
 
 
-def _loop(mechanism: Mechanism, way: str) -> tuple[str, ...]:
+def _loop(mechanism: Mechanism, form: str) -> tuple[str, ...]:
     """The four links in order, from the frame over the crank."""
     chain, frame = mechanism.chain, mechanism.frame
     kinds = {frozenset(joint.links): _LETTER.get(joint.pair.name, "?") for joint in chain.joints}
@@ -64,14 +64,14 @@ def _loop(mechanism: Mechanism, way: str) -> tuple[str, ...]:
             further = [joint.links for joint in chain.joints if loop[-1] in joint.links and joint.links != step]
             step = further[0] if len(further) == 1 else ()
         sides = [frozenset(pair) for pair in pairwise(loop)]
-        if chain.n == len(kinds) == 4 and loop[-1] == frame and "".join(kinds[s] for s in sides) == _LOOPS[way]:
+        if chain.n == len(kinds) == 4 and loop[-1] == frame and "".join(kinds[s] for s in sides) == _LOOPS[form]:
             return tuple(loop[:-1])
     text = chain.text()
     shown = text if len(text) < 120 else text[:117] + "..."
     raise LinkageError(
-        "{way} needs four links in a loop with joints {loops}, from the frame over the crank; found {shown}",
-        way=way,
-        loops=_LOOPS[way],
+        "{form} needs four links in a loop with joints {loops}, from the frame over the crank; found {shown}",
+        form=form,
+        loops=_LOOPS[form],
         shown=shown,
     )
 

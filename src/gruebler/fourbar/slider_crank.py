@@ -311,7 +311,7 @@ class SliderCrank:
             B=CrankRates(*(points(s + (1j * e if k == 0 else 0j)) for k, s in enumerate(output))),
             mu=mu,
             branch=side,
-            message=cannot_assemble(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
+            reason=cannot_assemble(self.limits, missing, np.zeros_like(missing), np.isnan(output.velocity) & ~missing),
         )
 
 

@@ -2,58 +2,38 @@
 
 from __future__ import annotations
 
-from gruebler.fourbar.grashof import LinkageType
+from gruebler.fourbar.grashof import NOT_ASSEMBLABLE, SINGLE_POSITION, LinkageType
+from gruebler.text import message
 
 __all__ = ["INVERTED_SLIDER_CRANK_TYPES", "SLIDER_CRANK_TYPES", "offset_relation"]
 
 _CLOSE = 1e-12
 
-_SINGLE = ("single_position", "stretched: one single position", "gestreckt: nur eine einzige Lage")
-_OPEN = ("not_assemblable", "not assemblable", "nicht montierbar")
-
 # By the relation of l_min + |e| to l_max, and by the links that are the shorter.
-_SLIDER_CRANKS = {
-    ("<", "a"): ("slider_crank", "slider-crank", "Schubkurbel"),
-    ("<", "b"): (
-        "slider_rocker_turning_coupler",
-        "slider-rocker with turning coupler",
-        "Schubschwinge mit umlaufender Koppel",
-    ),
-    ("=", "a"): ("change_point_slider_crank", "change-point slider-crank", "durchschlagende Schubkurbel"),
-    ("=", "b"): ("change_point_slider_rocker", "change-point slider-rocker", "durchschlagende Schubschwinge"),
-    ("=", "ab"): ("isosceles_slider_crank", "isosceles slider-crank", "gleichschenklige Schubkurbel"),
-    (">", ""): (
-        "slider_rocker",
-        "slider-rocker (no link turns fully)",
-        "Schubschwinge (kein Glied umlauffähig)",
-    ),
-    ("rigid", ""): _SINGLE,
-    ("open", ""): _OPEN,
+SLIDER_CRANK_TYPES = {
+    ("<", "a"): LinkageType("slider_crank", message("slider-crank")),
+    ("<", "b"): LinkageType("slider_rocker_turning_coupler", message("slider-rocker with turning coupler")),
+    ("=", "a"): LinkageType("change_point_slider_crank", message("change-point slider-crank")),
+    ("=", "b"): LinkageType("change_point_slider_rocker", message("change-point slider-rocker")),
+    ("=", "ab"): LinkageType("isosceles_slider_crank", message("isosceles slider-crank")),
+    (">", ""): LinkageType("slider_rocker", message("slider-rocker (no link turns fully)")),
+    ("rigid", ""): SINGLE_POSITION,
+    ("open", ""): NOT_ASSEMBLABLE,
 }
-_INVERTED = {
-    ("<", "a"): ("swinging_guide", "inverted slider-crank with swinging guide", "schwingende Kurbelschleife"),
-    ("<", "d"): ("turning_guide", "inverted slider-crank with turning guide", "umlaufende Kurbelschleife"),
-    ("=", "a"): (
-        "change_point_swinging_guide",
-        "change-point inverted slider-crank with swinging guide",
-        "durchschlagende schwingende Kurbelschleife",
+INVERTED_SLIDER_CRANK_TYPES = {
+    ("<", "a"): LinkageType("swinging_guide", message("inverted slider-crank with swinging guide")),
+    ("<", "d"): LinkageType("turning_guide", message("inverted slider-crank with turning guide")),
+    ("=", "a"): LinkageType(
+        "change_point_swinging_guide", message("change-point inverted slider-crank with swinging guide")
     ),
-    ("=", "d"): (
-        "change_point_turning_guide",
-        "change-point inverted slider-crank with turning guide",
-        "durchschlagende umlaufende Kurbelschleife",
+    ("=", "d"): LinkageType(
+        "change_point_turning_guide", message("change-point inverted slider-crank with turning guide")
     ),
-    ("=", "ad"): ("isosceles_guide", "isosceles inverted slider-crank", "gleichschenklige Kurbelschleife"),
-    (">", ""): (
-        "rocking_guide",
-        "inverted slider-crank (no link turns fully)",
-        "Kurbelschleife (kein Glied umlauffähig)",
-    ),
-    ("rigid", ""): _SINGLE,
-    ("open", ""): _OPEN,
+    ("=", "ad"): LinkageType("isosceles_guide", message("isosceles inverted slider-crank")),
+    (">", ""): LinkageType("rocking_guide", message("inverted slider-crank (no link turns fully)")),
+    ("rigid", ""): SINGLE_POSITION,
+    ("open", ""): NOT_ASSEMBLABLE,
 }
-SLIDER_CRANK_TYPES = {place: LinkageType(*row) for place, row in _SLIDER_CRANKS.items()}
-INVERTED_SLIDER_CRANK_TYPES = {place: LinkageType(*row) for place, row in _INVERTED.items()}
 
 
 def offset_relation(e: float, **lengths: float) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-"""A gear train in words, English and German."""
+"""A gear train in words."""
 
 from __future__ import annotations
 
@@ -10,72 +10,24 @@ from gruebler.gears.assembly import Assembly, assembly, axes, even_numbers
 from gruebler.gears.motion import speeds
 from gruebler.gears.reading import TrainReading
 from gruebler.gears.train import FRAME, Train, comparable
+from gruebler.text import joined, message, number, plural, translate
 
 __all__ = ["decimal", "explain_train", "fraction_text", "writable"]
 
 _LARGEST_BITS = 13_500  # below the 4,300 digits that Python turns into text
 
-# sentence: (English, German)
-SENTENCES = {
-    "mobility": (
-        "{links} moving links, {meshes} independent meshes: mobility {freedoms}.",
-        "{links} bewegte Glieder, {meshes} unabhängige Eingriffe: Laufgrad {freedoms}.",
-    ),
-    "redundant": (
-        "Says nothing new: {meshes}.",
-        "Sagt nichts Neues: {meshes}.",
-    ),
-    "relation": ("Speeds: {relation} = 0", "Drehzahlen: {relation} = 0"),
-    "contradiction": (
-        "{link} cannot have {wanted}: it follows from the other drives as {follows}.",
-        "{link} kann nicht {wanted} haben: Aus den anderen Antrieben folgt {follows}.",
-    ),
-    "spare": ("Drives more than needed: {links}.", "Überzählige Antriebe: {links}."),
-    "free": (
-        "Not determined: {links}; {missing} more drive(s) needed.",
-        "Nicht bestimmt: {links}; {missing} Antrieb(e) fehlen.",
-    ),
-    "possible": (
-        "{number} planets ({planet}) at equal angles can be put in.",
-        "{number} Planeten ({planet}) lassen sich gleichmäßig verteilt einbauen.",
-    ),
-    "impossible": (
-        "{number} planets ({planet}) at equal angles cannot be put in: {reasons}.",
-        "{number} Planeten ({planet}) lassen sich nicht gleichmäßig verteilt einbauen: {reasons}.",
-    ),
-    "axes": (
-        "{links} do not have one axis: with {planet} the tooth numbers give different distances of the axes, {sums} "
-        "half modules (one module, no profile shift).",
-        "{links} haben keine gemeinsame Achse: Mit {planet} ergeben die Zähnezahlen verschiedene Achsabstände, {sums} "
-        "halbe Moduln (gleicher Modul, keine Profilverschiebung).",
-    ),
-    "numbers": (
-        "Equal planets ({planet}) that fit at equal angles: {numbers}.",
-        "Gleiche Planeten ({planet}), die sich gleichmäßig verteilt einbauen lassen: {numbers}.",
-    ),
-    "coaxial": (
-        "the central wheels are not coaxial (wheels of one module without profile shift)",
-        "die Zentralräder sind nicht gleichachsig (gleicher Modul, keine Profilverschiebung)",
-    ),
-    "evenly": (
-        "places are {degrees}° or multiples of it apart",
-        "die Plätze liegen um {degrees}° oder Vielfache davon auseinander",
-    ),
-    "clear": ("neighbours touch", "Nachbarn berühren sich"),
-}
 
-
-def fraction_text(value: Fraction | float) -> str:
+def fraction_text(value: Fraction | float, lang: str = "en") -> str:
     """A number for people: whole, or a fraction with its decimal value.
 
     >>> fraction_text(Fraction(7, 2)), fraction_text(Fraction(6)), fraction_text(0.25)
     ('7/2 (3.5)', '6', '0.25')
     """
     if isinstance(value, float):
-        return f"{value:.6g}"
+        return number(value, lang)
     if not writable(value):
-        return decimal(value)
-    return str(value) if value.denominator == 1 else f"{value} ({decimal(value)})"
+        return number(decimal(value), lang, "")
+    return str(value) if value.denominator == 1 else f"{value} ({number(decimal(value), lang, '')})"
 
 
 def writable(value: Fraction) -> bool:
@@ -111,48 +63,97 @@ def explain_train(reading: TrainReading, lang: str = "en") -> str:
     Speeds: 2 sun - 7 arm + 5 ring = 0
     3 planets (planet) at equal angles can be put in.
     """
-    train, column = reading.train, int(lang == "de")
-
-    def say(key: str, **words: object) -> str:
-        return SENTENCES[key][column].format(**words)
-
+    train = reading.train
     links, redundant = len(train.links), train.redundant
     independent = len(train.meshes) - len(redundant)
-    lines = [say("mobility", links=links, meshes=independent, freedoms=links - independent)]
+    lines = [
+        translate(
+            "{links} moving links, {meshes} independent meshes: mobility {mobility}.",
+            lang,
+            links=links,
+            meshes=independent,
+            mobility=links - independent,
+        )
+    ]
     if redundant:
-        lines.append(say("redundant", meshes="; ".join(map(str, redundant))))
-    lines += [say("relation", relation=relation) for relation in _outer_relations(train)]
+        lines.append(translate("Redundant meshes: {meshes}.", lang, meshes="; ".join(map(str, redundant))))
+    lines += [translate("Speeds: {relation} = 0", lang, relation=relation) for relation in _outer_relations(train)]
     if reading.drives:
-        found = speeds(train, reading.drives)
-        for link, wanted, follows in found.contradictions:
-            lines.append(say("contradiction", link=link, wanted=fraction_text(wanted), follows=fraction_text(follows)))
-        if found.spare:
-            lines.append(say("spare", links=", ".join(found.spare)))
-        if found.free:
-            used = len(reading.drives) - len(found.spare) - len(found.contradictions)
-            lines.append(say("free", links=", ".join(found.free), missing=links - independent - used))
+        lines += _drive_lines(reading, links - independent, lang)
     for planet, count in reading.planets.items():
-        one = assembly(train, planet, count)
-        reasons = _reasons(one, column)
-        key = "impossible" if reasons else "possible"
-        lines.append(say(key, number=count, planet=planet, reasons="; ".join(reasons)))
-    for found_axes in axes(train):
-        wheels = found_axes.meshes
-        if not found_axes.coaxial:
+        lines.append(_planets_line(assembly(train, planet, count), lang))
+    for planet_axes in axes(train):
+        planet, wheels = planet_axes.planet, planet_axes.meshes
+        if not planet_axes.coaxial:
             sums = (f"|{mesh.size_b} {'-' if mesh.size_a < 0 else '+'} {abs(mesh.size_a)}|" for mesh in wheels)
-            shown = (f"{total} = {value}" for total, value in zip(sums, found_axes.distances, strict=True))
+            shown = (f"{total} = {value}" for total, value in zip(sums, planet_axes.distances, strict=True))
             lines.append(
-                say("axes", links=", ".join(m.b for m in wheels), planet=found_axes.planet, sums="; ".join(shown))
+                translate(
+                    "{links} do not have one axis: with {planet} the tooth numbers give different distances of the "
+                    "axes, {sums} half modules (one module, no profile shift).",
+                    lang,
+                    links=", ".join(mesh.b for mesh in wheels),
+                    planet=planet,
+                    sums="; ".join(shown),
+                )
             )
-        elif found_axes.planet not in reading.planets and (fits := even_numbers(train, found_axes.planet)):
-            lines.append(say("numbers", planet=found_axes.planet, numbers=", ".join(map(str, fits))))
+        elif planet not in reading.planets and (fits := even_numbers(train, planet)):
+            numbers = ", ".join(map(str, fits))
+            text = message("Equal planets ({planet}) that fit at equal angles: {numbers}.")
+            lines.append(text.filled(planet=planet, numbers=numbers).in_language(lang))
     return "\n".join(lines)
 
 
-def _reasons(one: Assembly, column: int) -> list[str]:
-    degrees = f"{float(one.spacing * 360):.6g}"
-    wrong = [key for key in ("coaxial", "evenly", "clear") if not getattr(one, key)]
-    return [SENTENCES[key][column].format(degrees=degrees) for key in wrong]
+def _drive_lines(reading: TrainReading, mobility: int, lang: str) -> list[str]:
+    """What the drives contradict, repeat and leave open."""
+    state, lines = speeds(reading.train, reading.drives), []
+    for link, wanted, follows in state.contradictions:
+        lines.append(
+            translate(
+                "{link} cannot have {wanted}: it follows from the other drives as {follows}.",
+                lang,
+                link=link,
+                wanted=fraction_text(wanted, lang),
+                follows=fraction_text(follows, lang),
+            )
+        )
+    if state.spare:
+        lines.append(translate("Drives more than needed: {links}.", lang, links=", ".join(state.spare)))
+    if state.free:
+        missing = mobility - (len(reading.drives) - len(state.spare) - len(state.contradictions))
+        lines.append(
+            plural(
+                "Not determined: {links}; {count} more drive needed.",
+                "Not determined: {links}; {count} more drives needed.",
+                missing,
+                lang,
+                links=", ".join(state.free),
+            )
+        )
+    return lines
+
+
+def _planets_line(placed: Assembly, lang: str) -> str:
+    """Whether so many equal planets fit, and if not, why."""
+    reasons = []
+    if not placed.coaxial:
+        reasons.append(message("the central wheels are not coaxial (wheels of one module without profile shift)"))
+    if not placed.evenly:
+        degrees = float(placed.spacing * 360)
+        reasons.append(message("places are {degrees:.6g}° or multiples of it apart", degrees=degrees))
+    if not placed.clear:
+        reasons.append(message("neighbours touch"))
+    if not reasons:
+        return translate(
+            "{count} planets ({planet}) at equal angles can be put in.", lang, count=placed.number, planet=placed.planet
+        )
+    return translate(
+        "{count} planets ({planet}) at equal angles cannot be put in: {reasons}.",
+        lang,
+        count=placed.number,
+        planet=placed.planet,
+        reasons=joined(reasons, "; "),
+    )
 
 
 def _outer_relations(train: Train) -> list[str]:

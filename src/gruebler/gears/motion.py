@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from gruebler.gears.rational import Elimination, Row, reduce_row
 from gruebler.gears.train import MIXED, GearError, Train, Unit, exact_number
+from gruebler.text import message
 
 __all__ = ["Balance", "Contradiction", "Speeds", "balance", "influence", "ratio", "speeds"]
 
@@ -59,7 +60,7 @@ def speeds(train: Train, drives: Mapping[str, object]) -> Speeds:
     spare: list[str] = []
     units, comparable = train.units(), train.comparable(links)
     for link, value in drives.items():
-        wanted = exact_number(value, f"speed of {train.known(link)}")
+        wanted = exact_number(value, message("speed of {link}", link=train.known(link)))
         if wanted and units[link] != Unit.TURNING and not comparable:
             raise GearError("{link} is driven, but {mixed}", link=link, mixed=MIXED)
         rest = form.left({link: Fraction(1)})
@@ -90,9 +91,10 @@ def influence(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
     form = _relations(train, train.links)
     free = len(train.links) - len(form.rows)
     if not all(form.add({link: Fraction(1)}) for link in names) or len(names) != free:
-        told = ", ".join(names) or "none"
         raise GearError(
-            "the train has {free} freedoms and needs as many independent drives; given: {told}", free=free, told=told
+            "the train has {free} freedoms and needs as many independent drives; given: {drives}",
+            free=free,
+            drives=", ".join(names) or message("none"),
         )
     chosen = set(names)
     found = _relations(train, [*(link for link in train.links if link not in chosen), *names]).full()
@@ -143,10 +145,12 @@ def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, obje
     {'sun': '20', 'ring': '50', 'arm': '-70'}
     """
     factors = influence(train, drives)
-    given = {train.known(link): exact_number(value, f"load on {link}") for link, value in loads.items()}
+    given = {
+        train.known(link): exact_number(value, message("load on {link}", link=link)) for link, value in loads.items()
+    }
     if both := set(given) & set(drives):
         raise GearError(
-            "{both}: driven or held, so its torque is an answer and cannot be a load", both=", ".join(sorted(both))
+            "{links}: driven or held, so its torque is an answer and cannot be a load", links=", ".join(sorted(both))
         )
     units = train.units()
     torques: dict[str, Fraction | float] = {}

@@ -68,12 +68,11 @@ def read_train(text: str) -> TrainReading:
         else:
             if not head and ":" not in statement:
                 known = ", ".join(_STATEMENTS)
-                hint = nearest(words[0], _STATEMENTS)
                 raise GearError(
-                    "'{statement}': expected wheels such as sun:24 planet:18, or one of {known}{hint}",
+                    "'{statement}': expected wheels such as sun:24 planet:18, or one of {known}{suggestion}",
                     statement=statement,
                     known=known,
-                    hint=hint,
+                    suggestion=nearest(words[0], _STATEMENTS),
                 )
             meshes += _read_meshes(head or "gear", rest, statement, found["planets"])
     train = Train(meshes)
@@ -172,12 +171,12 @@ def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str,
     numbers = {option: exact_number(value, f"{what}: {option}") for option, value in options.items()}
     if kind == "screw":
         if ":" in wheels[0] or "lead" not in numbers:
-            raise GearError("{what}: expected 'screw SPINDLE SLIDE lead=NUMBER'", what=what)
+            raise GearError("{statement}: expected 'screw SPINDLE SLIDE lead=NUMBER'", statement=what)
         return Mesh(wheels[0], wheels[1], numbers["lead"], Fraction(1), carrier, kind)
     link, text = _pair(wheels[0], ":", statement)
     size = exact_number(text, f"{what}: {link}")
     if numbers.get("falls", 1) < 1:
-        raise GearError("{what}: at least one rope carries the load", what=what)
+        raise GearError("{statement}: at least one rope carries the load", statement=what)
     if "pitch" in numbers:
         travel = size * numbers["pitch"] / numbers.get("falls", 1)
         return Mesh(link, wheels[1], travel, Fraction(1), carrier, "rack by pitch")
@@ -198,6 +197,6 @@ def _carrier(words: list[str], statement: str) -> tuple[str, list[str]]:
 def _count(text: str, statement: str) -> int:
     if re.fullmatch("[1-9][0-9]{0,3}", text) is None:
         raise GearError(
-            "'{statement}': expected a whole number of planets, not {text_!r}", statement=statement, text_=text
+            "'{statement}': expected a whole number of planets, not {text!r}", statement=statement, text=text
         )
     return int(text)

@@ -17,13 +17,14 @@ from typing import NamedTuple
 from gruebler import notebook
 from gruebler.errors import GrueblerError, nearest
 from gruebler.gears.rational import Elimination, Row, rational_echelon
+from gruebler.text import Message, message
 
 __all__ = ["KINDS", "MIXED", "GearError", "Mesh", "MeshKind", "Train", "Unit", "comparable", "exact_number"]
 
 FRAME = "frame"
 
 
-MIXED = "some slide per radian, others per turn, which differ by 2 pi; give racks and winches by pitch=TRAVEL"
+MIXED = message("some slide per radian, others per turn, which differ by 2 pi; give racks and winches by pitch=TRAVEL")
 
 
 class GearError(GrueblerError):
@@ -38,6 +39,13 @@ class Unit(StrEnum):
     """Length: a rack moves radius times angle."""
     PER_TURN = "per turn"
     """Length: a nut moves its lead in a full turn. Per radian and per turn differ by 2 pi and are never mixed."""
+
+
+_UNITS = {
+    Unit.TURNING: message("a turning link"),
+    Unit.PER_RADIAN: message("sliding per radian"),
+    Unit.PER_TURN: message("sliding per turn"),
+}
 
 
 class MeshKind(NamedTuple):
@@ -66,7 +74,7 @@ KINDS = MappingProxyType(
 )
 
 
-def exact_number(value: object, what: str) -> Fraction:
+def exact_number(value: object, what: str | Message) -> Fraction:
     """A finite number as a fraction; decimals as they are written.
 
     >>> exact_number(0.1, "size"), exact_number("7/2", "size")
@@ -108,11 +116,11 @@ class Mesh:
                 suggestion=nearest(self.kind, KINDS),
             )
         if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
-            raise GearError("a mesh joins two different links and is carried by a third: {self_}", self_=self)
+            raise GearError("a mesh joins two different links and is carried by a third: {mesh}", mesh=self)
         for name, given in ((self.a, self.size_a), (self.b, self.size_b)):
             if not isinstance(name, str) or not name:
                 raise GearError("a link has a name, not {name!r}", name=name)
-            size = exact_number(given, f"wheel on {name}")
+            size = exact_number(given, message("wheel on {link}", link=name))
             if size == 0 or (size < 0 and not KINDS[self.kind].signed):
                 raise GearError(
                     "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
@@ -120,9 +128,9 @@ class Mesh:
         object.__setattr__(self, "size_a", exact_number(self.size_a, self.a))
         object.__setattr__(self, "size_b", exact_number(self.size_b, self.b))
         if self.kind in ("gear", "friction") and min(self.size_a, self.size_b) < 0 <= self.size_a + self.size_b:
-            raise GearError("an internal wheel (minus) is larger than the wheel in it: {self_}", self_=self)
+            raise GearError("an internal wheel (minus) is larger than the wheel in it: {mesh}", mesh=self)
         if self.kind in ("gear", "friction") and max(self.size_a, self.size_b) < 0:
-            raise GearError("two internal wheels do not mesh: {self_}", self_=self)
+            raise GearError("two internal wheels do not mesh: {mesh}", mesh=self)
 
     def __str__(self) -> str:
         """The text of the mesh, as `read_train` takes it back.
@@ -193,14 +201,15 @@ class Train:
         for mesh in self.meshes:
             for link, unit in mesh.units().items():
                 if link != FRAME and found.setdefault(link, unit) != unit:
-                    hint = "" if Unit.TURNING in (unit, found[link]) else "; give the rack by its pitch instead"
                     raise GearError(
-                        "{link} is {found} in one mesh and {unit} in '{mesh}'{hint}",
+                        "{link} is {first} in one mesh and {second} in '{mesh}'"
+                        if Unit.TURNING in (unit, found[link])
+                        else "{link} is {first} in one mesh and {second} in '{mesh}'; give the rack by its pitch "
+                        "instead",
                         link=link,
-                        found=found[link],
-                        unit=unit,
+                        first=_UNITS[found[link]],
+                        second=_UNITS[unit],
                         mesh=mesh,
-                        hint=hint,
                     )
         return found
 
@@ -261,12 +270,15 @@ class Train:
         """
         found = self.relations(*links)
         if len(found) != 1:
-            number = f"{len(found)} relations" if found else "no relation"
             raise GearError(
-                "there is {number} between the speeds of {links}, not one", number=number, links=", ".join(links)
+                "there are {count} relations between the speeds of {links}, not one"
+                if found
+                else "there is no relation between the speeds of {links}",
+                count=len(found),
+                links=", ".join(links),
             )
         if not self.comparable(found[0]):
-            raise GearError("{found}: {mixed}", found=", ".join(found[0]), mixed=MIXED)
+            raise GearError("{links}: {mixed}", links=", ".join(found[0]), mixed=MIXED)
         return found[0]
 
     def _repr_svg_(self) -> str | None:

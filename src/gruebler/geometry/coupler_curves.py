@@ -26,7 +26,8 @@ from gruebler.geometry.path_events import (
 )
 from gruebler.geometry.point_path import PointPath, point_path
 from gruebler.geometry.sampling import PathPolygon, path_area, path_length, path_polygon
-from gruebler.linkages import Linkage, LinkPoint
+from gruebler.linkages import LinkPoint
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.linkages.quantities import as_finite
 from gruebler.notebook import Brief
 
@@ -151,7 +152,7 @@ class CouplerCurve(Brief):
 
 
 def coupler_curve(
-    linkage: Linkage,
+    linkage: LinkageLike,
     point: str | LinkPoint,
     *,
     branch: str | None = None,
@@ -177,5 +178,5 @@ def coupler_curve(
     >>> [round(float(np.degrees(one.drive)), 2) for one in conchoid.inflections]
     [80.56, 147.1, 212.9, 279.44]
     """
-    trail = point_path(linkage, point, branch, drives)
+    trail = point_path(as_linkage(linkage), point, branch, drives)
     return CouplerCurve(trail, _TOLERANCE * trail.reach if tolerance is None else tolerance)

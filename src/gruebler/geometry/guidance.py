@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, degrees, pi, radians, sqrt
-from typing import NamedTuple
 
 from gruebler.errors import LinkageError, nearest
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -21,6 +20,7 @@ from gruebler.geometry.sizing import RatioCurve, Sizing, Window, ratio_curve, sc
 from gruebler.geometry.straight import Path, PathPiece, linkage_path, path_piece
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message, message
 
 __all__ = ["GUIDANCES", "Guidance", "guidance"]
 
@@ -28,24 +28,13 @@ _EXACT = 1e-12  # deviation by length over the whole window
 _POINT = "K"
 
 
-class BilingualName(NamedTuple):
-    """A text in both languages."""
-
-    en: str
-    de: str
-
-    def in_language(self, lang: str) -> str:
-        """The text in one language."""
-        return self.de if lang == "de" else self.en
-
-
 @dataclass(frozen=True)
 class Guidance:
     """A linkage with a point K that runs straight, the smallest length being its unit."""
 
     key: str
-    name: BilingualName
-    proportions: BilingualName
+    name: Message
+    proportions: Message
     build: Callable[[], Linkage]
     degrees: tuple[float, float, float]
     """Drive values: beginning, position of reference, end."""
@@ -192,109 +181,88 @@ _INFLECTION, _ITS_TANGENT = 80.55616065499164, 2.2732018534280565  # of the conc
 GUIDANCES: tuple[Guidance, ...] = (
     Guidance(
         "watt",
-        BilingualName("Watt", "Watt"),
-        BilingualName("rockers 2, coupler 1; middle of the coupler", "Schwingen 2, Koppel 1; Koppelmitte"),
+        message("Watt"),
+        message("rockers 2, coupler 1; middle of the coupler"),
         _four_bar(-2 + 0.5j, 0.5j, -0.5j, 2 - 0.5j, 0j),
         (-20, 0, 20),
         pi / 2,
     ),
     Guidance(
         "evans",
-        BilingualName("Evans", "Evans"),
-        BilingualName(
-            "crank = coupler = its extension = 1, long rocker 3 upright with crank and coupler stretched",
-            "Kurbel = Koppel = deren Verlängerung = 1, lange Schwinge 3 senkrecht bei gestreckter Kurbel und Koppel",
-        ),
+        message("Evans"),
+        message("crank = coupler = its extension = 1, long rocker 3 upright with crank and coupler stretched"),
         _four_bar(0j, 1 + 0j, 2 + 0j, 2 - 3j, 0j),
         (-35, 0, 35),
         pi / 2,
     ),
     Guidance(
         "chebyshev",
-        BilingualName("Chebyshev", "Tschebyscheff"),
-        BilingualName(
-            "frame 4, crossed rockers 5, coupler 2; its middle", "Gestell 4, gekreuzte Schwingen 5, Koppel 2; Mitte"
-        ),
+        message("Chebyshev"),
+        message("frame 4, crossed rockers 5, coupler 2; its middle"),
         _four_bar(0j, 3 + 4j, 1 + 4j, 4 + 0j, 2 + 4j, drive="R(crank-coupler)"),
         (-90 - degrees(atan2(3, 4)), -degrees(atan2(4, 3)), 0),
         0.0,
     ),
     Guidance(
         "roberts",
-        BilingualName("Roberts", "Roberts"),
-        BilingualName(
-            "frame 2, coupler 1, rockers and legs of the coupler triangle 1.2",
-            "Gestell 2, Koppel 1, Schwingen und Schenkel des Koppeldreiecks 1,2",
-        ),
+        message("Roberts"),
+        message("frame 2, coupler 1, rockers and legs of the coupler triangle 1.2"),
         _four_bar(0j, _ROBERTS, _ROBERTS + 1, 2 + 0j, 1 + 0j, drive="R(crank-coupler)"),
         (65.4, 180 - degrees(phase(_ROBERTS)), 178),
         0.0,
     ),
     Guidance(
         "lambda",
-        BilingualName("Chebyshev's lambda, Hoecken", "Tschebyscheffs Lambda, Hoecken"),
-        BilingualName(
-            "crank 1, coupler = rocker = extension = 2.5, frame 2",
-            "Kurbel 1, Koppel = Schwinge = Verlängerung = 2,5, Gestell 2",
-        ),
+        message("Chebyshev's lambda, Hoecken"),
+        message("crank 1, coupler = rocker = extension = 2.5, frame 2"),
         _sized(FourBar(1, 2.5, 2.5, 2), 5),
         (90, 180, 270),
         0.0,
     ),
     Guidance(
         "scott-russell",
-        BilingualName("Scott Russell", "Scott-Russell"),
-        BilingualName(
-            "crank = rod = its extension = 1, central slider", "Kurbel = Koppel = Verlängerung = 1, zentrisch"
-        ),
+        message("Scott Russell"),
+        message("crank = rod = its extension = 1, central slider"),
         _sized(SliderCrank(1, 1), -1),
         (-60, 0, 60),
         pi / 2,
     ),
     Guidance(
         "conchoid",
-        BilingualName("conchoid linkage", "Konchoidenlenker"),
-        BilingualName(
-            "crank 3, frame 5, AK = 9; about an inflection", "Kurbel 3, Gestell 5, AK = 9; um einen Wendepunkt"
-        ),
+        message("conchoid linkage"),
+        message("crank 3, frame 5, AK = 9; about an inflection"),
         _sized(InvertedSliderCrank(3, 5), 9),
         (60, _INFLECTION, 120),
         _ITS_TANGENT,
     ),
     Guidance(
         "peaucellier",
-        BilingualName("Peaucellier, Lipkin", "Peaucellier, Lipkin"),
-        BilingualName(
-            "arms 3, rhombus 1.5, crank = half of the distance of pivot and near corner",
-            "Arme 3, Raute 1,5, Kurbel = halber Abstand von Drehpunkt und naher Ecke",
-        ),
+        message("Peaucellier, Lipkin"),
+        message("arms 3, rhombus 1.5, crank = half of the distance of pivot and near corner"),
         _peaucellier,
         (-60, 0, 60),
         pi / 2,
     ),
     Guidance(
         "hart",
-        BilingualName("Hart", "Hart"),
-        BilingualName(
-            "crossed parallelogram 4 : 2, points half-way, crank 0.6",
-            "gekreuztes Parallelogramm 4 : 2, Punkte auf halber Länge, Kurbel 0,6",
-        ),
+        message("Hart"),
+        message("crossed parallelogram 4 : 2, points half-way, crank 0.6"),
         _hart,
         (120, 180, 240),
         pi / 2,
     ),
     Guidance(
         "meyer-zur-capellen",
-        BilingualName("Meyer zur Capellen", "Meyer zur Capellen"),
-        BilingualName("symmetric double rocker, λ = 5/6, AK = 1", "symmetrische Doppelschwinge, λ = 5/6, AK = 1"),
+        message("Meyer zur Capellen"),
+        message("symmetric double rocker, λ = 5/6, AK = 1"),
         _four_bar(*_ROCKER_PINS, drive="R(crank-coupler)"),
         (0, degrees(_ROCKER.phi0), 120),
         0.0,
     ),
     Guidance(
         "isosceles",
-        BilingualName("Meyer zur Capellen, crank-rocker", "Meyer zur Capellen, Kurbelschwinge"),
-        BilingualName("1 : 5/2 sqrt 3 : 5/2 sqrt 3 : 4, AK = 25/3", "1 : 5/2 Wurzel 3 : 5/2 Wurzel 3 : 4, AK = 25/3"),
+        message("Meyer zur Capellen, crank-rocker"),
+        message("1 : 5/2 sqrt 3 : 5/2 sqrt 3 : 4, AK = 25/3"),
         _sized(_CAPELLEN.size, _CAPELLEN.u, _CAPELLEN.v),
         (90, 180, 270),
         _CAPELLEN.kappa,

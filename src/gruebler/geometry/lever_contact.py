@@ -15,9 +15,9 @@ from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank
 from gruebler.kinematics import move
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_branch, as_finite
+from gruebler.text import Message, message
 
 __all__ = ["LeverContact", "LeverPose", "lever_contact", "lever_pose"]
 
@@ -59,7 +59,7 @@ def lever_pose(linkage: Linkage, point: str, drive: float) -> LeverPose:
     """
     motion = move(linkage, drive)
     if not motion.complete:
-        raise LinkageError("{reason}", reason=stop_message(motion))
+        raise LinkageError("{reason}", reason=motion.reason)
     names = linkage.mechanism.chain.joint_names()
     turning = [complex(motion.complex_point(name)[0]) for name in names if name.startswith("R")]
     if len(names) != 4 or len(turning) not in (3, 4):
@@ -90,7 +90,7 @@ def lever_contact(
     (6, 1.550067728)
     """
     side, angle, arm = as_branch(branch), as_finite("phi", phi), complex(as_finite("u", u), as_finite("v", v))
-    where = f"at the crank angle {math.degrees(angle):g} degrees"
+    where = message("at the crank angle {angle:g} degrees", angle=math.degrees(angle))
     crank = size.a * np.exp(1j * angle) * 1j ** np.arange(_ORDER) / np.cumprod([1.0, *range(1, _ORDER)])
     to_b0 = -crank
     to_b0[0] += size.d
@@ -110,7 +110,7 @@ def lever_contact(
     return LeverContact(points, slope, float(np.angle(heading)), complex(path[0]))
 
 
-def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, where: str) -> Complexes:
+def _coupler(size: FourBar | InvertedSliderCrank, to_b0: Complexes, side: int, where: Message) -> Complexes:
     """The unit vector along the coupler, from the vector A to B0."""
     square = _times(to_b0, np.conj(to_b0))
     if isinstance(size, InvertedSliderCrank):
@@ -141,7 +141,7 @@ def _over(a: Complexes, b: Complexes) -> Complexes:
     return out
 
 
-def _root(a: Complexes, where: str) -> Complexes:
+def _root(a: Complexes, where: Message) -> Complexes:
     """The square root of a real series that begins with a positive number."""
     if not a[0].real > 0:
         raise LinkageError("the output is in a dead centre or out of reach {where}", where=where)

@@ -116,13 +116,13 @@ def point_path(
 
     Raises `LinkageError` for a point of the frame or one that does not move, and as `gruebler.analysis.drive_cycle`.
     """
-    said = repr(point) if isinstance(point, str) else f"({point.x:g}, {point.y:g})"
+    shown = repr(point) if isinstance(point, str) else f"({point.x:g}, {point.y:g})"
     frame = linkage.mechanism.frame
     places = [point] if isinstance(point, LinkPoint) else [p for p in linkage.points_named(point) if p.link != frame]
     if not places or places[-1].link == frame:
-        raise LinkageError("the point {said} lies on the frame {frame!r}: it has no path", said=said, frame=frame)
+        raise LinkageError("the point {point} lies on the frame {frame!r}: it has no path", point=shown, frame=frame)
     cycle = drive_cycle(linkage, branch) if drives is None else path_cycle(linkage, drives, branch)
     trail = PointPath(cycle, places[-1])
     if np.abs(trail.at(trail.grid, 1)[1]).max() <= _STILL * trail.size:
-        raise LinkageError("the point {said} does not move: it has no path", said=said)
+        raise LinkageError("the point {point} does not move: it has no path", point=shown)
     return trail

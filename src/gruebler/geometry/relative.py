@@ -9,6 +9,7 @@ import numpy as np
 from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
+from gruebler.text import message
 
 __all__ = ["RelativeMotion", "link_numbers", "relative_motion", "resting_and_translating"]
 
@@ -16,7 +17,7 @@ __all__ = ["RelativeMotion", "link_numbers", "relative_motion", "resting_and_tra
 _FAR = 1e10  # sizes of the linkage: poles further off have lost ten of their digits, and are told as directions
 _STILL = 1e-12  # velocities below this part of the largest in the row are roundings
 _BINOMIAL = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1))
-_ORDERS = ("positions", "velocities", "accelerations", "jerks")
+_ORDERS = (message("positions"), message("velocities"), message("accelerations"), message("jerks"))
 
 
 class RelativeMotion(NamedTuple):
@@ -57,11 +58,11 @@ def relative_motion(motion: Motion, link: str, reference: str | None = None, ord
     """
     if motion.order < order:
         raise LinkageError(
-            "this needs {orders}, but the motion was solved up to order {order}: ask move(..., speed=..., "
-            "order={order_2})",
-            orders=_ORDERS[order],
-            order=motion.order,
-            order_2=order,
+            "this needs {derivatives}, but the motion was solved up to order {solved}: ask move(..., speed=..., "
+            "order={order})",
+            derivatives=_ORDERS[order],
+            solved=motion.order,
+            order=order,
         )
     fixed = motion.linkage.mechanism.frame if reference is None else reference
     m, r = link_numbers(motion, [link, fixed])
@@ -86,10 +87,10 @@ def link_numbers(motion: Motion, links: list[str]) -> list[int]:
         if link not in known:
             names = motion.linkage.mechanism.chain.links
             raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {names}",
+                "there is no link {link!r}{suggestion}; the links are {links}",
                 link=link,
                 suggestion=nearest(str(link), names),
-                names=", ".join(names),
+                links=", ".join(names),
             )
     return [known.index(link) for link in links]
 

@@ -16,6 +16,7 @@ from gruebler.fourbar.crank_motion import CrankMotion
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_numbers
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message, message
 
 __all__ = ["Cognate", "CognateSizes", "cognate_sizes", "cognates", "parallel_motion", "slider_cognates"]
 
@@ -136,7 +137,7 @@ def cognate_sizes(
     numbers = [as_numbers(name, value) for name, value in given.items()]
     for name, length in zip("abcd", numbers[:4], strict=True):
         if (length <= 0).any():
-            raise LinkageError("{name} must be positive, not {min:g}", name=name, min=length.min())
+            raise LinkageError("{name} must be positive, not {length:g}", name=name, length=length.min())
     try:
         la, lb, lc, ld, lu, lv = np.broadcast_arrays(*numbers)
     except ValueError:
@@ -227,8 +228,8 @@ def parallel_motion(
     The third cognate, moved so that its pivot C0 comes to A0, has a crank that turns with the given one: both are made
     one link; its coupler carries the point K + A0 - C0, and its rocker is left out.
 
-    >>> from gruebler.kinematics import degrees, move
-    >>> motion = move(parallel_motion(FourBar(25, 70, 40, 70), 45, 40), degrees(180, 540, 5))
+    >>> from gruebler.kinematics import from_degrees, move
+    >>> motion = move(parallel_motion(FourBar(25, 70, 40, 70), 45, 40), from_degrees(180, 540, 5))
     >>> motion.complete, bool(np.ptp(motion.angle("platform")) < 1e-9)
     (True, True)
     """
@@ -261,9 +262,9 @@ def _pose(
     motion = size.motion(as_finite("phi", phi), branch=branch)
     if not motion.assembled:
         raise LinkageError(
-            "it cannot be assembled at the crank angle {phi:g} degrees: {message}",
+            "it cannot be assembled at the crank angle {phi:g} degrees: {reason}",
             phi=math.degrees(phi),
-            message=motion.message,
+            reason=motion.reason,
         )
     a, b = (complex(*(float(x) for x in track.value)) for track in (motion.A, motion.B))
     _check_moving(size, a, b)
@@ -285,16 +286,16 @@ def _check_moving(size: FourBar | SliderCrank, a: complex, b: complex) -> None:
     def same(one: complex, other: complex) -> bool:
         return abs(one - other) <= _AT_A_JOINT * size.b
 
-    still = ""
+    still: Message | None = None
     if isinstance(size, SliderCrank):
-        still = "slider stands still" if same(size.a, size.b) and same(b, 0) else ""
+        still = message("the slider stands still") if same(size.a, size.b) and same(b, 0) else None
     elif same(size.a, size.c) and same(size.b, size.d) and same(b - a, size.d):
-        still = "coupler only translates"
+        still = message("the coupler only translates")
     elif same(size.a, size.b) and same(size.c, size.d) and same(b, 0):
-        still = "rocker stands still"
+        still = message("the rocker stands still")
     if still:
         raise LinkageError(
-            "the {still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank "
+            "{still} in this assembly mode: the coupler point traces a circle, and a cognate whose crank "
             "would turn with that link does not move",
             still=still,
         )

@@ -113,8 +113,8 @@ def _conditions(lower: Linkage) -> list[_Condition]:
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError(
-                "a series is that of turning and sliding joints, but {joint_names} is none",
-                joint_names=chain.joint_names()[number],
+                "a series is that of turning and sliding joints, but {joint} is none",
+                joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)

@@ -78,7 +78,7 @@ def ratio_curve(path: Path, window: Window, samples: int = 721) -> RatioCurve:
 def _points(path: Path, parameters: Reals) -> Complexes:
     points = path(parameters)
     if not np.isfinite(points).all():
-        raise LinkageError("the path has no point at {parameters:.6g}", parameters=parameters[~np.isfinite(points)][0])
+        raise LinkageError("the path has no point at {parameter:.6g}", parameter=parameters[~np.isfinite(points)][0])
     return points
 
 

@@ -12,7 +12,6 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Linkage
 from gruebler.linkages.quantities import as_finite, as_positive
 
@@ -63,7 +62,7 @@ def linkage_path(linkage: Linkage, point: str, branch: str | None = None) -> Pat
     def at(values: Reals) -> Complexes:
         motion = move(linkage, np.ravel(values), branch=branch)
         if not motion.complete:
-            raise LinkageError("{reason}", reason=stop_message(motion))
+            raise LinkageError("{reason}", reason=motion.reason)
         return motion.complex_point(point).reshape(np.shape(values))
 
     return at
@@ -195,13 +194,13 @@ def _points(path: Path, parameters: Reals) -> Complexes:
     points = np.asarray(path(parameters), np.complex128)
     if points.shape != parameters.shape:
         raise LinkageError(
-            "a path gives one point for each parameter, but {shape} for {shape_2}",
-            shape=points.shape,
-            shape_2=parameters.shape,
+            "a path gives one point for each parameter, but found {points} for {parameters}",
+            points=points.shape,
+            parameters=parameters.shape,
         )
     missing = np.flatnonzero(~np.isfinite(points))
     if len(missing):
-        raise LinkageError("the path has no point at the parameter {parameters:.6g}", parameters=parameters[missing[0]])
+        raise LinkageError("the path has no point at the parameter {parameter:.6g}", parameter=parameters[missing[0]])
     return points
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from gruebler.chain import Chain
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.isomorphism.colouring import ColouredGraph, DriveMark, coloured_graph
 
 __all__ = ["Permutation", "Symmetry", "orbits", "symmetry"]
@@ -86,17 +87,9 @@ def orbits(items: Iterable[T], maps: list[dict[T, T]]) -> list[tuple[T, ...]]:
     >>> orbits([1, 2, 3], [{1: 2, 2: 1, 3: 3}])
     [(1, 2), (3,)]
     """
-    root = {item: item for item in items}
-
-    def find(item: T) -> T:
-        while root[item] != item:
-            root[item] = item = root[root[item]]
-        return item
-
+    given = list(items)
+    sets = DisjointSets(given)
     for image in maps:
-        for item in root:
-            root[find(image[item])] = find(item)
-    classes: dict[T, list[T]] = {}
-    for item in root:
-        classes.setdefault(find(item), []).append(item)
-    return [tuple(members) for members in classes.values()]
+        for item in given:
+            sets.unite(item, image[item])
+    return [tuple(members) for members in sets.classes()]

@@ -101,9 +101,7 @@ def decode(text: str) -> MarkedChain:
     """
     prefix = re.match(r"gr(\d+):", text)
     if prefix is None or prefix[0] != CODE_PREFIX:
-        raise NotationError(
-            "a code begins with {code_prefix!r}, not with {text_!r}", code_prefix=CODE_PREFIX, text_=text[:8]
-        )
+        raise NotationError("a code begins with {prefix!r}, not with {found!r}", prefix=CODE_PREFIX, found=text[:8])
     body, *marks = text[len(CODE_PREFIX) :].split(";")
     chain = Chain.parse(body)
     ordered = sorted((_number(link), link) for link in chain.links)
@@ -128,13 +126,13 @@ def _drive(chain: Chain, text: str) -> int | DriveMark:
     joint, *parts = text.split(":")
     if int(joint) >= len(chain.joints):
         raise NotationError(
-            "'drives={text_}': the code has joints 0 to {count}", text_=text, count=len(chain.joints) - 1
+            "'drives={drives}': the code has joints 0 to {count}", drives=text, count=len(chain.joints) - 1
         )
     direction = "".join(part for part in parts if "-" not in part)
     links = tuple(link for part in parts if "-" in part for link in part.split("-"))
     if not set(links) <= set(chain.joints[int(joint)].links):
         raise NotationError(
-            "'drives={text_}': joint {joint} is {joints}", text_=text, joint=joint, joints=chain.joints[int(joint)]
+            "'drives={drives}': joint {number} is {joint}", drives=text, number=joint, joint=chain.joints[int(joint)]
         )
     return DriveMark(int(joint), direction, links) if parts else int(joint)
 

@@ -15,11 +15,10 @@ from gruebler.kinematics.batch import (
     slider_cranks,
 )
 from gruebler.kinematics.circuits import ChangePoint, Circuit, Extremum, MonotonePiece, circuit
-from gruebler.kinematics.drive_rows import degrees
+from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.solve import all_branches, move
-from gruebler.kinematics.triads import assembly_modes
+from gruebler.kinematics.solve import all_branches, assembly_modes, move
 
 __all__ = [
     "ChangePoint",
@@ -34,9 +33,9 @@ __all__ = [
     "all_branches",
     "assembly_modes",
     "circuit",
-    "degrees",
     "designs",
     "four_bars",
+    "from_degrees",
     "inverted_slider_cranks",
     "move",
     "move_many",

@@ -15,6 +15,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 
@@ -29,7 +30,6 @@ __all__ = [
     "search_modes",
 ]
 
-PIN, SLIDE = 0, 1
 Row = tuple[int, int, int, complex, complex, complex, complex]
 Method = Literal["exact", "degenerate", "search"]
 
@@ -137,10 +137,10 @@ def conditions(rows: Iterable[Row]) -> GroupConditions:
         )
     if 2 * len(rows) != 3 * len(bodies):
         raise LinkageError(
-            "{count} bodies are determined by {count_2:g} joints of one freedom, not {count_3}",
-            count=len(bodies),
-            count_2=1.5 * len(bodies),
-            count_3=len(rows),
+            "{bodies} bodies are determined by {wanted:g} joints of one freedom, not {joints}",
+            bodies=len(bodies),
+            wanted=1.5 * len(bodies),
+            joints=len(rows),
         )
     points = np.array([z for row in rows for z in (row[3], row[5])], np.complex128)
     lines = np.array([z for row in rows for z in (row[4], row[6])], np.complex128)

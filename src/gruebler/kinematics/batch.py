@@ -200,12 +200,12 @@ def _lengths(given: dict[str, ArrayLike]) -> dict[str, Reals]:
             raise LinkageError("{name}: expected numbers, but found {values!r}", name=name, values=values) from None
         wrong = ~np.isfinite(arrays[name]) if name == "e" else ~((arrays[name] > 0) & (arrays[name] < np.inf))
         if wrong.any():
-            wanted = "finite numbers" if name == "e" else "positive numbers"
             raise LinkageError(
-                "{name}: expected {wanted}, but found {flat:g}",
+                "{name}: expected finite numbers, but found {number:g}"
+                if name == "e"
+                else "{name}: expected positive numbers, but found {number:g}",
                 name=name,
-                wanted=wanted,
-                flat=arrays[name][wrong].flat[0],
+                number=arrays[name][wrong].flat[0],
             )
     try:
         together = np.broadcast_arrays(*arrays.values())

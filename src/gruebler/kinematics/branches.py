@@ -19,8 +19,10 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.motion.program import GROUP
 from gruebler.arrays import Reals
+from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan
+from gruebler.text import Message, joined, message
 
 __all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
 
@@ -44,27 +46,30 @@ def read_branch(plan: Plan, branch: str | Iterable[str] | None) -> tuple[str, ..
     text = branch if isinstance(branch, str) else ",".join(branch)
     labels = re.findall(r"[+-]|\d+", text)
     if "".join(labels) != re.sub(r"[\s,]", "", text) or len(labels) != len(parts):
-        wanted = ", ".join(f"{'+ or -' if isinstance(p, Dyad) else 'a number'} for {_name(plan, p)}" for p in parts)
+        if not parts:
+            raise LinkageError("this linkage has one assembly mode and an empty branch; found {branch!r}", branch=text)
+        labels_of = [
+            message("+ or - for {group}" if isinstance(part, Dyad) else "a number for {group}", group=_name(plan, part))
+            for part in parts
+        ]
         raise LinkageError(
-            "a branch of this linkage is {value}; found {text_!r}",
-            value=wanted or "empty: it has one assembly mode",
-            text_=text,
+            "a branch of this linkage is {labels}; found {branch!r}", labels=joined(labels_of), branch=text
         )
     for part, label in zip(parts, labels, strict=True):
         if isinstance(part, Dyad) != (label in "+-") or label == "0":
-            expected = "+ or -" if isinstance(part, Dyad) else "a number from 1"
             raise LinkageError(
-                "branch: expected {expected} for {name}, but found {label!r}",
-                expected=expected,
-                name=_name(plan, part),
+                "branch: expected + or - for {group}, but found {label!r}"
+                if isinstance(part, Dyad)
+                else "branch: expected a number from 1 for {group}, but found {label!r}",
+                group=_name(plan, part),
                 label=label,
             )
     return tuple(labels)
 
 
-def _name(plan: Plan, part: Dyad | HigherGroup) -> str:
+def _name(plan: Plan, part: Dyad | HigherGroup) -> Message:
     group = plan.decomposition.groups[part.group]
-    return f"{group.form()} {{{', '.join(group.links)}}}"
+    return message("{form} {{{links}}}", form=in_alphabets(group.form), links=", ".join(group.links))
 
 
 def starting_state(

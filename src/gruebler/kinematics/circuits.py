@@ -29,7 +29,9 @@ from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.root_finding import FunctionSamples, find_zeros
 from gruebler.kinematics.solve import move
 from gruebler.linkages import Linkage, LinkPoint, with_lower_pairs
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
+from gruebler.text import message
 
 __all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
 
@@ -274,23 +276,17 @@ class Circuit(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
-        return _OPEN[self.traced.ended]["de" if lang == "de" else "en"] if self.traced.ended else ""
+        return _OPEN[self.traced.ended].in_language(lang) if self.traced.ended else ""
 
 
 _OPEN = {
-    "long": {
-        "en": "The circuit was not followed to its end: it is longer than what was asked for.",
-        "de": "Der Umlauf wurde nicht zu Ende verfolgt: er ist länger als verlangt.",
-    },
-    "singular": {
-        "en": "The circuit ends in a singular position from which it cannot be followed.",
-        "de": "Der Umlauf endet in einer singulären Lage, aus der er nicht weiter verfolgt werden kann.",
-    },
+    "long": message("The circuit was not followed to its end: it is longer than what was asked for."),
+    "singular": message("The circuit ends in a singular position from which it cannot be followed."),
 }
 
 
 def circuit(
-    linkage: Linkage,
+    linkage: LinkageLike,
     *,
     branch: str | Iterable[str] | None = None,
     drive: float | None = None,
@@ -320,8 +316,7 @@ def circuit(
     >>> made.closed, np.degrees([limit.value for limit in made.drive_limits]).round(6).tolist()
     (True, [121.855431, -121.855431])
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    linkage = as_linkage(linkage)
     for name, value in {"drive": 0.0 if drive is None else drive, "step": step, "most": most}.items():
         if isinstance(value, bool) or not isinstance(value, int | float | np.number) or not isfinite(value):
             raise LinkageError("{name}: expected a finite number, but found {value!r}", name=name, value=value)
@@ -372,9 +367,13 @@ def _start(
         if largest > _SINGULAR:
             break
     if best is None:
-        where = f"at {drive:.9g}" if drive is not None else f"at any of {_TRIALS} values of its drive"
         raise LinkageError(
-            "the linkage cannot be assembled {where}; another drive value or a home may help", where=where
+            "the linkage cannot be assembled at any of {count} values of its drive; another drive value or a home may "
+            "help"
+            if drive is None
+            else "the linkage cannot be assembled at {drive:.9g}; another drive value or a home may help",
+            count=_TRIALS,
+            drive=drive,
         )
     return best
 

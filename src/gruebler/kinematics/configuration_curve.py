@@ -14,9 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import MESH, POLAR, RACK, RIDE
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import MESH, POLAR, RACK, RIDE, contact_conditions, law_tables
+from gruebler.kinematics.contacts import contact_conditions, law_tables
 from gruebler.kinematics.contours import PiecewiseLaw
 from gruebler.linkages import Element, Linkage, Pose2D
 from gruebler.linkages.elements import direction

@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.closure import FACE, MESH, POLAR, RACK, REACH, RIDE
 from gruebler.errors import LinkageError
 from gruebler.kinematics.contours import COEFFICIENTS, PiecewiseLaw, cam_law, turn_law
 from gruebler.kinematics.noncircular import transfer_of
@@ -17,10 +18,7 @@ from gruebler.linkages import CamDisc, Circle, Element, GenevaDriver, Line, Link
 from gruebler.linkages.elements import INVERSE, direction
 from gruebler.linkages.wheels import rolling_factors
 
-__all__ = ["PIN", "SLIDE", "Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
-
-PIN, SLIDE, RIDE, REACH, MESH, RACK, POLAR, FACE = range(8)
-"""Kinds of closing conditions, as in the kernel `closure`."""
+__all__ = ["Condition", "contact_conditions", "home_angles", "law_tables", "side_of"]
 
 Keys = tuple[tuple[int, str], ...]
 _MESHES = 1e-6  # radians: angles of a drawing with six digits fit
@@ -126,9 +124,8 @@ def law_at(law: PiecewiseLaw, angle: float) -> float:
 
 def home_angles(lower: Linkage, keys: Keys, condition: Condition) -> tuple[float, float]:
     """The angles of a condition that counts whole turns, at home."""
-    assert lower.reference_pose is not None
     angles = [
-        lower.reference_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
+        lower.required_pose[keys[side][1]].angle + direction(lower.elements[keys[side]]) for side in condition.sides
     ]
     if condition.kind == MESH:
         here, there = (_put(lower, keys, side) for side in condition.sides)
@@ -154,16 +151,14 @@ def side_of(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> int:
 
 def _way(lower: Linkage, keys: Keys, sides: tuple[int, int]) -> complex:
     """A centre at home, seen from a line: along it, and to the left of it."""
-    assert lower.reference_pose is not None
     number, link = keys[sides[0]]
     line = lower.elements[number, link]
     assert isinstance(line, Line)
     gap = _put(lower, keys, sides[1]) - _put(lower, keys, sides[0])
-    return gap * rect(1, -lower.reference_pose[link].angle - line.angle)
+    return gap * rect(1, -lower.required_pose[link].angle - line.angle)
 
 
 def _put(lower: Linkage, keys: Keys, side: int) -> complex:
-    assert lower.reference_pose is not None
     number, link = keys[side]
     element = lower.elements[number, link]
-    return complex(*lower.reference_pose[link].put(element.x, element.y))
+    return complex(*lower.required_pose[link].put(element.x, element.y))

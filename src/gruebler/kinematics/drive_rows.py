@@ -9,13 +9,13 @@ from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan
 
-__all__ = ["degrees", "drive_path", "drive_speeds"]
+__all__ = ["drive_path", "drive_speeds", "from_degrees"]
 
 
-def degrees(start: float, stop: float, step: float) -> Reals:
+def from_degrees(start: float, stop: float, step: float) -> Reals:
     """Angles from start to stop, both included, given in degrees, in radians.
 
-    >>> degrees(0, 180, 90).round(4).tolist()
+    >>> from_degrees(0, 180, 90).round(4).tolist()
     [0.0, 1.5708, 3.1416]
     """
     if not step or not np.isfinite([start, stop, step]).all() or (stop - start) / step < 0:
@@ -41,17 +41,19 @@ def drive_path(plan: Plan, drives: ArrayLike) -> Reals:
     if path.ndim == 1:
         path = path.reshape(-1, 1) if wanted == 1 else path.reshape(1, -1)
     if path.ndim != 2 or path.shape[1] != wanted or not len(path):
-        given = "no rows" if not path.size else f"rows of {path.shape[-1]}"
+        if not path.size:
+            raise LinkageError("expected drive values, but found no rows")
         raise LinkageError(
-            "the linkage has {wanted} drive{value}, but found {given}",
+            "the linkage has 1 drive, but found rows of {count}"
+            if wanted == 1
+            else "the linkage has {wanted} drives, but found rows of {count}",
             wanted=wanted,
-            value="s" * (wanted != 1),
-            given=given,
+            count=path.shape[-1],
         )
     if not np.isfinite(path).all():
         row = int(np.argwhere(~np.isfinite(path))[0, 0])
         raise LinkageError(
-            "drive values are finite numbers, but row {row} has {tolist}", row=row, tolist=path[row].tolist()
+            "drive values are finite numbers, but row {row} has {numbers}", row=row, numbers=path[row].tolist()
         )
     return np.ascontiguousarray(path)
 
@@ -70,8 +72,10 @@ def drive_speeds(path: Reals, given: tuple[ArrayLike, ...], order: int) -> Reals
         try:
             out[k] = numbers
         except ValueError:
-            shape = "one number, one for each drive, or one for each row and drive"
             raise LinkageError(
-                "{name}: expected {shape}, but found an array {shape_2}", name=name, shape=shape, shape_2=numbers.shape
+                "{name}: expected one number, one for each drive, or one for each row and drive, but found an array "
+                "{shape}",
+                name=name,
+                shape=numbers.shape,
             ) from None
     return out

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import TYPE_CHECKING
 
+from gruebler.assur.forms import form_message
+from gruebler.chain.pairs import in_alphabets
+from gruebler.linkages import Linkage
+from gruebler.mechanism import Mechanism
 from gruebler.text import Message, joined, message
 
-if TYPE_CHECKING:
-    from gruebler.kinematics.motion import Motion
-
-__all__ = ["drive_value_text", "stop_message"]
+__all__ = ["stop_message", "unbounded_message"]
 
 _UNBOUNDED = message("At {drives} the drive stands at its limit: there are no finite rates.")
 _STOPS = {
@@ -24,26 +24,31 @@ _STOPS = {
 }
 
 
-def stop_message(motion: Motion) -> Message:
-    """See `Motion.message`."""
-    parts = []
-    if motion.unbounded:
-        first = tuple(float(v) for v in motion.drives[motion.unbounded[0]])
-        parts.append(_UNBOUNDED.filled(drives=drive_value_text(motion, first)))
-    if motion.stop is not None:
-        stop = motion.stop
-        drives, links = drive_value_text(motion, stop.drives), ", ".join(stop.links)
-        parts.append(_STOPS[stop.reason].filled(drives=drives, form=stop.form, links=links))
-    return joined(parts, " ")
+def unbounded_message(linkage: Linkage, drives: tuple[float, ...]) -> Message:
+    """That there are no finite rates at these drive values."""
+    return _UNBOUNDED.filled(drives=_drive_values(linkage, drives))
 
 
-def drive_value_text(motion: Motion, values: tuple[float, ...]) -> Message:
+def stop_message(
+    linkage: Linkage, reason: str, drives: tuple[float, ...], links: tuple[str, ...], form: str
+) -> Message:
+    """Where and why a motion ends; the arguments are those of `Stop`."""
+    at = _drive_values(linkage, drives)
+    return _STOPS[reason].filled(drives=at, form=form_message(form), links=", ".join(links))
+
+
+def _drive_values(linkage: Linkage, values: tuple[float, ...]) -> Message:
     """Drive values with the names of their joints, turning ones in degrees."""
-    mechanism = motion.linkage.mechanism
+    mechanism = linkage.mechanism
     parts = []
-    for name, drive, value in zip(mechanism.drive_names(), mechanism.drives, values, strict=True):
+    for k, (drive, value) in enumerate(zip(mechanism.drives, values, strict=True)):
+        name = _drive_name(mechanism, k)
         if drive.turning:
             parts.append(message("{name} = {value:.9g}°", name=name, value=degrees(value)))
         else:
-            parts.append(message("{name} = {value:.9g} {unit}", name=name, value=value, unit=motion.linkage.unit))
+            parts.append(message("{name} = {value:.9g} {unit}", name=name, value=value, unit=linkage.unit))
     return joined(parts)
+
+
+def _drive_name(mechanism: Mechanism, drive: int) -> Message:
+    return in_alphabets(lambda alphabet: mechanism.drive_names(alphabet)[drive])

@@ -15,11 +15,13 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
+from gruebler.kinematics.messages import stop_message, unbounded_message
 from gruebler.kinematics.plan import Plan
 from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, LinkPoint, NonCircular, Pose2D, Wheel
 from gruebler.linkages.elements import INVERSE
 from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sliding_joint
 from gruebler.notebook import Brief
+from gruebler.text import Message, joined, message
 
 __all__ = ["Motion", "Stop", "joint_openings"]
 
@@ -84,9 +86,19 @@ class Motion(Brief):
 
     def message(self, lang: str = "en") -> str:
         """Where and why it stopped, and in which rows rates are not finite; else empty."""
-        from gruebler.kinematics.messages import stop_message
+        return self.reason.in_language(lang)
 
-        return stop_message(self).in_language(lang)
+    @property
+    def reason(self) -> Message:
+        """What `message` says, in any language."""
+        parts = []
+        if self.unbounded:
+            first = tuple(float(value) for value in self.drives[self.unbounded[0]])
+            parts.append(unbounded_message(self.linkage, first))
+        if self.stop is not None:
+            stop = self.stop
+            parts.append(stop_message(self.linkage, stop.reason, stop.drives, stop.links, stop.form))
+        return joined(parts, " ")
 
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
@@ -183,7 +195,9 @@ def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
     if number is None or not sliding_joint(motion.linkage, number):
         sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
         raise LinkageError(
-            "{joint!r} is no sliding joint; there are {value}", joint=joint, value=", ".join(sliding) or "none"
+            "{joint!r} is no sliding joint; there are {joints}",
+            joint=joint,
+            joints=", ".join(sliding) or message("none"),
         )
     first, other = mechanism.chain.joints[number].links[:2]
     elements = motion.linkage.elements

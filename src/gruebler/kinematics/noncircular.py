@@ -101,9 +101,9 @@ def _read(text: str, mean: Fraction) -> Transfer:
         e = float("nan")
     if not 0 <= e <= _FLATTEST:
         raise LinkageError(
-            "expected 'ellipse' and an eccentricity from 0 to {flattest}, but found {text_!r}",
+            "expected 'ellipse' and an eccentricity from 0 to {flattest}, but found {law!r}",
             flattest=_FLATTEST,
-            text_=text[:40],
+            law=text[:40],
         )
     m = float(mean)
     parameter = (1 - e * e) * m / (m + sqrt(1 - e * e + m * m * e * e))  # docs/theory/wheels.md
@@ -127,11 +127,11 @@ def _check_ratio(made: Transfer) -> None:
         if not _RATIOS[0] <= ratio <= _RATIOS[1]:
             raise LinkageError(
                 "transfer: the ratio is {ratio:.4g} at {at:.6g}°; it must be positive everywhere, from "
-                "{ratios:g} to {ratios_2:g}",
+                "{least:g} to {greatest:g}",
                 ratio=ratio,
                 at=degrees(at),
-                ratios=_RATIOS[0],
-                ratios_2=_RATIOS[1],
+                least=_RATIOS[0],
+                greatest=_RATIOS[1],
             )
 
 

@@ -10,10 +10,11 @@ from math import radians
 
 import numpy as np
 
+from gruebler._numeric.motion.closure import PIN, SLIDE
 from gruebler._numeric.motion.program import CARRY, GROUP, PRP, PUSH, RPP, RPR, RRP, RRR, TURN, Program
 from gruebler.assur import Decomposition, SolvedGroup, decompose
 from gruebler.errors import LinkageError
-from gruebler.kinematics.contacts import PIN, SLIDE, Condition, contact_conditions, law_tables
+from gruebler.kinematics.contacts import Condition, contact_conditions, law_tables
 from gruebler.kinematics.redundancy import independent_part
 from gruebler.linkages import Linkage, with_lower_pairs
 from gruebler.linkages.elements import direction
@@ -230,7 +231,7 @@ def plan(linkage: Linkage) -> Plan:
         lower = with_lower_pairs(part)
         parts = decompose(lower.mechanism)
     if not parts.complete:
-        raise LinkageError("the linkage cannot be moved by its drives. {message}", message=parts.message())
+        raise LinkageError("the linkage cannot be moved by its drives. {reason}", reason=parts.reason)
     return replace(_Planner(linkage, lower, parts).made(), released=released)
 
 
@@ -352,6 +353,6 @@ class _Planner:
                         out += contact_conditions(self.lower, member.pair.name, self.keys, both, owners)
                     except LinkageError as error:
                         raise LinkageError(
-                            "{joint_names}: {error}", joint_names=self.chain.joint_names()[joint], error=error
+                            "{joint}: {error}", joint=self.chain.joint_names()[joint], error=error
                         ) from None
         return tuple(out)

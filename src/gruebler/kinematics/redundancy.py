@@ -23,6 +23,7 @@ from gruebler.linkages import Element, Line, Linkage, Pin, with_lower_pairs
 from gruebler.linkages.elements import direction
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism import Drive, Mechanism
+from gruebler.text import message
 
 __all__ = [
     "Independent",
@@ -103,11 +104,11 @@ def independent_part(linkage: Linkage) -> Independent:
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
             "In the given position its joints leave mobility {freedoms}, less than the number of drives "
-            "({count}); the drives are blocked by {value}. `gruebler freedoms` analyses its mobility with "
+            "({count}); the drives are blocked by {joints}. `gruebler freedoms` analyses its mobility with "
             "these dimensions.",
             freedoms=freedoms,
             count=len(drives),
-            value=names or "one another",
+            joints=names or message("one another"),
         )
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
@@ -191,7 +192,7 @@ class ReferenceConditions:
         if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < _NEAR:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
             raise LinkageError(
-                "home: the joints are not closed there; {worst} is open by {max:.1e} sizes", worst=worst, max=far.max()
+                "home: the joints are not closed there; {worst} is open by {gap:.1e} sizes", worst=worst, gap=far.max()
             )
         return x
 

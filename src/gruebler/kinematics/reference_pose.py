@@ -40,34 +40,30 @@ def pose_at_reference(plan: Plan, near: Reals) -> ReferencePose:
 
 def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[np.complex128]) -> None:
     """`LinkageError` if a solved pose is far from the home position: then the joints are not closed there."""
-    assert plan.lower.reference_pose is not None
     for k, link in enumerate(plan.lower.mechanism.chain.links):
-        home = plan.lower.reference_pose[link]
+        home = plan.lower.required_pose[link]
         gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
         if gap > 0.05:
             raise LinkageError("home: the joints are not closed there; {link!r} would have to lie elsewhere", link=link)
 
 
 def _put(plan: Plan, element: int) -> complex:
-    assert plan.lower.reference_pose is not None
     number, link = plan.keys[element]
     e = plan.lower.elements[number, link]
-    return complex(*plan.lower.reference_pose[link].put(e.x, e.y))
+    return complex(*plan.lower.required_pose[link].put(e.x, e.y))
 
 
 def _line(plan: Plan, element: int) -> complex:
-    assert plan.lower.reference_pose is not None
     number, link = plan.keys[element]
     e = plan.lower.elements[number, link]
-    return rect(1, plan.lower.reference_pose[link].angle + (e.angle if isinstance(e, Line) else 0))
+    return rect(1, plan.lower.required_pose[link].angle + (e.angle if isinstance(e, Line) else 0))
 
 
 def _drive(plan: Plan, k: int) -> float:
-    assert plan.lower.reference_pose is not None
     first, other = plan.lower.reference(k)
     drive = plan.lower.mechanism.drives[k]
     if drive.turning:
-        return plan.lower.reference_pose[other].angle - plan.lower.reference_pose[first].angle
+        return plan.lower.required_pose[other].angle - plan.lower.required_pose[first].angle
     near, far = plan.keys.index((drive.joint, first)), plan.keys.index((drive.joint, other))
     return float((_line(plan, near).conjugate() * (_put(plan, far) - _put(plan, near))).real)
 
@@ -86,6 +82,5 @@ def _sign(plan: Plan, dyad: Dyad) -> float:
 
 
 def _against(plan: Plan, link: str, base: str) -> tuple[float, float, float]:
-    assert plan.lower.reference_pose is not None
-    pose2_d, other = plan.lower.reference_pose[link], plan.lower.reference_pose[base]
+    pose2_d, other = plan.lower.required_pose[link], plan.lower.required_pose[base]
     return (*other.to_local(pose2_d.x, pose2_d.y), pose2_d.angle - other.angle)

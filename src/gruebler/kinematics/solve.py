@@ -26,8 +26,9 @@ from gruebler.kinematics.motion import Motion, Stop, joint_openings
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan, plan
 from gruebler.kinematics.reference_pose import check_reference, pose_at_reference
 from gruebler.linkages import Linkage
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 
-__all__ = ["all_branches", "cached_plan", "motion_from_rows", "move", "starting_configuration"]
+__all__ = ["all_branches", "assembly_modes", "cached_plan", "motion_from_rows", "move", "starting_configuration"]
 
 _OPEN = 1e-9  # sizes and radians: redundant conditions that are open by more are not met
 _DOUBTFUL = 1e-6  # a root below it may be wrong by as much as 1e-16 over it, and so may the pose
@@ -41,7 +42,7 @@ def cached_plan(linkage: Linkage) -> Plan:
 
 
 def move(
-    linkage: Linkage | Plan,
+    linkage: LinkageLike | Plan,
     drives: ArrayLike,
     *,
     speed: ArrayLike | None = None,
@@ -53,7 +54,7 @@ def move(
     """Move a linkage along a path of its drives.
 
     Args:
-        linkage: a linkage whose drives fix the motion.
+        linkage: a linkage whose drives fix the motion, or a `FourBar`, `SliderCrank`, `InvertedSliderCrank`.
         drives: (rows,) for one drive, (rows, drives) for several: angles in radians, ways in the linkage's unit.
             Between rows the drives move on straight lines.
         speed: the drives' velocity, one number or like ``drives``; 1 if only an order is given.
@@ -69,13 +70,13 @@ def move(
 
     Raises `LinkageError` if the drives do not fix the motion or the numbers are not usable.
 
-    >>> from gruebler.kinematics import degrees
+    >>> from gruebler.kinematics import from_degrees
     >>> from gruebler.fourbar import FourBar
-    >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), degrees(0, 360, 1), speed=10)
+    >>> motion = move(FourBar(a=25, b=70, c=40, d=70).linkage(), from_degrees(0, 360, 1), speed=10)
     >>> len(motion), motion.complete, bool(motion.closure_error < 1e-13)
     (361, True, True)
     """
-    made = linkage if isinstance(linkage, Plan) else cached_plan(linkage)
+    made = linkage if isinstance(linkage, Plan) else cached_plan(as_linkage(linkage))
     path = drive_path(made, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
@@ -212,6 +213,25 @@ def _while_closed(motion: Motion) -> Motion:
 def _stop(plan: Plan, at: float, drives: Reals, part: Dyad | HigherGroup, reason: str) -> Stop:
     group = plan.decomposition.groups[part.group]
     return Stop(at, tuple(float(v) for v in drives), group.links, group.form(), reason)
+
+
+def assembly_modes(linkage: LinkageLike, drives: float | ArrayLike) -> list[str]:
+    """Every assembly mode that a linkage has at a drive value, as `move` takes it for ``branch``.
+
+    Args:
+        linkage: whose drives fix the motion.
+        drives: a value for each drive: angles in radians, ways in the linkage's unit.
+
+    Cost: one solution for each mode. Raises `LinkageError` as `move`.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> assembly_modes(FourBar(25, 70, 40, 70), 1.0)
+    ['+', '-']
+    """
+    plan = cached_plan(as_linkage(linkage))
+    row = drive_path(plan, np.atleast_2d(np.asarray(drives, np.float64)))[0]
+    modes = all_branches(plan, row)
+    return ["".join(labels) if set(labels) <= {"+", "-"} else ",".join(labels) for labels in modes]
 
 
 def all_branches(plan: Plan, drives: Reals) -> Iterator[tuple[str, ...]]:

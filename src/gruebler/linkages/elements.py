@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from gruebler.chain.pairs import Pair
 from gruebler.errors import LinkageError
+from gruebler.text import Message, joined_by_or, message
 
 __all__ = [
     "CENTRED",
@@ -171,15 +172,15 @@ class Pose2D(NamedTuple):
         return c * (x - self.x) + s * (y - self.y), c * (y - self.y) - s * (x - self.x)
 
 
-_KINDS: dict[type, str] = {
-    Pin: "a pin [x, y]",
-    Line: "a line [x, y, angle]",
-    Wheel: "a wheel (at, radius or teeth)",
-    Circle: "a circle (at, circle)",
-    CamDisc: "a cam (at, cam)",
-    GenevaDriver: "pins (at, pins)",
-    GenevaWheel: "slots (at, slots)",
-    NonCircular: "a non-circular wheel (at, transfer)",
+_KINDS = {
+    Pin: message("a pin [x, y]"),
+    Line: message("a line [x, y, angle]"),
+    Wheel: message("a wheel (at, radius or teeth)"),
+    Circle: message("a circle (at, circle)"),
+    CamDisc: message("a cam (at, cam)"),
+    GenevaDriver: message("pins (at, pins)"),
+    GenevaWheel: message("slots (at, slots)"),
+    NonCircular: message("a non-circular wheel (at, transfer)"),
 }
 
 _WANTED: dict[str, tuple[tuple[type, type], ...]] = {
@@ -206,21 +207,21 @@ def check_elements_fit(pair: Pair, name: str, elements: dict[str, Element]) -> N
     """Check that a joint has the elements of its pair; `LinkageError` names the joint."""
     if pair.name not in _WANTED:
         raise LinkageError(
-            "{name}: dimensions of this kind of joint ({name_2}) are not known here", name=name, name_2=pair.name
+            "{name}: dimensions of this kind of joint ({pair}) are not known here", name=name, pair=pair.title
         )
     made = {type(e) for e in elements.values()}
     if any(made == set(kinds) for kinds in _WANTED[pair.name]):
         return
-    wanted = " or ".join(
-        f"{_KINDS[one]} on each of its links"
+    wanted = [
+        message("{element} on each of its links", element=_KINDS[one])
         if one is other
-        else f"{_KINDS[one]} on one of its links and {_KINDS[other]} on the other"
+        else message("{one} on one of its links and {other} on the other", one=_KINDS[one], other=_KINDS[other])
         for one, other in _WANTED[pair.name]
-    )
-    raise LinkageError("{name} needs {wanted}", name=name, wanted=wanted)
+    ]
+    raise LinkageError("{name} needs {elements}", name=name, elements=joined_by_or(wanted))
 
 
-def read_element(raw: object, where: str) -> Element:
+def read_element(raw: object, where: str | Message) -> Element:
     """The element that two or three numbers stand for; angles in radians.
 
     >>> read_element([3, 4], "crank")
@@ -247,7 +248,7 @@ def read_element(raw: object, where: str) -> Element:
     return Pin(*made) if len(made) == 2 else Line(*made)
 
 
-def _round(raw: Wheel | Circle, where: str) -> Wheel | Circle:
+def _round(raw: Wheel | Circle, where: str | Message) -> Wheel | Circle:
     x, y, radius = (_number(value, where) for value in raw[:3])
     if not abs(radius) > 1e-100 and not (isinstance(raw, Wheel) and radius == 0 and raw.teeth):
         raise LinkageError(
@@ -271,7 +272,7 @@ def _round(raw: Wheel | Circle, where: str) -> Wheel | Circle:
     return Wheel(x, y, radius, teeth, raw.belt)
 
 
-def _whole(teeth: object, where: str) -> int:
+def _whole(teeth: object, where: str | Message) -> int:
     if isinstance(teeth, bool) or not isinstance(teeth, int) or not -(10**6) < teeth < 10**6:
         raise LinkageError(
             "{where}: teeth: expected a whole number below 1,000,000, but found {teeth!r}", where=where, teeth=teeth
@@ -279,7 +280,7 @@ def _whole(teeth: object, where: str) -> int:
     return teeth
 
 
-def _number(value: object, where: str) -> float:
+def _number(value: object, where: str | Message) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not _usable(value):
         raise LinkageError("{where}: expected finite numbers, but found {value!r}", where=where, value=value)
     return float(value)

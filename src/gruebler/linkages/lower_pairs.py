@@ -135,17 +135,16 @@ def _halves(linkage: Linkage, number: int) -> list[tuple[str, str, str, Element,
 
 def _block_home(linkage: Linkage, number: int) -> tuple[float, float, float]:
     """Where the block of a split joint lies at home: on the line, at the pin or where the lines cross."""
-    assert linkage.reference_pose is not None
     first, second = linkage.mechanism.chain.joints[number].links
     one, other = linkage.elements[number, first], linkage.elements[number, second]
     lined, line = (first, one) if isinstance(one, Line) else (second, other)
     assert isinstance(line, Line)
-    turned = linkage.reference_pose[lined].angle
+    turned = linkage.required_pose[lined].angle
     angle = turned + line.angle
     if isinstance(one, Pin) or isinstance(other, Pin):
         pinned, pin = (first, one) if isinstance(one, Pin) else (second, other)
-        return (*linkage.reference_pose[pinned].put(pin.x, pin.y), turned)
-    x, y = linkage.reference_pose[first].put(one.x, one.y)
-    u, v = linkage.reference_pose[second].put(other.x, other.y)
+        return (*linkage.required_pose[pinned].put(pin.x, pin.y), turned)
+    x, y = linkage.required_pose[first].put(one.x, one.y)
+    u, v = linkage.required_pose[second].put(other.x, other.y)
     way = cos(angle) * (u - x) + sin(angle) * (v - y)
     return x + way * cos(angle), y + way * sin(angle), turned

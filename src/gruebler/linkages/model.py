@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from math import atan2, cos, hypot, pi, sin
+from math import atan2, cos, hypot, isfinite, pi, sin
 from types import MappingProxyType
 from typing import Any
 
@@ -29,6 +29,7 @@ from gruebler.linkages.elements import (
 )
 from gruebler.linkages.wheels import check_wheels, resolve_wheels
 from gruebler.mechanism import Mechanism
+from gruebler.text import Message, message
 
 __all__ = ["Linkage"]
 
@@ -90,9 +91,7 @@ class Linkage:
             for joint, raw in mine.items():
                 number = joint_number(mechanism, joint)
                 if link not in chain.joints[number].links:
-                    raise LinkageError(
-                        "{joint_names} is no joint of {link!r}", joint_names=chain.joint_names()[number], link=link
-                    )
+                    raise LinkageError("{joint} is no joint of {link!r}", joint=chain.joint_names()[number], link=link)
                 made[number, link] = read_element(raw, f"{link}, {chain.joint_names()[number]}")
         self._check_joints(mechanism, made)
         made = resolve_wheels(mechanism, made)
@@ -123,7 +122,7 @@ class Linkage:
         for number, joint in enumerate(mechanism.chain.joints):
             for link in joint.links:
                 if (number, link) not in made:
-                    raise LinkageError("{names} has no dimensions on {link!r}", names=names[number], link=link)
+                    raise LinkageError("{joint} has no dimensions on {link!r}", joint=names[number], link=link)
             check_elements_fit(joint.pair, names[number], {link: made[number, link] for link in joint.links})
         if any(isinstance(element, CENTRED) for element in made.values()):
             return  # shafts on one axis
@@ -134,11 +133,11 @@ class Linkage:
                     size = max(hypot(*pin), hypot(*other), 1e-300)
                     if hypot(pin.x - other.x, pin.y - other.y) <= 1e-12 * size or pin == other:
                         raise LinkageError(
-                            "on {link!r} the points of {names} and {names_2} coincide: a link needs a length "
+                            "on {link!r} the points of {joint} and {other} coincide: a link needs a length "
                             "(turning joints of several links at one place are written as one, such as R(a-b-c))",
                             link=link,
-                            names=names[m],
-                            names_2=names[n],
+                            joint=names[m],
+                            other=names[n],
                         )
 
     @classmethod
@@ -173,8 +172,8 @@ class Linkage:
         number = joint_number(self.mechanism, joint)
         if (number, link) not in self.elements:
             raise LinkageError(
-                "{joint_names} is no joint of {link!r}",
-                joint_names=self.mechanism.chain.joint_names()[number],
+                "{joint} is no joint of {link!r}",
+                joint=self.mechanism.chain.joint_names()[number],
                 link=link,
             )
         return self.elements[number, link]
@@ -184,8 +183,15 @@ class Linkage:
         a, b = self.element(first, link), self.element(second, link)
         return hypot(a.x - b.x, a.y - b.y)
 
+    @property
+    def required_pose(self) -> Mapping[str, Pose2D]:
+        """The reference pose; `LinkageError` if the linkage has none."""
+        if self.reference_pose is None:
+            raise LinkageError("the linkage has no reference pose: give the place of every link in one position")
+        return self.reference_pose
+
     def points_named(self, name: str) -> tuple[LinkPoint, ...]:
-        """The point of that name, or of the joint of that name (on each of its links, the frame's first).
+        """The point of that name, of the joint of that name (on each of its links, the frame's first), or of LINK:X,Y.
 
         Raises `LinkageError` for a name that is neither, with the nearest one that is.
         """
@@ -194,6 +200,9 @@ class Linkage:
         chain = self.mechanism.chain
         number = chain.find_joint(name)
         if number is None:
+            place = _read_point(name)
+            if place is not None and place.link in chain.links:
+                return (place,)
             known = [*self.points, *chain.joint_names()]
             raise LinkageError(
                 "there is no point {name!r}{suggestion}; known are {known}",
@@ -342,15 +351,15 @@ def joint_number(mechanism: Mechanism, joint: str | int) -> int:
     if number is None:
         names = chain.joint_names()
         raise LinkageError(
-            "{joint!r} is not one of the joints{suggestion}; they are {names}",
+            "{joint!r} is not one of the joints{suggestion}; they are {joints}",
             joint=joint,
             suggestion=nearest(joint, names),
-            names=", ".join(names),
+            joints=", ".join(names),
         )
     return number
 
 
-def _link(mechanism: Mechanism, link: str, where: str) -> str:
+def _link(mechanism: Mechanism, link: str, where: str | Message) -> str:
     if link not in mechanism.chain.links:
         known = mechanism.chain.links
         raise LinkageError(
@@ -364,8 +373,8 @@ def _link(mechanism: Mechanism, link: str, where: str) -> str:
 
 
 def _named(mechanism: Mechanism, name: str, link: str, x: float, y: float) -> LinkPoint:
-    pin = read_element([x, y], f"the point {name!r}")
-    return LinkPoint(_link(mechanism, link, f"the point {name!r}"), pin.x, pin.y)
+    pin = read_element([x, y], message("the point {name!r}", name=name))
+    return LinkPoint(_link(mechanism, link, message("the point {name!r}", name=name)), pin.x, pin.y)
 
 
 def _refuse_point(name: str) -> LinkPoint:
@@ -410,7 +419,7 @@ def _from_drawing(
     for name, (link, x, y) in points.items():
         if link not in home:
             raise LinkageError("the point {name!r}: there is no link {link!r}", name=name, link=link)
-        pin = read_element([x, y], f"the point {name!r}")
+        pin = read_element([x, y], message("the point {name!r}", name=name))
         seen[name] = (link, *home[link].to_local(pin.x, pin.y))
     return Linkage(mechanism, elements, seen, unit=unit, reference_pose=home, outputs=outputs)
 
@@ -422,28 +431,28 @@ def _drawn_elements(mechanism: Mechanism, places: Mapping[str | int, object]) ->
     drawn: dict[tuple[int, str], Element] = {}
     for number, joint in enumerate(chain.joints):
         if number not in given:
-            raise LinkageError("the place of {names} is missing", names=names[number])
+            raise LinkageError("the place of {joint} is missing", joint=names[number])
         raw, slot = given[number], None
         if isinstance(raw, Mapping):
             for link in joint.links:
                 if link not in raw:
-                    raise LinkageError("{names}: the element of {link!r} is missing", names=names[number], link=link)
+                    raise LinkageError("{joint}: the element of {link!r} is missing", joint=names[number], link=link)
                 drawn[number, link] = read_element(raw[link], f"{link}, {names[number]}")
             continue
         if isinstance(raw, list | tuple) and len(raw) == 4:
             *raw, slot = raw
             if slot not in joint.links:
                 raise LinkageError(
-                    "{names}: the slot is in one of its links, not in {slot!r}", names=names[number], slot=slot
+                    "{joint}: the slot is in one of its links, not in {slot!r}", joint=names[number], slot=slot
                 )
         element = read_element(raw, names[number])
         if joint.pair.name == "roll_slide" and slot is None:
             raise LinkageError(
-                "{names}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
-                names=names[number],
+                "{joint}: say which link has the slot: [x, y, angle, link]; wheels are given for each link",
+                joint=names[number],
             )
         if isinstance(element, CENTRED):
-            raise LinkageError("{names}: wheels are given for each of its links", names=names[number])
+            raise LinkageError("{joint}: wheels are given for each of its links", joint=names[number])
         for link in joint.links:
             drawn[number, link] = Pin(element.x, element.y) if slot not in (None, link) else element
     for (number, link), element in list(drawn.items()):
@@ -476,3 +485,13 @@ def _link_coordinates(mechanism: Mechanism, link: str, drawn: Mapping[tuple[int,
         return Pose2D(first.x, first.y, lines[0].angle)
     far = next((p for p in pins[1:] if hypot(p.x - first.x, p.y - first.y) > 0), None)
     return Pose2D(first.x, first.y, atan2(far.y - first.y, far.x - first.x) if far else 0.0)
+
+
+def _read_point(text: str) -> LinkPoint | None:
+    """The point of a link in its coordinates, as in ``coupler:45,40``; None for another text."""
+    link, _, place = text.rpartition(":")
+    try:
+        x, y = (float(part) for part in place.split(","))
+    except ValueError:
+        return None
+    return LinkPoint(link, x, y) if isfinite(x) and isfinite(y) else None

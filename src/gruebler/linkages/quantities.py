@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
+from gruebler.text import message
 
 __all__ = [
     "as_branch",
@@ -67,12 +68,11 @@ def as_lengths(**lengths: object) -> dict[str, float]:
     small, large = min(checked, key=checked.__getitem__), max(checked, key=checked.__getitem__)
     if checked[large] > 1e9 * checked[small]:
         raise LinkageError(
-            "lengths of one linkage may differ by a factor of 1e9 at most: {small} = {checked:g}, {large} = "
-            "{checked_2:g}",
+            "lengths of one linkage may differ by a factor of 1e9 at most: {small} = {least:g}, {large} = {greatest:g}",
             small=small,
-            checked=checked[small],
+            least=checked[small],
             large=large,
-            checked_2=checked[large],
+            greatest=checked[large],
         )
     return checked
 
@@ -81,7 +81,7 @@ def as_eccentricity(e: object, *lengths: float) -> float:
     """An eccentricity of any sign, not out of all proportion to the lengths."""
     number = as_finite("e", e)
     if abs(number) > 1e9 * max(lengths):
-        raise LinkageError("the eccentricity e = {number:g} is more than 1e9 times any length", number=number)
+        raise LinkageError("the eccentricity e = {e:g} is more than 1e9 times any length", e=number)
     return number
 
 
@@ -118,8 +118,8 @@ def given_and_missing(**lengths: float | None) -> tuple[dict[str, float], str]:
     missing = [name for name, value in lengths.items() if value is None]
     if len(missing) != 1:
         raise LinkageError(
-            "exactly one of {lengths} must be left out, not {value}",
+            "exactly one of {lengths} must be left out, not {missing}",
             lengths=", ".join(lengths),
-            value=", ".join(missing) or "none",
+            missing=", ".join(missing) or message("none"),
         )
     return as_lengths(**{name: value for name, value in lengths.items() if value is not None}), missing[0]

@@ -146,9 +146,9 @@ def resolve_wheels(mechanism: Mechanism, elements: Elements) -> dict[tuple[int, 
         fit = len(wheels) == 2 and all(wheel.teeth and not wheel.radius for wheel in wheels) and teeth
         if number not in held or not fit or wheels[0].belt:
             raise LinkageError(
-                "{joint_names}: tooth numbers without a radius or module need wheels with tooth numbers on both "
+                "{joint}: tooth numbers without a radius or module need wheels with tooth numbers on both "
                 "links, and a link that carries both centres by pins",
-                joint_names=mechanism.chain.joint_names()[number],
+                joint=mechanism.chain.joint_names()[number],
             )
         for link, wheel in zip(links, wheels, strict=True):
             out[number, link] = wheel._replace(radius=held[number].distance * wheel.teeth / abs(teeth))

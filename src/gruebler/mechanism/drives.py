@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from gruebler.mechanism.model import Mechanism
 from gruebler.mobility import generic
 from gruebler.mobility.placement import LockedFreedom
+from gruebler.text import Message, joined, message
 
 __all__ = ["DriveReport", "check_drives"]
 
@@ -31,29 +32,21 @@ class DriveReport:
 
     def explain(self, lang: str = "en") -> str:
         """The report in one sentence or two, in English (``en``) or German (``de``)."""
-        german = lang == "de"
-        lines = [
-            f"Laufgrad {self.mobility}, Antriebe {self.drives}."
-            if german
-            else f"Mobility {self.mobility}, drives {self.drives}."
-        ]
+        return self.message.in_language(lang)
+
+    @property
+    def message(self) -> Message:
+        """What `explain` says, in any language."""
+        sentences = [message("Mobility {mobility}, drives {drives}.", mobility=self.mobility, drives=self.drives)]
         if self.fixed:
-            lines.append("Die Antriebe bestimmen die Bewegung." if german else "The drives fix the motion.")
+            sentences.append(message("The drives fix the motion."))
         if self.remaining:
-            links = ", ".join(self.free_links)
-            lines.append(
-                f"Freiheitsgrade bei festen Antrieben: {self.remaining}; noch beweglich: {links}."
-                if german
-                else f"Freedoms left with the drives locked: {self.remaining}; still moving: {links}."
-            )
+            text = message("Freedoms left with the drives locked: {freedoms}; still moving: {links}.")
+            sentences.append(text.filled(freedoms=self.remaining, links=", ".join(self.free_links)))
         if self.redundant_drives:
             numbers = ", ".join(str(k + 1) for k in self.redundant_drives)
-            lines.append(
-                f"Antriebe, die gegeneinander arbeiten: Nr. {numbers}."
-                if german
-                else f"Drives that work against one another: no. {numbers}."
-            )
-        return " ".join(lines)
+            sentences.append(message("Drives that work against one another: no. {numbers}.", numbers=numbers))
+        return joined(sentences, " ")
 
 
 def check_drives(mechanism: Mechanism) -> DriveReport:

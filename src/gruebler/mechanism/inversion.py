@@ -20,6 +20,7 @@ from gruebler.errors import ChainError
 from gruebler.isomorphism import Permutation, code, orbits, symmetry
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.model import Drive, Mechanism
+from gruebler.text import Message, message
 
 __all__ = ["DrivenMechanism", "driven_mechanisms", "family", "inversions"]
 
@@ -128,44 +129,32 @@ def _drive(chain: Chain, freedom: Freedom) -> Drive:
     return Drive(number, direction, (first, other))
 
 
-# English name, German name, mechanism: what a frame makes of a chain. Sources: the seeds 2.4 and 2.6 for the four-bar
+# Name, mechanism: what a frame makes of a chain. Sources: the seeds 2.4 and 2.6 for the four-bar
 # and the slider-crank chain; Watt and Stephenson as numbered by McCarthy and Soh, Geometric Design of Linkages, 2nd ed.
 # 2011; the chains with two sliders as named in VDI 2145 and by Luck and Modler, Getriebetechnik, 1990. Guide and block
 # of a slide are alike in structure, and so are a block that turns and one that swings: size tells them apart.
 _FAMILIES = (
-    ("four-bar linkage", "Viergelenkgetriebe", "R(0-1) R(1-2) R(2-3) R(3-0); frame=0"),
-    (
-        "slider-crank (sliding lever with the block as frame)",
-        "Schubkurbel (Schubhebel mit dem Stein als Gestell)",
-        "R(0-1) R(1-2) R(2-3) P(3-0); frame=0",
-    ),
-    (
-        "inverted slider-crank (turning or swinging block)",
-        "Kurbelschleife (umlaufend oder schwingend)",
-        "R(0-1) R(1-2) P(2-3) R(3-0); frame=0",
-    ),
-    ("Scotch yoke", "Kreuzschubkurbel", "R(0-1) R(1-2) P(2-3) P(3-0); frame=0"),
-    ("elliptic trammel (double slider)", "Doppelschieber (Ellipsenlenker)", "P(0-1) R(1-2) R(2-3) P(3-0); frame=0"),
-    (
-        "Oldham coupling (double slotted lever)",
-        "Doppelschleife (Oldham-Kupplung)",
-        "R(0-1) P(1-2) P(2-3) R(3-0); frame=0",
-    ),
-    ("Rapson slide", "Schubschleife", "R(0-1) P(1-2) R(2-3) P(3-0); frame=0"),
-    ("Watt I", "Watt I", "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0"),
-    ("Watt II", "Watt II", "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=2"),
-    ("Stephenson I", "Stephenson I", "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=1"),
-    ("Stephenson II", "Stephenson II", "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=4"),
-    ("Stephenson III", "Stephenson III", "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=0"),
+    (message("four-bar linkage"), "R(0-1) R(1-2) R(2-3) R(3-0); frame=0"),
+    (message("slider-crank (sliding lever with the block as frame)"), "R(0-1) R(1-2) R(2-3) P(3-0); frame=0"),
+    (message("inverted slider-crank (turning or swinging block)"), "R(0-1) R(1-2) P(2-3) R(3-0); frame=0"),
+    (message("Scotch yoke"), "R(0-1) R(1-2) P(2-3) P(3-0); frame=0"),
+    (message("elliptic trammel (double slider)"), "P(0-1) R(1-2) R(2-3) P(3-0); frame=0"),
+    (message("Oldham coupling (double slotted lever)"), "R(0-1) P(1-2) P(2-3) R(3-0); frame=0"),
+    (message("Rapson slide"), "R(0-1) P(1-2) R(2-3) P(3-0); frame=0"),
+    (message("Watt I"), "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0"),
+    (message("Watt II"), "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=2"),
+    (message("Stephenson I"), "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=1"),
+    (message("Stephenson II"), "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=4"),
+    (message("Stephenson III"), "R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2); frame=0"),
 )
 
 
 @cache
-def _families() -> dict[str, tuple[str, str]]:
+def _families() -> dict[str, Message]:
     known = {}
-    for english, german, text in _FAMILIES:
+    for name, text in _FAMILIES:
         mechanism = Mechanism.parse(text)
-        known[code(mechanism.chain, frame=mechanism.frame)] = (english, german)
+        known[code(mechanism.chain, frame=mechanism.frame)] = name
     return known
 
 
@@ -175,5 +164,5 @@ def family(mechanism: Mechanism, lang: str = "en") -> str | None:
     >>> family(Mechanism.parse("R(a-b) R(b-c) R(c-d) P(d-a); frame=b"))
     'inverted slider-crank (turning or swinging block)'
     """
-    names = _families().get(code(mechanism.chain, frame=mechanism.frame))
-    return None if names is None else names[lang == "de"]
+    name = _families().get(code(mechanism.chain, frame=mechanism.frame))
+    return None if name is None else name.in_language(lang)

@@ -13,6 +13,7 @@ from gruebler.chain import Chain, notation
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import ChainError, NotationError
 from gruebler.isomorphism import DriveMark, code, decode
+from gruebler.text import joined_by_and
 
 __all__ = ["Drive", "Mechanism"]
 
@@ -61,7 +62,7 @@ class Mechanism:
         keys = [(d.joint, d.direction, frozenset(d.between)) for d in made]
         for k, key in enumerate(keys):
             if key in keys[:k]:
-                raise ChainError("the drive {drive_text} is named twice", drive_text=_drive_text(chain, made[k]))
+                raise ChainError("the drive {drive} is named twice", drive=_drive_text(chain, made[k]))
         object.__setattr__(self, "chain", chain)
         object.__setattr__(self, "frame", frame)
         object.__setattr__(self, "drives", made)
@@ -104,8 +105,8 @@ class Mechanism:
                     chain.index(output)
                 case _:
                     raise NotationError(
-                        "{strip!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
-                        strip=mark.strip(),
+                        "{mark!r} is no mark of a mechanism: expected frame=LINK, drive=JOINT or output=LINK",
+                        mark=mark.strip(),
                     )
         if output == frame:
             raise ChainError("the output {output!r} is the frame", output=output)
@@ -217,10 +218,10 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
     if not direction:
         if len(freedoms) > 1:
             raise ChainError(
-                "{joint} has the freedoms {freedoms}; say which is driven: {joint}:{freedoms_2}",
+                "{joint} has the freedoms {freedoms}; say which is driven: {joint}:{first}",
                 joint=joint,
                 freedoms=", ".join(freedoms),
-                freedoms_2=freedoms[0],
+                first=freedoms[0],
             )
         direction = freedoms[0]
     if direction not in freedoms:
@@ -245,7 +246,7 @@ def _drive(chain: Chain, raw: int | str | Drive | DriveMark) -> Drive:
         raise ChainError(
             "a drive of {joint} acts between two of its links, not between {links}",
             joint=joint,
-            links=" and ".join(links),
+            links=joined_by_and(links),
         )
     first, other = sorted(links, key=joint.links.index)
     return Drive(number, direction, (first, other))
@@ -256,9 +257,9 @@ def _read_drive(chain: Chain, text: str) -> tuple[int, str, tuple[str, ...]]:
     number = chain.find_joint(joint_text)
     if number is None:
         raise ChainError(
-            "{joint_text!r} is not one of the joints; they are {joint_names}",
-            joint_text=joint_text,
-            joint_names=", ".join(chain.joint_names()),
+            "{joint!r} is not one of the joints; they are {joints}",
+            joint=joint_text,
+            joints=", ".join(chain.joint_names()),
         )
     direction = ""
     links: tuple[str, ...] = ()

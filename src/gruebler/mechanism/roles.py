@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import StrEnum
 
 from gruebler.mechanism.model import Mechanism
+from gruebler.text import message
 
 __all__ = ["Role", "roles"]
 
@@ -21,16 +22,16 @@ class Role(StrEnum):
 
     def in_language(self, lang: str) -> str:
         """The role in English (``en``) or German (``de``)."""
-        return _GERMAN_ROLES[self] if lang == "de" else self.value
+        return _NAMES[self].in_language(lang)
 
 
-_GERMAN_ROLES = {
-    Role.FRAME: "Gestell",
-    Role.CRANK: "Kurbel",
-    Role.ROCKER: "Schwinge",
-    Role.SLIDER: "Schieber",
-    Role.ROLLER: "Rad",
-    Role.COUPLER: "Koppel",
+_NAMES = {
+    Role.FRAME: message("frame"),
+    Role.CRANK: message("crank"),
+    Role.ROCKER: message("rocker"),
+    Role.SLIDER: message("slider"),
+    Role.ROLLER: message("wheel"),
+    Role.COUPLER: message("coupler"),
 }
 
 

@@ -29,6 +29,7 @@ from gruebler._numeric.modular import (
     null_space_by_column,
     reduced_echelon,
 )
+from gruebler.disjoint_sets import DisjointSets
 from gruebler.mobility.rank import Generic
 
 __all__ = ["Overconstrained", "overconstrained"]
@@ -101,25 +102,19 @@ def _connected_parts(rank: Generic, basis: dict[int, Support] | None) -> list[_R
     """
     sharing, free = _sharing(rank, basis)
     joints, owners = rank.chain.joints, rank.placement.owners
-    root = list(range(len(owners)))
-
-    def find(i: int) -> int:
-        while root[i] != i:
-            root[i] = i = root[root[i]]
-        return i
-
+    sets = DisjointSets(range(len(owners)))
     first_of_joint: dict[int, int] = {}
     for row, others in sharing.items():
         for other in others:
-            root[find(other)] = find(row)
+            sets.unite(row, other)
         joint = owners[row][0]
         if joints[joint].count > 1:
-            root[find(row)] = find(first_of_joint.setdefault(joint, row))
+            sets.unite(first_of_joint.setdefault(joint, row), row)
     parts: dict[int, _Rows] = {}
     for k, row in enumerate(free):
-        parts.setdefault(find(row), _Rows([], [])).members.append(k)
+        parts.setdefault(sets.find(row), _Rows([], [])).members.append(k)
     for row in sorted(sharing):
-        parts[find(row)].rows.append(row)
+        parts[sets.find(row)].rows.append(row)
     return list(parts.values())
 
 

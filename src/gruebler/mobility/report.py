@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet, Space
 from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count_freedoms
-from gruebler.mobility.idle import IdleFreedom, idle_freedoms
+from gruebler.mobility.idle import IdleCondition, IdleFreedom, idle_freedoms
 from gruebler.mobility.rank import generic
 from gruebler.notebook import Brief
+from gruebler.text import Message, arity, joined, message
 
-__all__ = ["MobilityReport", "Verdict", "mobility_report"]
+__all__ = ["MobilityReport", "Verdict", "mobility_report", "verdict_word"]
 
 
 class Verdict(StrEnum):
@@ -29,6 +32,32 @@ class Verdict(StrEnum):
     """F = 1: one drive moves everything."""
     MOVABLE = "movable"
     """F > 1: as many drives are needed."""
+
+
+_VERDICTS = {
+    Verdict.OVERCONSTRAINED: message("overconstrained"),
+    Verdict.RIGID: message("rigid"),
+    Verdict.PARTLY_RIGID: message("partly rigid"),
+    Verdict.CONSTRAINED: message("constrained"),
+    Verdict.MOVABLE: message("movable"),
+}
+_MEANINGS = {
+    Verdict.OVERCONSTRAINED: message(
+        "Some links hold more constraints than they need; such a machine runs only with exact or special dimensions."
+    ),
+    Verdict.RIGID: message(
+        "Nothing moves for almost all dimensions; only special dimensions (equal and parallel cranks, a contact on "
+        "the line of centres) can set it free, and then one constraint is redundant."
+    ),
+    Verdict.PARTLY_RIGID: message("It moves, but some of its links stay rigid against each other and act as one link."),
+    Verdict.CONSTRAINED: message("One drive moves every link in one definite way."),
+    Verdict.MOVABLE: message("It takes {mobility} drives to fix the motion."),
+}
+_OTHER_COUNTS = {
+    Space.PLANAR: message("The count takes b = {b} motions of a free link instead of the planar chain's {own}."),
+    Space.SPHERICAL: message("The count takes b = {b} motions of a free link instead of the spherical chain's {own}."),
+    Space.SPATIAL: message("The count takes b = {b} motions of a free link instead of the spatial chain's {own}."),
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -68,10 +97,21 @@ class MobilityReport(Brief):
         return Verdict.CONSTRAINED if self.generic == 1 else Verdict.MOVABLE
 
     def explain(self, lang: str = "en") -> str:
-        """The report as a text of a few lines, in English (``en``) or German (``de``)."""
-        from gruebler.mobility.messages import explain_mobility
+        """The report as a text of a few lines, in English (``en``) or German (``de``).
 
-        return explain_mobility(self, lang)
+        >>> from gruebler.chain import Chain
+        >>> print(mobility_report(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).explain())
+        Chain: R(0-1) R(1-2) R(2-3) R(3-0)
+        Links: n = 4 (4 binary)
+        Joints: g1 = 4, one independent loop
+        Count: F = 3(n - 1) - 2 g1 = 3(4 - 1) - 2·4 = 1
+        Criterion of constrained motion: 3n - 4 - 2 g1 = 12 - 4 - 8 = 0. It holds.
+        Generic mobility (almost all sizes): 1, proved. The count is true.
+        Verdict: constrained. One drive moves every link in one definite way.
+        """
+        names = self.chain.joint_names(Alphabet.of_language(lang))
+        lines = [*_structure(self, names, lang), *_numbers(self), *_details(self, names)]
+        return "\n".join(line.in_language(lang) for line in lines)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`; the joints as texts that tell one from another."""
@@ -144,3 +184,125 @@ def mobility_report(
         immobile,
         idle_freedoms(rank, still),
     )
+
+
+def verdict_word(verdict: Verdict, lang: str) -> str:
+    """The verdict in one or two words.
+
+    >>> verdict_word(Verdict.CONSTRAINED, "de")
+    'zwangläufig'
+    """
+    return _VERDICTS[verdict].in_language(lang)
+
+
+def _structure(report: MobilityReport, names: Sequence[str], lang: str) -> Iterator[Message]:
+    chain = report.chain
+    kinds = ", ".join(f"{count} {arity(joints, lang)}" for joints, count in chain.link_kinds.items())
+    yield message("Chain: {chain}", chain=chain.text(Alphabet.of_language(lang)))
+    yield message("Links: n = {n} ({kinds})", n=chain.n, kinds=kinds)
+    counts = ", ".join(f"g{freedom} = {count}" for freedom, count in chain.joints_by_freedom.items())
+    if chain.loops == 1:
+        yield message("Joints: {counts}, one independent loop", counts=counts)
+    else:
+        yield message("Joints: {counts}, {loops} independent loops", counts=counts, loops=chain.loops)
+    for joint, name in zip(chain.joints, names, strict=True):
+        if joint.count > 1:
+            links, count = len(joint.links), joint.count
+            text = message("The joint {joint} carries {links} links and counts {count} times.")
+            yield text.filled(joint=name, links=links, count=count)
+
+
+def _numbers(report: MobilityReport) -> Iterator[Message]:
+    yield message("Count: {formula}", formula=report.count.formula())
+    space = report.chain.space
+    if report.count.b != space.b:
+        yield _OTHER_COUNTS[space].filled(b=report.count.b, own=space.b)
+    criterion = report.count.criterion()
+    if report.counted == 1:
+        yield message("Criterion of constrained motion: {criterion}. It holds.", criterion=criterion)
+    else:
+        yield message("Criterion of constrained motion: {criterion}. It does not hold.", criterion=criterion)
+    if report.exact:
+        line = message("Generic mobility (almost all sizes): {generic}, proved.", generic=report.generic)
+    else:
+        line = message(
+            "Generic mobility (almost all sizes): {generic}, by rank at two random placements (chance of error below "
+            "{bound:.0e}).",
+            generic=report.generic,
+            bound=report.error_bound,
+        )
+    yield joined([line, _count_and_rank(report)], " ") if report.count.b == space.b else line
+    verdict, meaning = _VERDICTS[report.verdict], _MEANINGS[report.verdict].filled(mobility=report.generic)
+    yield message("Verdict: {verdict}. {meaning}", verdict=verdict, meaning=meaning)
+
+
+def _count_and_rank(report: MobilityReport) -> Message:
+    if report.redundancy:
+        text = message("The count is off by {difference}: so many constraints are redundant.")
+        return text.filled(difference=report.redundancy)
+    if report.generic and report.rigid_clusters:
+        return message("The sum is right, but the chain is not sound: see below.")
+    return message("The count is true.")
+
+
+def _details(report: MobilityReport, names: Sequence[str]) -> Iterator[Message]:
+    chain = report.chain
+    for part in report.overconstrained:
+        yield _overconstrained(part, names)
+    if len(report.rigid_clusters) == 1 and len(report.rigid_clusters[0]) == chain.n:
+        yield message("Rigid against each other: all links.")
+    else:
+        for cluster in report.rigid_clusters:
+            yield message("Rigid against each other: {links}.", links=", ".join(cluster))
+    if len(report.immobile_joints) == len(chain.joints):
+        yield message("None of the joints can move.")
+    elif report.immobile_joints:
+        yield message("Joints that cannot move: {joints}.", joints=_list(names, report.immobile_joints))
+    for idle in report.idle_freedoms:
+        yield _idle(idle, report.generic)
+    for link, count in chain.degrees.items():
+        if count == 1:
+            yield message("{link} hangs on a single joint; its freedom there belongs to it alone.", link=link)
+
+
+def _idle(idle: IdleFreedom, generic: int) -> Message:
+    if len(idle.links) > 1:
+        text = message(
+            "Idle: {links} turn as one body about the line through their two ball joints; it changes nothing else."
+        )
+        return text.filled(links=", ".join(idle.links))
+    if idle.when is IdleCondition.ALWAYS:
+        text = message(
+            "Idle: {link} has {freedoms} of the {generic} freedoms for itself alone; it changes nothing else."
+        )
+        return text.filled(link=idle.links[0], freedoms=idle.freedoms, generic=generic)
+    text = message("Idle if round: {link} spins without effect when its contour is a circle about its pin.")
+    return text.filled(link=idle.links[0])
+
+
+def _overconstrained(part: Overconstrained, names: Sequence[str]) -> Message:
+    links = ", ".join(part.links)
+    if not part.minimal:
+        text = message("Overconstrained as a whole, not taken apart further: links {links} by {redundancy}.")
+        return text.filled(links=links, redundancy=part.redundancy)
+    line = message(
+        "Overconstrained: links {links} by {redundancy}, at the joints {joints}.",
+        links=links,
+        redundancy=part.redundancy,
+        joints=_list(names, part.joints),
+    )
+    if part.mended_by_freeing == part.mended_by_removing == part.joints:
+        remedy = message(
+            "One more freedom at any one of these joints resolves it, and so does removing any one of them."
+        )
+    elif part.mended_by_removing == part.joints:
+        remedy = message("Removing any one of these joints resolves it.")
+    elif part.mended_by_removing:
+        remedy = message("Removing one of {joints} resolves it.", joints=_list(names, part.mended_by_removing))
+    else:
+        remedy = message("No single joint resolves it: {redundancy} freedoms are missing.", redundancy=part.redundancy)
+    return joined([line, remedy], " ")
+
+
+def _list(names: Sequence[str], numbers: Sequence[int]) -> str:
+    return ", ".join(names[k] for k in numbers)

@@ -19,8 +19,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from gruebler.chain import Chain
-from gruebler.chain.pairs import Space
+from gruebler.chain.pairs import Space, pair
 from gruebler.errors import ChainError
+from gruebler.text import Message, message
 
 __all__ = ["License", "pebble_mobility", "pebble_rank", "theorem"]
 
@@ -41,7 +42,7 @@ class License:
     """Links as bodies: (3,3) or (6,6)."""
     points: bool
     """Joints as points: (2,3)."""
-    reason: str
+    reason: Message
     """The theorem, or what stands outside every theorem used here."""
 
     def __bool__(self) -> bool:
@@ -57,13 +58,23 @@ def theorem(chain: Chain) -> License:
     bars = _BARS[chain.space]
     outside = sorted({j.pair.name for j in chain.joints} - set(bars))
     if outside:
-        return License(False, False, f"no theorem covers {outside[0]} joints in {chain.space} chains")
+        return License(
+            False,
+            False,
+            message(
+                "no theorem covers {pair} joints in {space} chains",
+                pair=pair(outside[0]).title,
+                space=chain.space.adjective,
+            ),
+        )
     if not chain.multiple_joints:
         points = chain.space is not Space.SPATIAL
-        return License(True, points, "Tay and Whiteley: bodies joined by hinges and bars")
+        return License(True, points, message("Tay and Whiteley: bodies joined by hinges and bars"))
     if chain.space is Space.SPATIAL:
-        return License(False, False, "no theorem used here covers multiple joints in space")
-    return License(False, True, "Pollaczek-Geiringer and Laman: joints as points, links as rigid graphs on them")
+        return License(False, False, message("no theorem used here covers multiple joints in space"))
+    return License(
+        False, True, message("Pollaczek-Geiringer and Laman: joints as points, links as rigid graphs on them")
+    )
 
 
 def pebble_mobility(chain: Chain, *, points: bool | None = None) -> int:

@@ -93,8 +93,7 @@ def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
         x, y = _grid(e.x, length), _grid(e.y, length)
         turn = [radians(_grid(degrees(e.angle) % 360, degrees(angle)) % 360)] if isinstance(e, Line) else []
         elements[link][number] = (x, y, *turn)
-    assert linkage.reference_pose is not None
-    return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.reference_pose)
+    return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.required_pose)
 
 
 def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:

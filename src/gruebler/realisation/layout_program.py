@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from gruebler._numeric.motion.program import RPR, RRP, RRR
 from gruebler.arrays import Complexes, Reals
 from gruebler.chain import Chain
-from gruebler.chain.pairs import Space
+from gruebler.chain.pairs import Space, pair
 from gruebler.errors import LinkageError
 from gruebler.kinematics.plan import Plan, plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from gruebler.text import joined
 
 if TYPE_CHECKING:
     from gruebler._numeric.motion.program import Program
@@ -29,7 +31,6 @@ __all__ = ["KernelLayout", "LayoutProgram", "check_drawable", "joint_places", "l
 
 
 _DRAWN = ("revolute", "prismatic", "roll_slide", "double_slide")
-_RRR, _RRP, _RPR = 2, 3, 4
 
 
 class KernelLayout(NamedTuple):
@@ -160,7 +161,7 @@ class LayoutProgram:
         made = program._replace(points=points, lines=lines, size=size, most=most)
         signs = np.ones(len(self.plan.dyads))
         for row in self.plan.operations:
-            if row[0] in (_RRR, _RRP, _RPR):
+            if row[0] in (RRR, RRP, RPR):
                 signs[row[9]] = 1.0 if _side(row, points, lines) >= 0 else -1.0
         return KernelLayout(made, signs, np.zeros(3 * len(program.roots)))
 
@@ -168,9 +169,9 @@ class LayoutProgram:
 def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
     """The number whose sign is the label of a dyad (`gruebler.kinematics.branches`)."""
     kind, outer, inner, other = row[0], row[1], row[3], row[6]
-    if kind == _RRR:
+    if kind == RRR:
         return float(((points[other] - points[outer]).conjugate() * (points[inner] - points[outer])).imag)
-    if kind == _RRP:
+    if kind == RRP:
         return float((lines[other].conjugate() * (points[inner] - points[outer])).real)
     return float((lines[inner].conjugate() * (points[other] - points[outer])).real)
 
@@ -201,10 +202,10 @@ def check_drawable(chain: Chain) -> None:
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
         if joint.pair.name not in _DRAWN:
             raise LinkageError(
-                "{name}: dimensions of {name_2} joints are not found yet; known are {drawn}",
+                "{name}: dimensions of {pair} joints are not found yet; known are {drawn}",
                 name=name,
-                name_2=joint.pair.name,
-                drawn=", ".join(_DRAWN),
+                pair=joint.pair.title,
+                drawn=joined(pair(name).title for name in _DRAWN),
             )
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gruebler._numeric.motion.closure import PIN
 from gruebler.arrays import Complexes, Reals
 from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.plan import Plan
@@ -24,7 +25,6 @@ __all__ = ["conditioning"]
 _ARM = 0.3  # the length by which angles are multiplied, in parts of the size
 _SCALE = 2.0  # a larger group: singular value to sine
 _SHORT = 1 / 3  # RPR: ways below this part of the size count as short
-_PIN = 0
 
 
 def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complexes, roots: Reals) -> Reals:
@@ -63,8 +63,8 @@ def _closing(conditions: Sequence[Condition], bodies: int, points: Complexes, li
         for body, sign in ((one, -1.0), (other, 1.0)):
             if body < 0:
                 continue
-            lever = (points[:, a if kind != _PIN else b] - centres[body]) * 1j / arm
-            if kind == _PIN:
+            lever = (points[:, a if kind != PIN else b] - centres[body]) * 1j / arm
+            if kind == PIN:
                 out[:, row, 3 * body] = out[:, row + 1, 3 * body + 1] = sign
                 out[:, row, 3 * body + 2], out[:, row + 1, 3 * body + 2] = sign * lever.real, sign * lever.imag
                 continue

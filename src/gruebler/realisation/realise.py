@@ -12,13 +12,11 @@ from gruebler.realisation.finishing import finish_linkage
 from gruebler.realisation.layout_program import check_drawable, layout_program
 from gruebler.realisation.result import Realisation
 from gruebler.realisation.search import search_layouts
+from gruebler.text import message
 
 __all__ = ["realise", "with_drives"]
 
-_NOTHING_TO_DRIVE = (
-    "There is nothing to drive: the chain has no mobility.",
-    "Es gibt nichts anzutreiben: Die Kette ist nicht beweglich.",
-)
+_NOTHING_TO_DRIVE = message("There is nothing to drive: the chain has no mobility.")
 _AGAIN = 3  # searches with other random numbers if the first finds no full turn
 
 
@@ -53,9 +51,9 @@ def realise(
     check_drawable(mechanism.chain)
     driven = mechanism if mechanism.drives else with_drives(mechanism)
     parts = decompose(driven)
-    reasons = (parts.message("en"), parts.message("de")) if driven.drives else _NOTHING_TO_DRIVE
     if not (driven.drives and parts.complete):
-        return Realisation(driven, None, (), False, 0.0, 0, seed, reasons)
+        reason = parts.reason if driven.drives else _NOTHING_TO_DRIVE
+        return Realisation(driven, None, (), False, 0.0, 0, seed, reason)
     drawn = layout_program(driven)
     turning = all(drive.turning for drive in driven.drives)
     best, tries = None, 0
@@ -99,5 +97,5 @@ def with_drives(mechanism: Mechanism) -> Mechanism:
 def _check(name: str, value: object, least: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value < 2**32:
         raise LinkageError(
-            "{name} is a whole number of at least {least}, not {value!r}", name=name, least=least, value=value
+            "{name} is a whole number of at least {least}, not {found!r}", name=name, least=least, found=value
         )

@@ -10,42 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gruebler.analysis.drive_cycle import CycleSpan, drive_cycle
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.notebook import Brief
 from gruebler.realisation.layout_trial import range_path
+from gruebler.text import Message, joined, message, translate
 
 __all__ = ["Realisation"]
 
-_TEXT = {
-    "en": {
-        "full": "{drive} turns fully.",
-        "turning": "{drive} turns from {low:.7g}° to {high:.7g}°.",
-        "sliding": "{drive} moves from {low:.7g} to {high:.7g} {unit}.",
-        "turning part": "Well conditioned it turns from {low:.0f}° to {high:.0f}°.",
-        "sliding part": "Well conditioned it moves from {low:.6g} to {high:.6g} {unit}.",
-        "turning at once": "{drive} turns well conditioned from {low:.0f}° to {high:.0f}°, all drives at once.",
-        "sliding at once": "{drive} moves well conditioned from {low:.6g} to {high:.6g} {unit}, all drives at once.",
-        "quality": "Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).",
-        "tries": "Tried: {tries} drawings (seed {seed}).",
-        "none": "No dimensions were found with which the drives move it: {tries} drawings tried (seed {seed}).",
-    },
-    "de": {
-        "full": "{drive} läuft um.",
-        "turning": "{drive} schwingt von {low:.7g}° bis {high:.7g}°.",
-        "sliding": "{drive} schiebt von {low:.7g} bis {high:.7g} {unit}.",
-        "turning part": "Mit guter Kondition schwingt er von {low:.0f}° bis {high:.0f}°.",
-        "sliding part": "Mit guter Kondition schiebt er von {low:.6g} bis {high:.6g} {unit}.",
-        "turning at once": "{drive} schwingt mit guter Kondition von {low:.0f}° bis {high:.0f}°, "
-        "alle Antriebe zugleich.",
-        "sliding at once": "{drive} schiebt mit guter Kondition von {low:.6g} bis {high:.6g} {unit}, "
-        "alle Antriebe zugleich.",
-        "quality": "Kleinste Gütezahl {quality:.2f} (1 ist das Beste, 0 singulär).",
-        "tries": "Versucht: {tries} Zeichnungen (Startwert {seed}).",
-        "none": "Keine Abmessungen gefunden, mit denen die Antriebe es bewegen: {tries} Zeichnungen versucht "
-        "(Startwert {seed}).",
-    },
+_FULL = message("{drive} turns fully.")
+_TURNING = {
+    "range": message("{drive} turns from {low:.7g}° to {high:.7g}°."),
+    "well conditioned": message("Well conditioned it turns from {low:.0f}° to {high:.0f}°."),
+    "all at once": message("{drive} turns well conditioned from {low:.0f}° to {high:.0f}°, all drives at once."),
+}
+_SLIDING = {
+    "range": message("{drive} moves from {low:.7g} to {high:.7g} {unit}."),
+    "well conditioned": message("Well conditioned it moves from {low:.6g} to {high:.6g} {unit}."),
+    "all at once": message("{drive} moves well conditioned from {low:.6g} to {high:.6g} {unit}, all drives at once."),
 }
 
 
@@ -66,8 +50,8 @@ class Realisation(Brief):
     tries: int
     """How many drawings were tried."""
     seed: int
-    reasons: tuple[str, str] = ("", "")
-    """Why nothing was sought, in English and German; empty if it was."""
+    reason: Message | None = None
+    """Why nothing was sought; None if it was."""
 
     @property
     def found(self) -> bool:
@@ -87,24 +71,30 @@ class Realisation(Brief):
 
     def message(self, lang: str = "en") -> str:
         """What was found, in English (``en``) or German (``de``)."""
-        text = _TEXT["de" if lang == "de" else "en"]
-        if any(self.reasons):
-            return self.reasons[lang == "de"]
+        if self.reason is not None:
+            return self.reason.in_language(lang)
         if self.linkage is None:
-            return text["none"].format(tries=self.tries, seed=self.seed)
-        said = []
-        names = self.mechanism.drive_names()
-        for name, drive, well in zip(names, self.mechanism.drives, self.ranges, strict=True):
-            kind = "turning" if drive.turning else "sliding"
+            return translate(
+                "No dimensions were found with which the drives move it: {tries} drawings tried (seed {seed}).",
+                lang,
+                tries=self.tries,
+                seed=self.seed,
+            )
+        sentences = []
+        names = self.mechanism.drive_names(Alphabet.of_language(lang))
+        for name, drive, well_conditioned in zip(names, self.mechanism.drives, self.ranges, strict=True):
+            texts = _TURNING if drive.turning else _SLIDING
             if self.full:
-                ranges = {"full": well}
+                ranges = [(_FULL, well_conditioned)]
             elif self.span is None:
-                ranges = {f"{kind} at once": well}
+                ranges = [(texts["all at once"], well_conditioned)]
             else:
-                ranges = {"full" if self.span.full else kind: self.span[:2], f"{kind} part": well}
-            for key, ends in ranges.items():
-                low, high = (degrees(v) if kind == "turning" else v for v in ends)
-                said.append(text[key].format(drive=name, low=low, high=high, unit=self.linkage.unit))
-        said.append(text["quality"].format(quality=self.quality))
-        said.append(text["tries"].format(tries=self.tries, seed=self.seed))
-        return " ".join(said)
+                whole = _FULL if self.span.full else texts["range"]
+                ranges = [(whole, self.span[:2]), (texts["well conditioned"], well_conditioned)]
+            for text, ends in ranges:
+                low, high = (degrees(value) if drive.turning else value for value in ends)
+                sentences.append(text.filled(drive=name, low=low, high=high, unit=self.linkage.unit))
+        text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
+        sentences.append(text.filled(quality=self.quality))
+        sentences.append(message("Tried: {tries} drawings (seed {seed}).", tries=self.tries, seed=self.seed))
+        return joined(sentences, " ").in_language(lang)

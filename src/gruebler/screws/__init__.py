@@ -12,7 +12,7 @@ from gruebler.screws.following import follow_joint, joint_value
 from gruebler.screws.instant_mobility import InstantMobility
 from gruebler.screws.joint_geometry import Reason
 from gruebler.screws.joint_places import JointPlace
-from gruebler.screws.mobility_report import Freedoms, freedom_report, freedoms
+from gruebler.screws.mobility_report import Freedoms, freedoms
 from gruebler.screws.model import SpatialLinkage
 from gruebler.screws.motion_groups import MotionGroup, common_group
 from gruebler.screws.rigid_motions import adjoint, exponential, twist_matrix
@@ -31,7 +31,6 @@ __all__ = [
     "common_group",
     "exponential",
     "follow_joint",
-    "freedom_report",
     "freedoms",
     "has_only_lower_pairs",
     "joint_value",

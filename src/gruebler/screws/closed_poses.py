@@ -9,7 +9,6 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages import Line, Linkage, Pin
 from gruebler.screws.closing import Closing, JointFrames
 from gruebler.screws.double_roots import refined_at_double_root
@@ -86,8 +85,7 @@ def _matrix(x: float, y: float, angle: float) -> Reals:
 
 
 def _home(linkage: Linkage) -> Reals:
-    assert linkage.reference_pose is not None
-    places = [linkage.reference_pose[link] for link in linkage.mechanism.chain.links]
+    places = [linkage.required_pose[link] for link in linkage.mechanism.chain.links]
     return np.array([_matrix(p.x / linkage.size, p.y / linkage.size, p.angle) for p in places])
 
 
@@ -125,7 +123,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
 
     motion = move(linkage, [tuple(at)], branch=branch)
     if not len(motion):
-        raise LinkageError("{reason}", reason=stop_message(motion))
+        raise LinkageError("{reason}", reason=motion.reason)
     chain = linkage.mechanism.chain
     rows = []
     for link in chain.links:
@@ -140,9 +138,10 @@ def _check_count(at: Sequence[float], drives: int) -> None:
         raise LinkageError("the linkage has no drive; a pose at a drive value needs one")
     if len(at) != drives:
         raise LinkageError(
-            "expected {drives} drive value{value}, one for each, but found {count}",
+            "expected 1 drive value, but found {count}"
+            if drives == 1
+            else "expected {drives} drive values, one for each, but found {count}",
             drives=drives,
-            value="s" * (drives > 1),
             count=len(at),
         )
 

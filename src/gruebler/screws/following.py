@@ -11,6 +11,7 @@ from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.screws.closing import Closing
 from gruebler.screws.model import SpatialLinkage
+from gruebler.text import joined, message
 
 __all__ = ["follow_from_pose", "follow_joint", "follow_joints", "joint_value"]
 
@@ -49,9 +50,9 @@ def follow_joint(linkage: SpatialLinkage, joint: str | int, values: ArrayLike) -
     number = joint if isinstance(joint, int) else chain.find_joint(joint)
     if number is None or not 0 <= number < len(chain.joints):
         raise LinkageError(
-            "{joint!r} is not one of the joints; they are {joint_names}",
+            "{joint!r} is not one of the joints; they are {joints}",
             joint=joint,
-            joint_names=", ".join(chain.joint_names()),
+            joints=", ".join(chain.joint_names()),
         )
     return follow_from_pose(closing, closing.home, number, np.atleast_1d(np.asarray(values, float)))
 
@@ -67,8 +68,8 @@ def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: 
     for joint in joints:
         if chain.joints[joint].pair.name not in ("revolute", "prismatic") or chain.joints[joint].count > 1:
             raise LinkageError(
-                "{joint_names}: only a revolute or prismatic joint of two links is driven",
-                joint_names=chain.joint_names()[joint],
+                "{joint}: only a revolute or prismatic joint of two links is driven",
+                joint=chain.joint_names()[joint],
             )
     now, out = np.array([joint_value(closing, pose, joint) for joint in joints]), []
     for row in values:
@@ -93,9 +94,11 @@ def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals
         system = np.vstack([by_twist, *(row(pose) for row in drivers)])
         pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=1e-9)[0])
     names = ", ".join(chain.joint_names()[joint] for joint in joints)
-    values = ", ".join(f"{value:.6g}" for value in target)
+    values = joined(message("{value:.6g}", value=float(value)) for value in target)
     raise LinkageError(
-        "{names} {value} not reach {values}", names=names, value="does" if len(joints) == 1 else "do", values=values
+        "{joints} does not reach {values}" if len(joints) == 1 else "{joints} do not reach {values}",
+        joints=names,
+        values=values,
     )
 
 

@@ -21,7 +21,7 @@ class Reason(NamedTuple):
     """Why a linkage moves that should not, or more than it should."""
 
     kind: str
-    """The key of its sentence in `gruebler.screws.messages`."""
+    """The key of its sentence in `gruebler.screws.mobility_report`."""
     links: tuple[str, ...]
     """The links it speaks of, in the order of the sentence."""
     joints: tuple[int, ...] = ()

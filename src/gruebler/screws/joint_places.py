@@ -11,6 +11,7 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Pair, Space
 from gruebler.errors import LinkageError
+from gruebler.text import joined_by_and, joined_by_or
 
 __all__ = ["JointPlace", "Vector", "joint_axes", "read_place"]
 
@@ -101,24 +102,27 @@ def _fitting(place: JointPlace, pair: Pair, space: Space, where: str) -> None:
     enough = needed in present or turned if len(needed) < 2 else len(present) >= 2
     if not enough:
         raise LinkageError(
-            "{where}: a {name} joint needs its {needed} axis", where=where, name=pair.name, needed=" and ".join(needed)
+            "{where}: a {pair} joint needs its {needed} axis",
+            where=where,
+            pair=pair.title,
+            needed=joined_by_and(needed),
         )
     joint_axes(place, space, where)
     if space is Space.SPHERICAL and any(place.at):
         raise LinkageError("{where}: on a sphere every joint is at its centre, the origin", where=where)
     if place.pitch and pair.name != "helical":
-        raise LinkageError("{where}: a {name} joint has no pitch", where=where, name=pair.name)
+        raise LinkageError("{where}: a {pair} joint has no pitch", where=where, pair=pair.title)
     if pair.name not in _ROUND:
         if place.radii is not None or place.pressure is not None:
             raise LinkageError(
-                "{where}: a {name} joint has no radii and no pressure angle", where=where, name=pair.name
+                "{where}: a {pair} joint has no radii and no pressure angle", where=where, pair=pair.title
             )
         return
     if place.radii is None:
         raise LinkageError(
-            "{where}: a {name} joint needs the two radii of its contact, inf for a flat one",
+            "{where}: a {pair} joint needs the two radii of its contact, inf for a flat one",
             where=where,
-            name=pair.name,
+            pair=pair.title,
         )
     _check_contact(place, pair, space, where)
 
@@ -177,10 +181,12 @@ def joint_axes(place: JointPlace, space: Space, where: str = "joint") -> Reals:
 
 
 def _numbers(raw: object, where: str, counts: tuple[int, ...]) -> tuple[float, ...]:
-    wanted = " or ".join(map(str, counts))
     if isinstance(raw, str) or not isinstance(raw, Sequence | np.ndarray) or len(raw) not in counts:
         raise LinkageError(
-            "{where}: expected {wanted} numbers, but found {raw!r}", where=where, wanted=wanted, raw=str(raw)[:40]
+            "{where}: expected {counts} numbers, but found {found!r}",
+            where=where,
+            counts=joined_by_or(counts),
+            found=str(raw)[:40],
         )
     return tuple(_number(value, where) for value in raw)
 
@@ -189,7 +195,7 @@ def _number(value: object, where: str, greatest: float = 1e100) -> float:
     fits = isinstance(value, int | float | np.number) and not isinstance(value, bool)
     if not fits or not abs(float(value)) <= greatest:  # type: ignore[arg-type]
         raise LinkageError(
-            "{where}: expected a number below 1e100, but found {value!r}", where=where, value=str(value)[:40]
+            "{where}: expected a number below 1e100, but found {found!r}", where=where, found=str(value)[:40]
         )
     return float(value)  # type: ignore[arg-type]
 
@@ -215,6 +221,6 @@ def _radii(raw: object, where: str) -> tuple[float, float] | None:
     if raw is None:
         return None
     if isinstance(raw, str) or not isinstance(raw, Sequence | np.ndarray) or len(raw) != 2:
-        raise LinkageError("{where}: expected two numbers, but found {raw!r}", where=where, raw=str(raw)[:40])
+        raise LinkageError("{where}: expected two numbers, but found {found!r}", where=where, found=str(raw)[:40])
     first, second = (_number(value, where, inf) for value in raw)
     return first, second

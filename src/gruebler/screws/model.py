@@ -53,12 +53,11 @@ class SpatialLinkage:
         for key, value in given.items():
             number = key if isinstance(key, int) else chain.find_joint(key)
             if number is None or not 0 <= number < len(names):
-                hint = nearest(str(key), names)
                 raise LinkageError(
-                    "{key!r} is not one of the joints{hint}; they are {names}",
+                    "{key!r} is not one of the joints{suggestion}; they are {joints}",
                     key=key,
-                    hint=hint,
-                    names=", ".join(names),
+                    suggestion=nearest(str(key), names),
+                    joints=", ".join(names),
                 )
             raw[number] = value
         for number, name in enumerate(names):

@@ -16,6 +16,7 @@ from gruebler.errors import LinkageError
 from gruebler.sheets import interval_arithmetic, surds
 from gruebler.sheets.interval_arithmetic import Bracket, PrecisionTooLowError
 from gruebler.sheets.surds import Surd
+from gruebler.text import Message, message
 
 __all__ = ["Expression"]
 
@@ -98,9 +99,9 @@ class Expression:
         return mine[0] - others[1] <= 1 << 3096 and others[0] - mine[1] <= 1 << 3096
 
 
-def _wrong(text: str, at: int, what: str) -> LinkageError:
+def _wrong(text: str, at: int, problem: Message) -> LinkageError:
     shown = text if len(text) <= 60 else f"{text[:57]}..."
-    return LinkageError("{shown!r}, column {at}: {what}", shown=shown, at=at, what=what)
+    return LinkageError("{expression!r}, column {column}: {problem}", expression=shown, column=at, problem=problem)
 
 
 # --- values -----------------------------------------------------------------------------------------
@@ -113,7 +114,7 @@ def _nearest(text: str, steps: tuple[_Step, ...]) -> float:
             low, high = (Fraction(end, 1 << p) for end in _bracketed(text, steps, p))
         except PrecisionTooLowError as stop:
             if p == _PRECISIONS[-1]:
-                raise _wrong(text, stop.at, "a division by zero") from None
+                raise _wrong(text, stop.at, message("a division by zero")) from None
             continue
         if float(low) == float(high):
             return float(low) + 0.0  # no minus zero
@@ -129,9 +130,9 @@ def _bracketed(text: str, steps: tuple[_Step, ...], p: int) -> Bracket:
         except PrecisionTooLowError:
             raise PrecisionTooLowError(step.at) from None
         if made is None:
-            raise _wrong(text, step.at, "the root of a negative number")
+            raise _wrong(text, step.at, message("the root of a negative number"))
         if max(abs(made[0]), abs(made[1])) >> p + _RANGE:
-            raise _wrong(text, step.at, f"a number beyond 2^{_RANGE}")
+            raise _wrong(text, step.at, message("a number beyond 2^{power}", power=_RANGE))
         stack.append(made)
     return stack[0]
 
@@ -198,7 +199,7 @@ class _Reader:
     def whole(self) -> Iterator[_Step]:
         yield from self.sum()
         if self.tokens[0][0]:
-            raise self.unexpected("a sign of calculation")
+            raise self.unexpected(message("a sign of calculation"))
 
     def sum(self) -> Iterator[_Step]:
         yield from self.products("+-", lambda: self.products("*/", self.signed))
@@ -235,7 +236,8 @@ class _Reader:
         exact = _exactly(steps)
         number = None if exact is None or not set(exact) <= {1} else exact.get(1, Fraction(0))
         if number is None or number.denominator != 1 or abs(number) > _MOST_TIMES:
-            raise _wrong(self.text, at, f"an exponent is a whole number from -{_MOST_TIMES} to {_MOST_TIMES}")
+            problem = message("an exponent is a whole number from -{limit} to {limit}", limit=_MOST_TIMES)
+            raise _wrong(self.text, at, problem)
         return number
 
     def atom(self) -> Iterator[_Step]:
@@ -249,7 +251,7 @@ class _Reader:
         elif token in ("sqrt", "√"):
             self.deeper()
             if token == "sqrt" and self.tokens[0][0] != "(":
-                raise self.unexpected("a parenthesis")
+                raise self.unexpected(message("a parenthesis"))
             yield from self.atom()
             self.depth -= 1
             yield _Step("sqrt", at)
@@ -257,13 +259,13 @@ class _Reader:
             self.deeper()
             yield from self.sum()
             if self.tokens[0][0] != ")":
-                raise self.unexpected("a closing parenthesis")
+                raise self.unexpected(message("a closing parenthesis"))
             self.taken()
             self.depth -= 1
         elif token.isidentifier():
-            raise _wrong(self.text, at, f"unknown name {token[:20]!r}; known are sqrt and pi")
+            raise _wrong(self.text, at, message("unknown name {name!r}; known are sqrt and pi", name=token[:20]))
         else:
-            raise self.unexpected("a number")
+            raise self.unexpected(message("a number"))
 
     def taken(self) -> int:
         """Go on to the next token; the column of the one left behind."""
@@ -272,10 +274,16 @@ class _Reader:
     def deeper(self) -> int:
         self.depth += 1
         if self.depth > _DEEPEST:
-            raise _wrong(self.text, self.tokens[0][1], f"more than {_DEEPEST} levels within one another")
+            problem = message("more than {limit} levels within one another", limit=_DEEPEST)
+            raise _wrong(self.text, self.tokens[0][1], problem)
         return self.taken()
 
-    def unexpected(self, wanted: str) -> LinkageError:
+    def unexpected(self, wanted: Message) -> LinkageError:
         token, at = self.tokens[0]
-        hint = "; powers are written **" if token == "^" else ""
-        return _wrong(self.text, at, f"expected {wanted}, but found {repr(token[:20]) if token else 'the end'}{hint}")
+        if token == "^":
+            problem = message("expected {wanted}, but found '^'; powers are written **", wanted=wanted)
+        elif token:
+            problem = message("expected {wanted}, but found {found!r}", wanted=wanted, found=token[:20])
+        else:
+            problem = message("expected {wanted}, but found the end", wanted=wanted)
+        return _wrong(self.text, at, problem)

@@ -10,16 +10,16 @@ from gruebler.drawing.canvas.shapes import text_width
 from gruebler.drawing.structure import draw
 from gruebler.errors import CatalogError
 from gruebler.sheets.messages import (
-    LocalNumber,
     example_lines,
     explanation_paragraphs,
-    messages,
+    typeset_number,
     value_lines,
     with_subscripts,
 )
 from gruebler.sheets.model import Sheet, StatedValue
 from gruebler.sheets.page import HEIGHT, WIDTH, HorizontalRule, Page, PlacedPicture, TextLine
 from gruebler.sheets.picture import scale_picture
+from gruebler.text import translate
 
 __all__ = ["page"]
 
@@ -39,16 +39,17 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
     >>> page(sheet("mzc")).title
     'Crank-rocker as a replacement for a Meyer zur Capellen linkage'
     """
-    for told in sheet.wrong:
+    for wrong in sheet.wrong:
         raise CatalogError(
-            "sheet {id}: {symbol} is {derived:.9g}, not what the record tells of it",
-            id=sheet.id,
-            symbol=told.symbol,
-            derived=told.derived,
+            "sheet {sheet}: {symbol} is {derived:.9g}, not what the record says of it",
+            sheet=sheet.id,
+            symbol=wrong.symbol,
+            derived=wrong.derived,
         )
-    words, items = messages(lang), list[Item]()
-    items.append(TextLine(_LEFT, 50, words["collection"], 10, role="faint"))
-    items.append(TextLine(_RIGHT, 50, words["sheet"].format(id=sheet.id), 10, role="faint", anchor="end"))
+    items: list[Item] = [
+        TextLine(_LEFT, 50, translate("Collection of mechanisms", lang), 10, role="faint"),
+        TextLine(_RIGHT, 50, translate("Sheet {id}", lang, id=sheet.id), 10, role="faint", anchor="end"),
+    ]
     items.append(HorizontalRule(_LEFT, 57, _RIGHT - _LEFT, 1.2))
     y = 82.0
     for line in _wrapped(sheet.record.title.in_language(lang), _RIGHT - _LEFT, 18 * 1.06):
@@ -59,7 +60,8 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
         y += _LEAD
     y = _pictures(items, sheet, y, lang) + 22
     left = _features(items, sheet, y, lang)
-    y = max(left, _paragraphs(items, words["explanation"], explanation_paragraphs(sheet, lang), _MIDDLE, y)) + 14
+    explained = translate("Explanation", lang)
+    y = max(left, _paragraphs(items, explained, explanation_paragraphs(sheet, lang), _MIDDLE, y)) + 14
     _straightness(items, sheet, y, lang)
     _footer(items, sheet, lang)
     about = " ".join(f"{label}: {value}." for label, value in sheet.features.described(lang))
@@ -71,31 +73,37 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
 
 def _pictures(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """The linkage to scale and its structure, with captions; the y below them."""
-    words, high = messages(lang), 288.0
+    high = 288.0
     links = sheet.entry.links if lang == "de" else {link: link for link in sheet.entry.links}
-    names = {link: name.partition(" mit ")[0] for link, name in links.items()}
+    names = {link: name.partition(f" {translate('with', lang)} ")[0] for link, name in links.items()}
     structure = draw(sheet.linkage.mechanism, labels=True, lang=lang, names=names)
     _fitted(items, scale_picture(sheet, lang), _LEFT, y, 400, high)
     _fitted(items, structure, 480, y + 20, _RIGHT - 480, high - 60)
-    pose = f"{LocalNumber(sheet.record.picture.pose, lang):g}°"
-    key = "scale" if sheet.record.picture.axis_through else "scale_plain"
-    items.append(TextLine(_LEFT, y + high + 14, words[key].format(pose=pose), 10, role="faint"))
+    pose = f"{typeset_number(sheet.record.picture.pose, lang)}°"
+    to_scale = translate(
+        "To scale at φ = {pose}, coupler curve, tangent g, axis of symmetry"
+        if sheet.record.picture.axis_through
+        else "To scale at φ = {pose}, coupler curve, straight line g",
+        lang,
+        pose=pose,
+    )
+    items.append(TextLine(_LEFT, y + high + 14, to_scale, 10, role="faint"))
     output = ", ".join(names[link] for link in sheet.entry.outputs)
-    caption = words["structure"].format(drive=words["driven"], output=output)
+    caption = translate("Structure, driven joint: arrow, output: {output}", lang, output=output)
     items.append(TextLine(_RIGHT, y + high + 14, caption, 10, role="faint", anchor="end"))
     return y + high + 14
 
 
 def _features(items: list[Item], sheet: Sheet, y: float, lang: str) -> float:
     """Access features and dimensions, in the left column; the y below them."""
-    words = messages(lang)
-    y = _heading(items, words["features"], _LEFT, y, _MIDDLE - _GAP)
+    y = _heading(items, translate("Access features", lang), _LEFT, y, _MIDDLE - _GAP)
     for label, value in sheet.features.described(lang):
         items += [TextLine(_LEFT, y, label, _BODY), TextLine(_LEFT + 110, y, value, _BODY)]
         y += _LEAD
-    y = _heading(items, words["dimensions"].format(unit=sheet.dimensions[0].symbol), _LEFT, y + 10, _MIDDLE - _GAP)
-    for told in sheet.dimensions:
-        items += _dimension(told, y, lang)
+    heading = translate("Dimensions (unit of length {unit})", lang, unit=sheet.dimensions[0].symbol)
+    y = _heading(items, heading, _LEFT, y + 10, _MIDDLE - _GAP)
+    for length in sheet.dimensions:
+        items += _dimension(length, y, lang)
         y += _LEAD
     return y
 
@@ -105,24 +113,27 @@ def _dimension(value: StatedValue, y: float, lang: str) -> Iterable[Item]:
     yield TextLine(_LEFT + 28, y, with_subscripts("".join(value.of)), _BODY, role="faint")
     if value.exact is not None:
         yield TextLine(_LEFT + 110, y, value.exact.typeset, _BODY)
-    yield TextLine(_MIDDLE - _GAP, y, f"{LocalNumber(value.derived, lang):.6f}", _BODY, anchor="end")
+    yield TextLine(_MIDDLE - _GAP, y, typeset_number(value.derived, lang, ".6f"), _BODY, anchor="end")
 
 
 def _straightness(items: list[Item], sheet: Sheet, y: float, lang: str) -> None:
     """The diagram, and beside it the example and the values."""
-    words, guide, sized_mechanism = messages(lang), sheet.record.guide, sheet.example
+    guide, example = sheet.record.guide, sheet.example
     left, right = _MIDDLE + 38, _MIDDLE + 38 - _GAP
-    below = _heading(items, words["diagram"], _LEFT, y, right)
-    centre = f"{LocalNumber(guide.centre, lang):g}°"
-    items.append(TextLine(_LEFT, below, words["ratio"].format(centre=centre), 10, role="faint"))
+    below = _heading(items, translate("Relative deviation from the line", lang), _LEFT, y, right)
+    centre = f"{typeset_number(guide.centre, lang)}°"
+    windows = translate("Q_G = Δy/L for windows φ_G about φ = {centre}", lang, centre=centre)
+    items.append(TextLine(_LEFT, below, windows, 10, role="faint"))
     _fitted(items, _diagram(sheet, lang), _LEFT, below + 6, right - _LEFT, HEIGHT - 88 - below)
-    said = {
-        "length": LocalNumber(sized_mechanism.length, lang),
-        "tolerance": LocalNumber(sized_mechanism.tolerance, lang),
-        "unit": guide.unit,
-    }
-    y = _paragraphs(items, words["example"].format(**said), example_lines(sheet, lang), left, y, apart=0)
-    _paragraphs(items, words["values"], value_lines(sheet, lang), left, y + 14, apart=0)
+    heading = translate(
+        "Example: L = {length:g} {unit} within {tolerance:g} {unit}",
+        lang,
+        length=example.length,
+        tolerance=example.tolerance,
+        unit=guide.unit,
+    )
+    y = _paragraphs(items, heading, example_lines(sheet, lang), left, y, apart=0)
+    _paragraphs(items, translate("Values", lang), value_lines(sheet, lang), left, y + 14, apart=0)
 
 
 def _diagram(sheet: Sheet, lang: str) -> Figure:
@@ -140,9 +151,12 @@ def _diagram(sheet: Sheet, lang: str) -> Figure:
 
 
 def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
-    words = messages(lang)
     lines = [f"[{k}] {text}" for k, text in enumerate(sheet.record.literature, 1)]
-    lines.append(words["source"].format(source=sheet.record.source.in_language(lang)))
+    lines.append(
+        translate(
+            "Structure, lengths and values derived from the model; source {source}.", lang, source=sheet.record.source
+        )
+    )
     y = HEIGHT - 42 - 12 * (len(lines) - 1)
     items.append(HorizontalRule(_LEFT, y - 13, _RIGHT - _LEFT))
     for line in lines:

@@ -25,17 +25,17 @@ from gruebler.linkages import Linkage
 from gruebler.notebook import Brief
 from gruebler.sheets.expressions import Expression
 from gruebler.sheets.records import CognateLength, Quantity, RockerValue, SheetRecord
-from gruebler.text import Text
+from gruebler.text import Readable, Text, message
 
 __all__ = ["Sheet", "SizedMechanism", "StatedValue"]
 
 _CLOSE = 1e-9  # relative: derived and exact value
 
 _EXAMPLE = {
-    "phi_G": Text("example: crank angle over the straight line", "Beispiel: Kurbelwinkel über der Geradführung"),
-    "phi_A": Text("example: where it begins", "Beispiel: deren Anfang"),
-    "ratio": Text("example: length by the unit of the sheet", "Beispiel: bezogene Länge"),
-    "scale": Text("example: unit of the sheet", "Beispiel: Längeneinheit"),
+    "phi_G": message("example: crank angle over the straight line"),
+    "phi_A": message("example: where it begins"),
+    "ratio": message("example: length by the unit of the sheet"),
+    "scale": message("example: unit of the sheet"),
 }
 
 
@@ -52,7 +52,7 @@ class StatedValue:
     derived: float
     exact: Expression | None
     printed: Expression | None
-    name: Text | None = None
+    name: Readable | None = None
     reason: Text | None = None
     """Why what is printed is not so."""
     remark: Text | None = None

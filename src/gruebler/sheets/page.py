@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.canvas.styles import COLOURS
-from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number
+from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_words
 
 __all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "suffix_of"]
 
@@ -113,8 +113,9 @@ class Page:
 
 def _words_svg(item: TextLine) -> str:
     style = f'font-size="{item.size:g}" fill="{COLOURS[item.role][0]}"' + ' font-weight="bold"' * item.bold
+    words = svg_words(item.text, item.size)
     anchor = "" if item.anchor == "start" else f' text-anchor="{item.anchor}"'
-    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{escape(item.text)}</text>'
+    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{words}</text>'
 
 
 def _rule_svg(item: HorizontalRule) -> str:
@@ -135,16 +136,19 @@ _SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, Placed
 
 
 def _paint_words(canvas: Any, item: TextLine) -> None:
+    from gruebler.drawing.canvas.matplotlib_files import math_words
+
+    words, has_subscripts = math_words(item.text)
     canvas.text(
         item.x / WIDTH,
         1 - item.y / HEIGHT,
-        item.text,
+        words,
         fontsize=item.size * _POINTS,
         fontweight="bold" if item.bold else "normal",
         color=COLOURS[item.role][0],
         ha={"start": "left", "middle": "center", "end": "right"}[item.anchor],
         va="baseline",
-        parse_math=False,
+        parse_math=has_subscripts,
     )
 
 

@@ -13,7 +13,7 @@ from gruebler.catalog import entry
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError, GrueblerError
 from gruebler.sheets.expressions import Expression
-from gruebler.text import Text
+from gruebler.text import Message, Text, message
 
 __all__ = ["CognateLength", "Dimension", "Guide", "Picture", "Quantity", "RockerValue", "SheetRecord", "read_sheet"]
 
@@ -129,8 +129,8 @@ _WAYS = ("angle", "cosine", "distance", "contact_at", "cognate", "rocker")
 def read_sheet(path: Path) -> SheetRecord:
     """The sheet in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
 
-    def fail(message: str) -> CatalogError:
-        return CatalogError("{path}: {message}", path=path, message=message)
+    def fail(problem: Message) -> CatalogError:
+        return CatalogError("{path}: {problem}", path=path, problem=problem)
 
     record = convert_document(load_document(path, fail), SheetRecord, fail)
     for wrong in _faults(record):
@@ -138,7 +138,7 @@ def read_sheet(path: Path) -> SheetRecord:
     return record
 
 
-def _faults(record: SheetRecord) -> Iterator[str]:
+def _faults(record: SheetRecord) -> Iterator[Message]:
     """What the shape of a record cannot say."""
     named: list[tuple[str, tuple[str, ...]]] = [
         ("scale", record.scale),
@@ -149,39 +149,50 @@ def _faults(record: SheetRecord) -> Iterator[str]:
     for quantity in record.quantities:
         ways = [way for way in _WAYS if getattr(quantity, way) is not None]
         if len(ways) != 1:
-            yield f"quantities {quantity.id}: expected one of {', '.join(_WAYS)}, but found {len(ways)}"
+            yield message(
+                "quantities {quantity}: expected one of {known}, but found {count}",
+                quantity=quantity.id,
+                known=", ".join(_WAYS),
+                count=len(ways),
+            )
         if ways[0] in ("angle", "cosine", "distance"):
             named.append((f"quantities {quantity.id}", getattr(quantity, ways[0])))
     named.append(("point", (record.point,)))
     for where, names in named:
         for name in names:
             if name not in record.names:
-                yield f"{where}: {name!r} is none of the names {', '.join(record.names)}"
+                yield message(
+                    "{where}: {name!r} is none of the names {known}",
+                    where=where,
+                    name=name,
+                    known=", ".join(record.names),
+                )
         if len(set(names)) < len(names):
-            yield f"{where}: expected different names, but found {', '.join(names)}"
+            yield message("{where}: expected different names, but found {names}", where=where, names=", ".join(names))
     ids = [quantity.id for quantity in record.quantities]
-    yield from (f"quantities {id}: this id is given twice" for id in ids if ids.count(id) > 1)
+    yield from (message("quantities {id}: this id is given twice", id=id) for id in ids if ids.count(id) > 1)
     yield from _wrong_numbers(record)
     yield from _wrong_places(record)
     for where, text in _expressions(record):
         try:
             Expression(text)
         except GrueblerError as error:
-            yield f"{where}: {error}"
+            yield message("{where}: {error}", where=where, error=error)
     for key in record.guide.printed:
         if key not in _PRINTED:
-            yield f"guide.printed: {key!r} is none of {', '.join(_PRINTED)}"
+            yield message("guide.printed: {key!r} is none of {known}", key=key, known=", ".join(_PRINTED))
     yield from _wrong_words(record)
 
 
-def _wrong_numbers(record: SheetRecord) -> Iterator[str]:
+def _wrong_numbers(record: SheetRecord) -> Iterator[Message]:
     """Lengths are positive, drive values some turns at most, and those of the guide in order."""
     guide, picture = record.guide, record.picture
     if not guide.start < guide.centre < guide.end <= guide.start + 360:
-        yield "guide: expected start < centre < end, at most a turn apart"
+        yield message("guide: expected start < centre < end, at most a turn apart")
     for key in ("length", "tolerance"):
-        if not 0 < getattr(guide, key) < _LONGEST:
-            yield f"guide.{key}: expected a positive length, but found {getattr(guide, key)!r}"
+        length = getattr(guide, key)
+        if not 0 < length < _LONGEST:
+            yield message("guide.{key}: expected a positive length, but found {length!r}", key=key, length=length)
     angles = [(f"guide.{key}", getattr(guide, key)) for key in ("centre", "start", "end")]
     angles += [("picture.pose", picture.pose), *((f"picture.marks.{k}", at) for k, at in picture.marks.items())]
     for quantity in record.quantities:
@@ -189,15 +200,20 @@ def _wrong_numbers(record: SheetRecord) -> Iterator[str]:
         angles += [(f"quantities {quantity.id}: {key}", getattr(quantity, key) or 0.0) for key in keys]
     for where, angle in angles:
         if not abs(angle) <= _TURNS:
-            yield f"{where}: expected a drive value from -{_TURNS:g} to {_TURNS:g} degrees, but found {angle!r}"
+            yield message(
+                "{where}: expected a drive value from -{limit:g} to {limit:g} degrees, but found {angle!r}",
+                where=where,
+                limit=_TURNS,
+                angle=angle,
+            )
 
 
-def _wrong_places(record: SheetRecord) -> Iterator[str]:
+def _wrong_places(record: SheetRecord) -> Iterator[Message]:
     """Names stand for points of the machine, dimensions for lengths on one link, the axis goes through the frame."""
     try:
         machine = entry(record.machine).linkage()
     except GrueblerError as error:
-        yield f"machine: {error}"
+        yield message("machine: {error}", error=error)
         return
     chain = machine.mechanism.chain
     joints = dict(zip(chain.joint_names(), chain.joints, strict=True))
@@ -208,17 +224,24 @@ def _wrong_places(record: SheetRecord) -> Iterator[str]:
         elif stands in joints:
             links[name] = set(joints[stands].links)
         else:
-            yield f"names.{name}: {stands!r} is none of {', '.join([*joints, *machine.points])} of {record.machine}"
+            yield message(
+                "names.{name}: {place!r} is none of {known} of {machine}",
+                name=name,
+                place=stands,
+                known=", ".join([*joints, *machine.points]),
+                machine=record.machine,
+            )
             return
     for where, (first, second) in [
         ("scale", record.scale),
         *((f"dimensions {d.symbol}", d.of) for d in record.dimensions),
     ]:
         if not links[first] & links[second]:
-            yield f"{where}: {first} and {second} are on no common link"
+            apart = message("{where}: {first} and {second} are on no common link")
+            yield apart.filled(where=where, first=first, second=second)
     axis = record.picture.axis_through
     if axis is not None and machine.mechanism.frame not in links[axis]:
-        yield f"picture.axis_through: {axis} is no joint of the frame"
+        yield message("picture.axis_through: {joint} is no joint of the frame", joint=axis)
 
 
 def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
@@ -234,11 +257,15 @@ def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
         yield "guide.printed", text
 
 
-def _wrong_words(record: SheetRecord) -> Iterator[str]:
+def _wrong_words(record: SheetRecord) -> Iterator[Message]:
     """Places in the explanation are those of quantities, with a number of digits."""
     known = [quantity.id for quantity in record.quantities]
     for text in (said for both in record.explanation for said in (both.en, both.de)):
         for place in re.findall(r"\{[^}]*\}?|\}", text):
             form = re.fullmatch(r"\{(\w+)(?::\.\df)?\}", place)
             if form is None or form[1] not in known:
-                yield f"explanation: {place!r} is no place such as {{id:.3f}} with one of {', '.join(known)}"
+                yield message(
+                    "explanation: {place!r} is no place such as {{id:.3f}} with one of {known}",
+                    place=place,
+                    known=", ".join(known),
+                )

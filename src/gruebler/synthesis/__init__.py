@@ -13,6 +13,7 @@ from gruebler.synthesis.paths import synthesise_path
 from gruebler.synthesis.positions import synthesise_positions
 from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult
 from gruebler.synthesis.structures import pareto, synthesise_structures
+from gruebler.synthesis.synthesise import synthesise
 from gruebler.synthesis.task_files import read_task, task_from_json, task_to_json, write_task
 from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
 
@@ -33,6 +34,7 @@ __all__ = [
     "pareto",
     "read_task",
     "structural_error",
+    "synthesise",
     "synthesise_dead_centres",
     "synthesise_function",
     "synthesise_path",

@@ -9,6 +9,7 @@ from __future__ import annotations
 from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
 from gruebler.errors import ChainError, TransformationError
+from gruebler.text import message
 from gruebler.transformations.places import (
     ChainBuilder,
     check_counting,
@@ -37,7 +38,7 @@ def replace_roll_slide(chain: Chain, joint: int, pairs: str = "RR", link: str | 
     R(frame-cam) R(cam-contact) P(contact-valve) P(valve-frame)
     """
     check_counting(chain)
-    one, other = pairs_from_letters(pairs, 2, "contact")
+    one, other = pairs_from_letters(pairs, 2, message("pair of joints"))
     word = letters_of_pairs((one, other))
     if word not in _EQUIVALENTS:
         raise TransformationError("a roll-slide joint is replaced by RR, RP or PR, not by {pairs!r}", pairs=pairs)

@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import NotationError, TransformationError
+from gruebler.text import translate
 from gruebler.transformations.contacts import replace_roll_slide, restore_roll_slide
 from gruebler.transformations.contraction import contract, expand
 from gruebler.transformations.dyads import insert_coupler, insert_dyad, remove_coupler, remove_dyad
@@ -73,11 +75,11 @@ class Derivation:
         for number, step in enumerate(self.steps, 1):
             if step.before != before:
                 raise TransformationError(
-                    "step {number} starts from {before}, but step {number_2} leaves {before_2}",
+                    "step {number} starts from {chain}, but step {previous} leaves {result}",
                     number=number,
-                    before=step.before,
-                    number_2=number - 1,
-                    before_2=before,
+                    chain=step.before,
+                    previous=number - 1,
+                    result=before,
                 )
             before = step.chain
 
@@ -137,6 +139,9 @@ class Derivation:
 
     def explain(self, lang: str = "en") -> str:
         """A line for the start and for each step, in English (``en``) or German (``de``)."""
-        from gruebler.transformations.messages import explain_derivation
-
-        return explain_derivation(self, lang)
+        alphabet = Alphabet.of_language(lang)
+        lines = [translate("Start: {chain}.", lang, chain=self.start.text(alphabet))]
+        lines += [f"{number}. {step.explain(lang)}" for number, step in enumerate(self.steps, 1)]
+        if self.steps:
+            lines.append(translate("The chain: {chain}.", lang, chain=self.chain.text(alphabet)))
+        return "\n".join(lines)

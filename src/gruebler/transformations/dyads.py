@@ -12,6 +12,7 @@ from typing import NamedTuple
 from gruebler.assur import DYADS
 from gruebler.chain import Chain
 from gruebler.errors import TransformationError
+from gruebler.text import Message, joined, joined_by_and, message
 from gruebler.transformations.places import (
     Attachment,
     ChainBuilder,
@@ -53,12 +54,12 @@ def insert_dyad(chain: Chain, form: str, between: Sequence[Attachment], links: S
     R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)
     """
     check_counting(chain)
-    first, middle, last = pairs_from_letters(form, 3, "dyad")
+    first, middle, last = pairs_from_letters(form, 3, message("dyad"))
     word = letters_of_pairs((first, middle, last))
     if word not in DYADS and word not in {dyad[::-1] for dyad in DYADS}:
         raise TransformationError("{form!r} is no dyad; the forms are {dyads}", form=form, dyads=", ".join(DYADS))
     one, other = _two(between)
-    check_not_on_one_link(chain, [one, other], "dyad")
+    check_not_on_one_link(chain, [one, other], message("dyad"))
     x, y = new_link_names(chain, 2, links)
     builder = ChainBuilder(chain)
     builder.attach(one, first, [x])
@@ -93,9 +94,9 @@ def insert_coupler(chain: Chain, between: Sequence[Attachment], pairs: str = "RR
     R(0-1) R(1-2) R(2-3) R(3-4) R(4-0) R(1-5) R(5-4)
     """
     check_counting(chain)
-    first, last = pairs_from_letters(pairs, 2, "coupler")
+    first, last = pairs_from_letters(pairs, 2, message("coupler"))
     one, other = _two(between)
-    check_not_on_one_link(chain, [one, other], "coupler")
+    check_not_on_one_link(chain, [one, other], message("coupler"))
     (x,) = new_link_names(chain, 1, None if link is None else [link])
     builder = ChainBuilder(chain)
     builder.attach(one, first, [x])
@@ -129,7 +130,7 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
     (last,) = (k for k in joints[y] if k not in middle)
     letters = letters_of_pairs(chain.joints[k].pair for k in (first, middle[0], last))
     if letters not in DYADS and (letters or "")[::-1] not in DYADS:
-        kinds = ", ".join(chain.joints[k].pair.name for k in (first, middle[0], last))
+        kinds = joined(chain.joints[k].pair.title for k in (first, middle[0], last))
         raise TransformationError(
             "{x} and {y} are no dyad: its forms are {dyads}, these joints are {kinds}",
             x=x,
@@ -137,7 +138,7 @@ def dyad_at(chain: Chain, links: Sequence[str]) -> Insertion:
             dyads=", ".join(DYADS),
             kinds=kinds,
         )
-    return _insertion(chain, letters or "", (x, y), (first, last), "dyad")
+    return _insertion(chain, letters or "", (x, y), (first, last))
 
 
 def coupler_at(chain: Chain, link: str) -> Insertion:
@@ -146,23 +147,23 @@ def coupler_at(chain: Chain, link: str) -> Insertion:
     first, last = _two_joints(chain, link, "coupler")
     letters = letters_of_pairs(chain.joints[k].pair for k in (first, last))
     if letters is None:
-        kinds = " and ".join(chain.joints[k].pair.name for k in (first, last))
+        kinds = joined_by_and([chain.joints[k].pair.title for k in (first, last)])
         raise TransformationError(
             "{link} is no coupler: its joints must have one freedom each, and they are {kinds}", link=link, kinds=kinds
         )
-    return _insertion(chain, letters, (link,), (first, last), "coupler")
+    return _insertion(chain, letters, (link,), (first, last))
 
 
-def _insertion(chain: Chain, letters: str, links: tuple[str, ...], ends: tuple[int, int], thing: str) -> Insertion:
+def _insertion(chain: Chain, letters: str, links: tuple[str, ...], ends: tuple[int, int]) -> Insertion:
     spread_links = [[a for a in chain.joints[k].links if a not in links] for k in ends]
     both = next((a for a in spread_links[0] if a in spread_links[1]), None)
     if both is not None:
         raise TransformationError(
-            "{links} {value} no {thing} between different links: both ends are on {both!r}",
-            links=" and ".join(links),
-            value="is" if len(links) == 1 else "are",
-            thing=thing,
-            both=both,
+            "{links} is no coupler between different links: both ends are on {shared!r}"
+            if len(links) == 1
+            else "{links} are no dyad between different links: both ends are on {shared!r}",
+            links=joined_by_and(links),
+            shared=both,
         )
     rest, number = without_links(chain, links)
     places: list[Attachment] = [
@@ -176,16 +177,17 @@ def _two_joints(chain: Chain, link: str, thing: str) -> tuple[int, int]:
     mine = [k for k, joint in enumerate(chain.joints) if link in joint.links]
     if len(mine) != 2:
         raise TransformationError(
-            "{link} cannot belong to a {thing}: it carries {joints}, not two",
+            "{link} cannot be a coupler: it carries {joints}, not two"
+            if thing == "coupler"
+            else "{link} cannot belong to a dyad: it carries {joints}, not two",
             link=link,
-            thing=thing,
             joints=_joints(len(mine)),
         )
     return mine[0], mine[1]
 
 
-def _joints(number: int) -> str:
-    return "one joint" if number == 1 else f"{number} joints"
+def _joints(count: int) -> Message:
+    return message("one joint") if count == 1 else message("{count} joints", count=count)
 
 
 def _two(between: Sequence[Attachment]) -> tuple[Attachment, Attachment]:

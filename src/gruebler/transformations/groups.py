@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from gruebler.assur import AssurGroup
 from gruebler.chain import Chain
 from gruebler.errors import ChainError, TransformationError
+from gruebler.text import message
 from gruebler.transformations.places import (
     Attachment,
     ChainBuilder,
@@ -41,9 +42,9 @@ def insert_group(
         group = AssurGroup.parse(group)
     if len(at) != len(group.places):
         raise TransformationError(
-            "the group has {count} places outside; {count_2} were given", count=len(group.places), count_2=len(at)
+            "the group has {count} places outside; {given} were given", count=len(group.places), given=len(at)
         )
-    check_not_on_one_link(chain, at, "group")
+    check_not_on_one_link(chain, at, message("group"))
     names = new_link_names(chain, len(group.links), links)
     new = dict(zip(group.links, names, strict=True))
     outside = dict(zip(group.places, at, strict=True))

@@ -11,8 +11,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.errors import TransformationError
+from gruebler.isomorphism import code
 from gruebler.mobility import counted, generic
+from gruebler.text import message, plural, translate
 from gruebler.transformations.derivations import Derivation
 from gruebler.transformations.dyads import Insertion, dyad_at
 from gruebler.transformations.places import Attachment
@@ -34,7 +37,7 @@ class Growth:
 
     @property
     def core(self) -> Chain:
-        """The loop, or what is left when no dyad can be taken away."""
+        """The loop, or what is left when no dyad can be removed."""
         return self.derivation.start
 
     @property
@@ -44,9 +47,44 @@ class Growth:
 
     def explain(self, lang: str = "en") -> str:
         """In words, in English (``en``) or German (``de``)."""
-        from gruebler.transformations.messages import explain_growth
-
-        return explain_growth(self, lang)
+        core, steps = self.core, len(self.derivation.steps)
+        text, links = core.text(Alphabet.of_language(lang)), ", ".join(core.links)
+        if self.from_loop and not steps:
+            return translate("The chain is one closed loop of {links} links.", lang, links=core.n)
+        if self.from_loop:
+            lines = [
+                plural(
+                    "The chain grows from the closed loop of {links} links {loop} by one dyad.",
+                    "The chain grows from the closed loop of {links} links {loop} by {count} dyads.",
+                    steps,
+                    lang,
+                    links=core.n,
+                    loop=text,
+                )
+            ]
+        else:
+            if steps:
+                verdict = message(
+                    "The chain does not grow from a closed loop by dyads: {core} is left ({n} links: {links}; "
+                    "F = {F}), in which no dyad can be removed."
+                )
+            else:
+                verdict = message(
+                    "The chain does not grow by dyads: none can be removed from it ({n} links: {links}; F = {F})."
+                )
+            lines = [verdict.filled(core=text, n=core.n, links=links, F=counted(core)).in_language(lang)]
+            lines.append(translate("Code of the core: {code}", lang, code=code(core)))
+            if steps:
+                lines.append(
+                    plural("From there it grows by one dyad.", "From there it grows by {count} dyads.", steps, lang)
+                )
+            if not self.exact:
+                lines.append(
+                    translate("The search was cut short: another order of the dyads might lead to a loop.", lang)
+                )
+        if steps:
+            lines.append(self.derivation.explain(lang))
+        return "\n".join(lines)
 
 
 def is_loop(chain: Chain) -> bool:
@@ -59,7 +97,7 @@ def is_loop(chain: Chain) -> bool:
 
 
 def removable_dyads(chain: Chain) -> Iterator[Insertion]:
-    """The dyads that can be taken away such that every link left keeps two joints or more.
+    """The dyads that can be removed such that every link left keeps two joints or more.
 
     >>> [dyad.links for dyad in removable_dyads(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))]
     [('0', '1'), ('4', '5')]

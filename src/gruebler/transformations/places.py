@@ -12,6 +12,7 @@ from itertools import count
 from gruebler.chain import Chain, Joint
 from gruebler.chain.pairs import Pair, pair
 from gruebler.errors import ChainError, TransformationError
+from gruebler.text import Message, message
 
 __all__ = [
     "Attachment",
@@ -36,11 +37,11 @@ def check_counting(chain: Chain) -> None:
     if chain.space.b != 3:
         raise TransformationError(
             "dyads, couplers and groups keep F by a count with three freedoms a link; this chain is {space}",
-            space=chain.space,
+            space=chain.space.adjective,
         )
 
 
-def pairs_from_letters(letters: str, number: int, thing: str) -> tuple[Pair, ...]:
+def pairs_from_letters(letters: str, number: int, thing: Message) -> tuple[Pair, ...]:
     """The pairs of a word such as RRP (German DDS), all with one freedom."""
     word = "".join(_GERMAN.get(letter, letter) for letter in letters.strip().upper())
     if len(word) != number or not set(word) <= set(_PAIRS):
@@ -74,7 +75,7 @@ def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:
     return chain.joints[place].links
 
 
-def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], thing: str) -> None:
+def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], thing: Message) -> None:
     """Refuse places that all lie on one link: what is attached there cannot move against it."""
     joints = [place for place in places if not isinstance(place, str)]
     if len(set(joints)) < len(joints):
@@ -99,9 +100,9 @@ def new_link_names(chain: Chain, number: int, wished: Sequence[str] | None) -> l
     names = list(wished)
     if len(names) != number or len(set(names)) != number:
         raise TransformationError(
-            "expected {number} different names for the new links, found {value}",
+            "expected {number} different names for the new links, found {names}",
             number=number,
-            value=", ".join(names) or "none",
+            names=", ".join(names) or message("none"),
         )
     taken = next((name for name in names if name in chain.links), None)
     if taken is not None:
@@ -129,8 +130,8 @@ class ChainBuilder:
         joint = self.chain.joints[place]
         if joint.pair != kind or not kind.is_group:
             raise TransformationError(
-                "a {name} joint is to be attached, but no further link can join {joint} with it",
-                name=kind.name,
+                "a {pair} joint is to be attached, but no further link can join {joint} with it",
+                pair=kind.title,
                 joint=joint,
             )
         self.joints[place][1].extend(links)

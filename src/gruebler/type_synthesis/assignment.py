@@ -40,8 +40,8 @@ def joint_types(
     for kind in kinds:
         if kind.f(chain.space) != 1:
             raise ChainError(
-                "a {name} joint has f = {f}; joint types exchange pairs with f = 1",
-                name=kind.name,
+                "a {pair} joint has f = {f}; joint types exchange pairs with f = 1",
+                pair=kind.title,
                 f=kind.f(chain.space),
             )
     wanted = generic(chain).mobility if mobility is None else mobility
@@ -58,8 +58,8 @@ def assignments(chain: Chain, kinds: Mapping[Pair, int]) -> Iterator[Chain]:
             raise ChainError("the number of {name} joints is 0 or more, not {number}", name=kind.name, number=number)
     if sum(kinds.values()) > len(places):
         raise ChainError(
-            "{sum} joints cannot be exchanged: the chain has {count} simple revolutes",
-            sum=sum(kinds.values()),
+            "{wanted} joints cannot be exchanged: the chain has {count} simple revolutes",
+            wanted=sum(kinds.values()),
             count=len(places),
         )
     plain = tuple(joint.pair for joint in chain.joints)

@@ -39,10 +39,10 @@ class JointRequirement:
         """
         match = re.fullmatch(r"(\w*)(?:@(\w+))?", text.strip())
         if match is None or not text.strip():
-            raise GrueblerError("{text_!r} is not PAIR@PLACE such as R@frame, P@moving or P", text_=text)
+            raise GrueblerError("{text!r} is not PAIR@PLACE such as R@frame, P@moving or P", text=text)
         symbol, place = match[1], match[2] or "any"
         if place not in set(JointLocation):
-            raise GrueblerError("{text_!r}: the place is frame, moving or any, not {place!r}", text_=text, place=place)
+            raise GrueblerError("{text!r}: the place is frame, moving or any, not {place!r}", text=text, place=place)
         meant = None
         if symbol and symbol != "any":
             meant = frozenset(p for p in PAIRS if symbol in p.symbols.values()) or frozenset({pair(symbol)})

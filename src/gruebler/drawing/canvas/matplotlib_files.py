@@ -68,16 +68,16 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
 
     style = STYLES[shape.style]
     if isinstance(shape, TextShape):
-        pieces = split_subscripts(shape.words)
+        words, has_subscripts = math_words(shape.words)
         axes.text(
             *shape.at,
-            _as_math(pieces) if len(pieces) > 1 else shape.words,
+            words,
             fontsize=style.size * point,
             color=COLOURS[style.fill][dark],
             ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
             va="center_baseline",
             zorder=order,
-            parse_math=len(pieces) > 1,
+            parse_math=has_subscripts,
         )
         return
     match shape:
@@ -104,10 +104,13 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
     )
 
 
-def _as_math(pieces: Sequence[tuple[str, bool]]) -> str:
-    """Words with what stands lower, in the notation of matplotlib, upright as all others."""
+def math_words(words: str) -> tuple[str, bool]:
+    """Words in the notation of matplotlib, subscripts upright as all others; whether there are subscripts."""
+    pieces = split_subscripts(words)
+    if len(pieces) == 1:
+        return words, False
     plain = [(piece.replace("$", r"\$"), low) for piece, low in pieces]
-    return "".join(rf"$_\mathregular{{{piece}}}$" if low else piece for piece, low in plain)
+    return "".join(rf"$_\mathregular{{{piece}}}$" if low else piece for piece, low in plain), True
 
 
 def _line(part: Sequence[tuple[float, float]], closed: bool) -> Any:

@@ -8,19 +8,9 @@ from typing import TypedDict
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.styles import COLOURS
+from gruebler.text import translate
 
 __all__ = ["PageSettings", "moving_page_html"]
-
-
-_WORDS = {
-    "en": {"play": "Play", "pause": "Pause", "drive": "Drive", "keys": "Space: play or pause. Arrow keys: the drive."},
-    "de": {
-        "play": "Abspielen",
-        "pause": "Anhalten",
-        "drive": "Antrieb",
-        "keys": "Leertaste: abspielen oder anhalten. Pfeiltasten: der Antrieb.",
-    },
-}
 
 
 _STYLE = (
@@ -63,12 +53,13 @@ class PageSettings(TypedDict):
 
 def moving_page_html(picture: str, about: Figure, settings: PageSettings, lang: str) -> str:
     """The page around an SVG that moves by itself, with the title and description of a figure."""
-    words = _WORDS[lang]
     low, high = settings["low"], settings["high"]
     colours = dict(zip(("light", "dark"), COLOURS["paper"], strict=True))
     colours |= {"ink": COLOURS["ink"][0], "pale": COLOURS["ink"][1], "accent": COLOURS["motion"][0]}
-    told = json.dumps({**settings, **{key: words[key] for key in ("play", "pause")}}, ensure_ascii=False)
-    script = _SCRIPT % told.replace("<", "\\u003c")
+    play, drive = translate("Play", lang), translate("Drive", lang)
+    keys = translate("Space: play or pause. Arrow keys: the drive.", lang)
+    known = json.dumps({**settings, "play": play, "pause": translate("Pause", lang)}, ensure_ascii=False)
+    script = _SCRIPT % known.replace("<", "\\u003c")
     title, description = escape(about.title), escape(about.description)
     slider = f'type="range" id="drive" min="{low:.6g}" max="{high:.6g}" step="{(high - low) / 720:.4g}"'
     return "\n".join(
@@ -77,9 +68,9 @@ def moving_page_html(picture: str, about: Figure, settings: PageSettings, lang: 
             f'<meta name="viewport" content="width=device-width,initial-scale=1">\n<title>{title}</title>',
             f"<style>{_STYLE.format(width=max(480, round(about.width)), **colours)}</style>",
             f"<main>\n<h1>{title}</h1>\n{picture}",
-            f'<div><button type="button" id="play">{words["play"]}</button>',
-            f'<input {slider} aria-label="{words["drive"]}"><output id="value" for="drive"></output></div>',
-            f"<p><small>{words['keys']}</small></p>\n<p><small>{description}</small></p>\n</main>",
+            f'<div><button type="button" id="play">{play}</button>',
+            f'<input {slider} aria-label="{drive}"><output id="value" for="drive"></output></div>',
+            f"<p><small>{keys}</small></p>\n<p><small>{description}</small></p>\n</main>",
             f"<script>\n{script}\n</script>\n</html>\n",
         ]
     )

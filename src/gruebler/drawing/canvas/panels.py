@@ -17,7 +17,7 @@ from gruebler.drawing.canvas.labels import note_near
 from gruebler.drawing.canvas.shapes import CircleShape, Point, Polylines, Shape, TextShape, moved_shape, text_width
 from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.errors import GrueblerError
-from gruebler.text import decimal_sign_in
+from gruebler.text import decimal_sign_in, translate
 
 __all__ = ["AxisMarker", "Band", "Curve", "Panel", "PointMarker", "Rest", "draw_panels", "ratio_diagram"]
 
@@ -269,27 +269,6 @@ def _listed(named: dict[str, str], left: float) -> Iterator[Shape]:
 
 # --- straight-line guidance ------------------------------------------------------------------------
 
-_WORDS = {
-    "en": {
-        "title": "Relative deviation of a straight-line guidance",
-        "about": "Relative deviation Q_G, logarithmic, and length L by crank length l₁ over the crank angle φ_G of the "
-        "guidance.",
-        "at": "At φ_G = {angle:.4g}°: Q_G = {ratio:.4g}, L/l₁ = {length:.4g}.",
-        "ratio": "Q_G",
-        "length": "L/l₁",
-        "angle": "φ_G in °",
-    },
-    "de": {
-        "title": "Bezogene Geradführungsabweichung",
-        "about": "Bezogene Geradführungsabweichung Q_G, logarithmisch, und Länge L bezogen auf die Kurbellänge l₁ über "
-        "dem Kurbelwinkel φ_G der Geradführung.",
-        "at": "Bei φ_G = {angle:.4g}°: Q_G = {ratio:.4g}, L/l₁ = {length:.4g}.",
-        "ratio": "Q_G",
-        "length": "L/l₁",
-        "angle": "φ_G in °",
-    },
-}
-
 
 def ratio_diagram(
     angle: Iterable[float],
@@ -321,35 +300,41 @@ def ratio_diagram(
     phi, q, way = (np.array(list(values), np.float64) for values in (angle, ratio, length))
     if not len(phi) == len(q) == len(way) >= 2:
         raise GrueblerError(
-            "expected three lists of the same length, but found {count}, {count_2}, {count_3} values",
-            count=len(phi),
-            count_2=len(q),
-            count_3=len(way),
+            "expected three lists of the same length, but found {angles}, {ratios}, {lengths} values",
+            angles=len(phi),
+            ratios=len(q),
+            lengths=len(way),
         )
     if not (np.isfinite([phi, q, way]).all() and (q > 0).all()):
         raise GrueblerError("expected finite values with ratios above 0")
-    words, degrees = _WORDS[lang], np.degrees(phi)
+    degrees = np.degrees(phi)
     spots: tuple[PointMarker, ...] = ()
-    about = words["about"]
+    about = translate(
+        "Relative deviation Q_G, logarithmic, and length L by crank length l₁ over the crank angle φ_G of "
+        "the guidance.",
+        lang,
+    )
     if at is not None:
         x = math.degrees(at[0])
         spots = PointMarker(x, at[1], "P₁"), PointMarker(x, at[2], "P₂", right=True)
-        about += " " + words["at"].format(angle=x, ratio=at[1], length=at[2])
-        about = decimal_sign_in(about, lang)
+        point = translate(
+            "At φ_G = {angle:.4g}°: Q_G = {ratio:.4g}, L/l₁ = {length:.4g}.", lang, angle=x, ratio=at[1], length=at[2]
+        )
+        about = f"{about} {point}"
 
-    def axis(key: str, scale: Scale) -> Axis:
-        return Axis(words[key], scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
+    def axis(words: str, scale: Scale) -> Axis:
+        return Axis(words, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
 
     panel = Panel(
-        axis("angle", angles(0.0, float(degrees.max()), tight=True)),
-        axis("ratio", decades(float(q.min()), float(q.max()))),
+        axis(translate("φ_G in °", lang), angles(0.0, float(degrees.max()), tight=True)),
+        axis("Q_G", decades(float(q.min()), float(q.max()))),
         (
-            Curve(degrees, q, words["ratio"], "line-1"),
-            Curve(degrees, way, words["length"], "line-2", right=True),
+            Curve(degrees, q, "Q_G", "line-1"),
+            Curve(degrees, way, "L/l₁", "line-2", right=True),
         ),
-        axis("length", decimals(0.0, float(way.max()))),
+        axis("L/l₁", decimals(0.0, float(way.max()))),
         marks=(AxisMarker(spots[0].x, ""),) if spots else (),
         spots=spots,
         size=Point(*size),
     )
-    return draw_panels([panel], title or words["title"], about)
+    return draw_panels([panel], title or translate("Relative deviation of a straight-line guidance", lang), about)

@@ -117,7 +117,7 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
     return Point(left, top), Point(right - left, bottom - top)
 
 
-_LOWERED = re.compile(r"(?<!\w)([^\W\d_])_(\w{1,3})(?!\w)")
+_LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,3})(?!\w)")
 
 
 def split_subscripts(words: str) -> list[tuple[str, bool]]:
@@ -125,6 +125,8 @@ def split_subscripts(words: str) -> list[tuple[str, bool]]:
 
     >>> split_subscripts("μ_min = 3°, left_arm")
     [('μ', False), ('min', True), (' = 3°, left_arm', False)]
+    >>> split_subscripts("B₀K_I")
+    [('B₀K', False), ('I', True)]
     """
     pieces = _LOWERED.split(words)
     in_order = [(pieces[0], False)]

@@ -56,7 +56,7 @@ def svg_element(shape: Shape) -> str:
         case TextShape(at, words, style, anchor):
             where = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
-            return f'<text class="gr-{style}" {where}{anchored}>{_worded(words, STYLES[style].size)}</text>'
+            return f'<text class="gr-{style}" {where}{anchored}>{svg_words(words, STYLES[style].size)}</text>'
 
 
 def _line(points: tuple[Point, ...], closed: bool) -> str:
@@ -72,8 +72,8 @@ def svg_number(value: float) -> str:
     return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
 
 
-def _worded(words: str, size: float) -> str:
-    """Words with what stands lower, and after it as high as before."""
+def svg_words(words: str, size: float) -> str:
+    """Words with subscripts, and after them as high as before; the size is that of the letters."""
     pieces = split_subscripts(words)
     if len(pieces) == 1:
         return xml_text(words)
@@ -81,8 +81,9 @@ def _worded(words: str, size: float) -> str:
     for piece, low in pieces:
         shift = 0.25 * size * (low - was_low)
         small = f' font-size="{svg_number(0.75 * size)}"' if low else ""
-        moved = f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(piece)}</tspan>'
-        made += moved if shift or small else xml_text(piece)
+        text = piece.lstrip(" ")
+        made += " " * (len(piece) - len(text))  # before the tspan: in it, some viewers drop spaces at its beginning
+        made += f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(text)}</tspan>' if shift or small else xml_text(text)
         was_low = low
     return made
 

@@ -21,16 +21,10 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage, posed_linkage
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
+from gruebler.text import translate
 
 __all__ = ["AnimationOptions", "Scene", "animated_svg", "scene", "svg_of"]
 
-_WORDS = {
-    "en": {True: "It moves through {turns} turn(s) of its drive.", False: "It moves to and fro through its range."},
-    "de": {
-        True: "Es bewegt sich über {turns} Umdrehung(en) seines Antriebs.",
-        False: "Es bewegt sich hin und her durch seinen Bereich.",
-    },
-}
 _LONGEST = 3600.0  # seconds
 
 
@@ -104,8 +98,14 @@ def scene(
     curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, one)]
     still = tuple(curve)
     corner, size = bounds([*poses, *still], MARGIN)
-    words = _WORDS[lang][posed.goes_round].format(turns=turns)
-    described = f"{describe(linkage.mechanism, lang)} {words}"
+    moves = translate(
+        "It moves through {turns} turn(s) of its drive."
+        if posed.goes_round
+        else "It moves to and fro through its range.",
+        lang,
+        turns=turns,
+    )
+    described = f"{describe(linkage.mechanism, lang)} {moves}"
     page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
     return Scene(posed, pieces, still, corner, page, seconds * (turns if posed.goes_round else 1))
 

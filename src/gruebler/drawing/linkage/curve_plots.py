@@ -19,7 +19,7 @@ from gruebler.drawing.linkage.posed_linkage import floating_link, link_nodes
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
 from gruebler.linkages import Linkage, LinkPoint
-from gruebler.text import decimal_sign_in
+from gruebler.text import decimal_sign_in, message, translate
 
 __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 
@@ -28,22 +28,6 @@ _SQUARE = 460.0  # pixels of the longer side
 _NEAR = 0.03  # of the field: drive values nearer to each other are left out
 _AROUND = 0.04  # of the field
 _MOST = len(LINES)
-_WORDS = {
-    "en": {
-        "hodograph": "{name}: hodograph of {output}",
-        "hodograph_about": "Tips of the velocity vectors of {output} put at one origin, {range}, with a speed of "
-        "{speed}.",
-        "curves": "{name}: coupler curves",
-        "curves_about": "Paths of {output}, {range}; dots and thin lines show the pose at {at}.",
-    },
-    "de": {
-        "hodograph": "{name}: Hodograph von {output}",
-        "hodograph_about": "Spitzen der Geschwindigkeitsvektoren von {output}, an einem Punkt angetragen, {range}, mit "
-        "einer Geschwindigkeit von {speed}.",
-        "curves": "{name}: Koppelkurven",
-        "curves_about": "Bahnen von {output}, {range}; Punkte und dünne Linien zeigen die Stellung bei {at}.",
-    },
-}
 
 
 def hodograph(
@@ -73,7 +57,7 @@ def hodograph(
     >>> hodograph(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), ["K"]).title
     'four-bar linkage: hodograph of K'
     """
-    chosen, words = _few(points), _WORDS[lang]
+    chosen = _few(points)
     if speed is not None and not (math.isfinite(speed) and speed):
         raise LinkageError(
             "a hodograph needs a drive that moves: expected a speed that is not 0, but found {speed}", speed=speed
@@ -83,9 +67,9 @@ def hodograph(
     factor = 1.0 if speed is None else speed
     paths = [factor * run.motion.complex_point(place, 1) for place in places]
     per = run.drive_unit if speed is None else "s"
-    rate = "1" if speed is None else decimal_sign_in(f"{speed:.6g} {run.drive_unit}/s", lang)
+    rate = message("1") if speed is None else message("{speed:.6g} {unit}/s", speed=speed, unit=run.drive_unit)
     names = ("x′", "y′") if speed is None else ("ẋ", "ẏ")
-    axes = [f"{one} in {run.unit}/{per}" for one in names]
+    axes = [f"{symbol} in {run.unit}/{per}" for symbol in names]
     ranges = [
         _joined([run.bulk(part) for part in parts]) for parts in zip(*((z.real, z.imag) for z in paths), strict=True)
     ]
@@ -94,8 +78,15 @@ def hodograph(
     panel = _square(
         paths, chosen if len(chosen) > 1 else [""], axes, [*spots, PointMarker(0.0, 0.0, "")], ranges=ranges
     )
-    about = words["hodograph_about"].format(range=run.range, output=", ".join(chosen), speed=rate)
-    return draw_panels([panel], words["hodograph"].format(name=run.name, output=", ".join(chosen)), about, lang)
+    title = translate("{name}: hodograph of {points}", lang, name=run.name, points=", ".join(chosen))
+    about = translate(
+        "Tips of the velocity vectors of {points} put at one origin, {range}, with a speed of {speed}.",
+        lang,
+        points=", ".join(chosen),
+        range=run.range,
+        speed=rate,
+    )
+    return draw_panels([panel], title, about, lang)
 
 
 def _tips(run: PlotRun, path: Complexes, near: float) -> list[PointMarker]:
@@ -175,17 +166,17 @@ def family_of(
     chosen = floating_link(linkage) if link is None else link
     if chosen not in linkage.mechanism.chain.links:
         raise LinkageError(
-            "there is no link {chosen!r}; the links are {links}",
-            chosen=chosen,
+            "there is no link {link!r}; the links are {links}",
+            link=chosen,
             links=", ".join(linkage.mechanism.chain.links),
         )
     if chosen == linkage.mechanism.frame:
-        raise LinkageError("{chosen!r} is the frame: its points do not move", chosen=chosen)
+        raise LinkageError("{link!r} is the frame: its points do not move", link=chosen)
     places = link_nodes(linkage, chosen)
     if start is None or end is None:
         if len(places) < 2:
             raise LinkageError(
-                "{chosen!r} has one joint and no point: say between which points the family lies", chosen=chosen
+                "{link!r} has one joint and no point: say between which points the family lies", link=chosen
             )
         first, second = places[:2]
         start, end = (first - (second - first) / 2, second + (second - first) / 2)
@@ -204,14 +195,19 @@ def _paths(
     name: str,
 ) -> Figure:
     run = plot_run(linkage, 0, branch, between, lang, name)
-    words = _WORDS[lang]
     paths = [run.motion.complex_point(place) for place in places.values()]
     row = len(run.drives) // 6
     skeleton = _skeleton(run.motion, row, places.values())
     spots = [PointMarker(path[row].real, path[row].imag, "") for path in paths]
     panel = _square(paths, list(places), [f"{axis} in {run.unit}" for axis in "xy"], spots, skeleton)
-    about = words["curves_about"].format(range=run.range, output="; ".join(places), at=run.value(run.drives[row]))
-    return draw_panels([panel], words["curves"].format(name=run.name), about, lang)
+    about = translate(
+        "Paths of {points}, {range}; dots and thin lines show the pose at {at}.",
+        lang,
+        points="; ".join(decimal_sign_in(point, lang) for point in places),
+        range=run.range,
+        at=run.value(run.drives[row]),
+    )
+    return draw_panels([panel], translate("{name}: coupler curves", lang, name=run.name), about, lang)
 
 
 def _skeleton(motion: Motion, row: int, places: Iterable[LinkPoint]) -> list[Complexes]:

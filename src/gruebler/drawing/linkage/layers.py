@@ -30,7 +30,7 @@ from gruebler.drawing.linkage.posed_linkage import PosedLinkage
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion, circuit
 from gruebler.linkages import Line, LinkPoint
-from gruebler.text import decimal_sign_in
+from gruebler.text import translate
 
 __all__ = [
     "BELOW",
@@ -191,7 +191,7 @@ def _transmission(context: LayerContext) -> list[Shape]:
     rays = [(apex, ArcShape(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
     arc = ArcShape(apex, _ARC, begin, extent, "measure")
     shapes: list[Shape] = [Polylines(tuple(rays), "measure"), arc]
-    value = decimal_sign_in(f"μ = {math.degrees(abs(extent)):.1f}°", context.lang)
+    value = translate("μ = {angle:.1f}°", context.lang, angle=math.degrees(abs(extent)))
     return [*shapes, note_near(arc.place(0.5), value, "value", [*context.drawn, *shapes])]
 
 

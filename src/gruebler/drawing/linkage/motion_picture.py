@@ -14,14 +14,11 @@ from gruebler.drawing.linkage.posed_linkage import posed_along_motion
 from gruebler.drawing.structure.messages import describe, title
 from gruebler.drawing.structure.picture import draw
 from gruebler.kinematics import Motion
+from gruebler.text import translate
 
 __all__ = ["draw_motion"]
 
 _GHOSTS = 5
-_WORDS = {
-    "en": "A motion of {rows} poses; {ghosts} of them thinly.",
-    "de": "Eine Bewegung aus {rows} Stellungen; {ghosts} davon dünn.",
-}
 
 
 def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
@@ -32,9 +29,9 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
         lang: language of title and description, ``en`` or ``de``.
         name: the title, if it is not to be found out.
 
-    >>> from gruebler.kinematics import degrees, move
+    >>> from gruebler.kinematics import from_degrees, move
     >>> from gruebler.fourbar import FourBar
-    >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), degrees(0, 90, 5))
+    >>> motion = move(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), from_degrees(0, 90, 5))
     >>> draw_motion(motion).description[-39:]
     'A motion of 19 poses; 5 of them thinly.'
     """
@@ -56,5 +53,5 @@ def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
         *drive_arrows(posed),
     ]
     shapes += point_names(posed, shapes)
-    told = _WORDS[lang].format(rows=len(motion), ghosts=len(rows))
-    return figure_of(shapes, title(mechanism, lang, name), f"{about} {told} {motion.message(lang)}".rstrip(), MARGIN)
+    poses = translate("A motion of {poses} poses; {ghosts} of them thinly.", lang, poses=len(motion), ghosts=len(rows))
+    return figure_of(shapes, title(mechanism, lang, name), f"{about} {poses} {motion.message(lang)}".rstrip(), MARGIN)

@@ -19,7 +19,7 @@ from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
 from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
-from gruebler.text import decimal_sign_in
+from gruebler.text import translate
 
 __all__ = ["transfer_plot", "transmission_plot"]
 
@@ -27,29 +27,6 @@ __all__ = ["transfer_plot", "transmission_plot"]
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three
 _NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values are none
-_WORDS = {
-    "en": {
-        "transfer": "{name}: transfer functions of {output}",
-        "transfer_about": "Output {output} and its first and second derivative over the drive, {range}.",
-        "transmission": "{name}: transmission angle of {output}",
-        "transmission_about": "Transmission angle over the drive, {range}. Smallest {mu}° at {at}; shaded below 40°.",
-        "dead": "Dead centres at {values}.",
-        "mark": "dead centre",
-        "rests": "Dwells, shaded: {values}.",
-        "rest": "dwell",
-    },
-    "de": {
-        "transfer": "{name}: Übertragungsfunktionen von {output}",
-        "transfer_about": "Abtrieb {output} und seine erste und zweite Ableitung über dem Antrieb, {range}.",
-        "transmission": "{name}: Übertragungswinkel von {output}",
-        "transmission_about": "Übertragungswinkel über dem Antrieb, {range}. Kleinster {mu}° bei {at}; unter 40° "
-        "getönt.",
-        "dead": "Totlagen bei {values}.",
-        "mark": "Totlage",
-        "rests": "Rasten, getönt: {values}.",
-        "rest": "Rast",
-    },
-}
 
 
 def transfer_plot(
@@ -81,10 +58,10 @@ def transfer_plot(
     'four-bar linkage: transfer functions of rocker'
     """
     run = plot_run(linkage, 2, branch, between, lang, name)
-    found, words = find_output(linkage, output), _WORDS[lang]
+    found = find_output(linkage, output)
     _check(run, found, output)
     called = (names or {}).get(found.name, found.name)
-    marks, rests = _stops(run, found, words["rest"])
+    marks, rests = _stops(run, found)
     panels = []
     for order in range(3):
         values = found.values(run.motion, order)
@@ -98,9 +75,17 @@ def transfer_plot(
         shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
         curves = (Curve(run.x, values, "", LINES[0]),)
         named = rests if order == 0 else tuple(rest._replace(words="") for rest in rests)
-        panels.append(Panel(run.across, axis, curves, marks=shown, rests=named, size=_LOW, marked=words["mark"]))
-    about = words["transfer_about"].format(range=run.range, output=called) + _described(run, marks, rests, words)
-    return draw_panels(panels, words["transfer"].format(name=run.name, output=called), about, lang)
+        panels.append(
+            Panel(run.across, axis, curves, marks=shown, rests=named, size=_LOW, marked=translate("dead centre", lang))
+        )
+    title = translate("{name}: transfer functions of {output}", lang, name=run.name, output=called)
+    about = translate(
+        "Output {output} and its first and second derivative over the drive, {range}.",
+        lang,
+        range=run.range,
+        output=called,
+    )
+    return draw_panels(panels, title, about + _described(run, marks, rests), lang)
 
 
 def _check(run: PlotRun, output: Output, asked: str | None) -> None:
@@ -123,13 +108,13 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
         )
 
 
-def _described(run: PlotRun, marks: tuple[AxisMarker, ...], rests: tuple[Rest, ...], words: dict[str, str]) -> str:
+def _described(run: PlotRun, marks: tuple[AxisMarker, ...], rests: tuple[Rest, ...]) -> str:
     """The dead centres and dwells in words."""
     values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
-    out = " " + words["dead"].format(values=values) if values else ""
+    centres = " " + translate("Dead centres at {values}.", run.lang, values=values) if values else ""
     to = math.radians if run.cycle.turning_drive else float
     ranges = ", ".join(f"{run.value(to(rest.low))} – {run.value(to(rest.high))}" for rest in rests)
-    return out + (" " + words["rests"].format(values=ranges) if ranges else "")
+    return centres + (" " + translate("Dwells, shaded: {values}.", run.lang, values=ranges) if ranges else "")
 
 
 def _order_words(run: PlotRun, output: Output, order: int) -> str:
@@ -155,7 +140,7 @@ def _least(run: PlotRun, output: Output, order: int) -> float:
     return _NOISE * natural_speed(run.cycle, output) / by
 
 
-def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[AxisMarker, ...], tuple[Rest, ...]]:
+def _stops(run: PlotRun, output: Output) -> tuple[tuple[AxisMarker, ...], tuple[Rest, ...]]:
     """The dead centres and the dwells within what is plotted."""
     centres, dwells = stops(run.cycle, output)
     drives = [run.within(centre.drive) for centre in centres]
@@ -171,7 +156,7 @@ def _stops(run: PlotRun, output: Output, word: str) -> tuple[tuple[AxisMarker, .
             shift = lap * period if lap else 0.0
             begin, end = max(low, dwell.begin + shift), min(high, dwell.end + shift)
             if end - begin > 1e-9 * (high - low):
-                rests.append(Rest(run.drive_in_units(begin), run.drive_in_units(end), word))
+                rests.append(Rest(run.drive_in_units(begin), run.drive_in_units(end), translate("dwell", run.lang)))
     return tuple(marks), tuple(sorted(rests))
 
 
@@ -194,7 +179,7 @@ def transmission_plot(
     'Smallest 36.87° at 0°; shaded below 40°. Dead centres at 34.05°, 233.1°.'
     """
     run = plot_run(linkage, 2, branch, between, lang, name)
-    found, words = find_output(linkage, output), _WORDS[lang]
+    found = find_output(linkage, output)
     called = (names or {}).get(found.name, found.name)
     values = np.degrees(transmission_angle(run.motion, found.name))
     smallest = measure_transmission(run.cycle, found).smallest
@@ -202,7 +187,7 @@ def transmission_plot(
     if at is None:
         row = int(values.argmin())
         least, at = float(values[row]), float(run.drives[row])
-    marks, rests = _stops(run, found, words["rest"])
+    marks, rests = _stops(run, found)
     panel = Panel(
         run.across,
         Axis("μ in °", decimals(0.0, 90.0, few=9)),
@@ -211,10 +196,14 @@ def transmission_plot(
         marks=marks,
         rests=rests,
         spots=(PointMarker(run.drive_in_units(at), least, f"μ_min = {least:.1f}°"),),
-        marked=words["mark"],
+        marked=translate("dead centre", lang),
     )
-    about = words["transmission_about"].format(
-        range=run.range, mu=decimal_sign_in(f"{least:.2f}", lang), at=run.value(at)
+    title = translate("{name}: transmission angle of {output}", lang, name=run.name, output=called)
+    about = translate(
+        "Transmission angle over the drive, {range}. Smallest {mu:.2f}° at {at}; shaded below 40°.",
+        lang,
+        range=run.range,
+        mu=least,
+        at=run.value(at),
     )
-    about += _described(run, marks, rests, words)
-    return draw_panels([panel], words["transmission"].format(name=run.name, output=called), about, lang)
+    return draw_panels([panel], title, about + _described(run, marks, rests), lang)

@@ -35,7 +35,7 @@ from gruebler.drawing.structure.messages import describe, title
 from gruebler.drawing.structure.picture import draw
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.linkages import Linkage
-from gruebler.text import decimal_sign_in
+from gruebler.text import message, number, number_separator, plural, translate
 
 __all__ = ["draw_linkage", "shown_linkage"]
 
@@ -44,37 +44,19 @@ _AROUND = 17.0  # pixels from the middle of a block to its name
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 _WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
 _PLAIN = 95.0  # pixels: what is less around is a block between rails, with its name outside of these
-_WORDS = {
-    "en": {
-        "pose": "To scale. Drive at {values}.",
-        "home": "To scale, at home; nothing is driven.",
-        "curve": "Curve of {names}.",
-        "ghosts": "{count} positions thinly.",
-        "shown": "Shown: {names}.",
-        "none": "Not there, or outside the picture: {names}.",
-    },
-    "de": {
-        "pose": "Maßstäblich. Antrieb bei {values}.",
-        "home": "Maßstäblich, in der Ausgangslage; nichts ist angetrieben.",
-        "curve": "Bahnkurve von {names}.",
-        "ghosts": "{count} Stellungen dünn.",
-        "shown": "Eingezeichnet: {names}.",
-        "none": "Nicht vorhanden oder außerhalb des Bildes: {names}.",
-    },
-}
 _LAYER_NAMES = {
-    "dead-centres": ("dead centres", "Totlagen"),
-    "centrodes": ("fixed centrode p, moving centrode q", "Rastpolbahn p, Gangpolbahn q"),
-    "inflection": ("inflection circle", "Wendekreis"),
-    "transmission": ("transmission angle", "Übertragungswinkel"),
-    "velocities": ("velocities", "Geschwindigkeiten"),
-    "accelerations": ("accelerations", "Beschleunigungen"),
-    "poles": ("instant centres", "Momentanpole"),
-    "dimensions": ("dimensions", "Maße"),
-    "scale": ("scale", "Maßstab"),
+    "dead-centres": message("dead centres"),
+    "centrodes": message("fixed centrode p, moving centrode q"),
+    "inflection": message("inflection circle"),
+    "transmission": message("transmission angle"),
+    "velocities": message("velocities"),
+    "accelerations": message("accelerations"),
+    "poles": message("instant centres"),
+    "dimensions": message("dimensions"),
+    "scale": message("scale"),
 }
 _MARKS = ("edge", "dot", "value")  # crosses, points and words of layers below
-_POLES = {"P": ("pole P", "Pol P"), "W": ("inflection pole W", "Wendepol W")}
+_POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
 
 def draw_linkage(
@@ -227,7 +209,7 @@ def _perimeter(corners: Sequence[Point]) -> float:
 def _count(number: int) -> int:
     if not 0 < number <= _MOST_GHOSTS:
         raise LinkageError(
-            "expected 1 to {most_ghosts} thin positions, but found {number!r}", most_ghosts=_MOST_GHOSTS, number=number
+            "expected 1 to {most} thin positions, but found {number!r}", most=_MOST_GHOSTS, number=number
         )
     return number
 
@@ -236,28 +218,36 @@ def picture_notes(
     posed: PosedLinkage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
 ) -> tuple[list[str], list[str]]:
     """The pose and what is shown, in sentences; and what was asked for but is not there."""
-    words, drives = _WORDS[lang], posed.linkage.mechanism.drives
+    drives = posed.linkage.mechanism.drives
     values = [
-        decimal_sign_in(f"{round(degrees(value), 2) + 0.0:g}°", lang)
+        number(round(degrees(value), 2) + 0.0, lang, "g") + "°"
         if drive.turning
         else as_text(float(value), posed.linkage.unit, lang)
         for value, drive in zip(posed.pose.drives[0], drives, strict=bool(drives))
     ]
-    said = [words["pose" if drives else "home"].format(values=", ".join(values))]
+    said = [
+        translate(
+            "To scale. Drive at {values}." if drives else "To scale, in the reference pose; nothing is driven.",
+            lang,
+            values=number_separator(lang).join(values),
+        )
+    ]
     if curves:
-        said.append(words["curve"].format(names=", ".join(dict.fromkeys(curves))))
+        said.append(translate("Curve of {points}.", lang, points=", ".join(dict.fromkeys(curves))))
     if count:
-        said.append(words["ghosts"].format(count=count))
+        said.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))
     shown = [_layer_name(key, shapes, lang) for key, shapes in made.items() if shapes or key == "scale"]
     empty = [_layer_name(key, (), lang) for key, shapes in made.items() if not shapes and key != "scale"]
-    missing = [words["none"].format(names=", ".join(empty))] if empty else []
-    said += [words["shown"].format(names=", ".join(shown))] if shown else []
+    missing = (
+        [translate("Not there, or outside the picture: {layers}.", lang, layers=", ".join(empty))] if empty else []
+    )
+    said += [translate("Shown: {layers}.", lang, layers=", ".join(shown))] if shown else []
     return said, missing
 
 
 def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
     """What a layer is called; of an inflection circle with the poles that lie in the picture."""
-    name = _LAYER_NAMES[key][lang == "de"]
+    name = _LAYER_NAMES[key].in_language(lang)
     words = {shape.words for shape in shapes if isinstance(shape, TextShape)}
-    found = [called[lang == "de"] for letter, called in _POLES.items() if key == "inflection" and letter in words]
-    return f"{name} ({', '.join(found)})" if found else name
+    poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in words]
+    return f"{name} ({', '.join(poles)})" if poles else name

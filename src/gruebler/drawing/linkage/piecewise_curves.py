@@ -16,8 +16,8 @@ from gruebler.drawing.linkage.posed_linkage import drive_rows
 from gruebler.drawing.structure.messages import title
 from gruebler.errors import LinkageError
 from gruebler.kinematics import Motion
-from gruebler.linkages import Linkage
-from gruebler.text import decimal_sign_in
+from gruebler.linkages.conversion import LinkageLike, as_linkage
+from gruebler.text import number, translate
 
 __all__ = ["ROWS", "Between", "Branch", "PlotRun", "plot_run"]
 
@@ -30,7 +30,6 @@ _DOZEN = 12
 _TINY = 1e-9  # of a period or range
 _BULK = 0.9  # the middle part of all values
 _STEEP = {False: 1.5, True: 20.0}  # what lies farther from it than so many times its width is cut off; True: full turns
-_RANGE = {"en": "drive from {low} to {high}", "de": "Antrieb von {low} bis {high}"}
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class PlotRun:
         """A drive value in words."""
         if not self.cycle.turning_drive:
             return as_text(drive, self.unit, self.lang)
-        return decimal_sign_in(f"{round(self.drive_in_units(drive), 6) + 0.0:.4g}°", self.lang)
+        return number(round(self.drive_in_units(drive), 6) + 0.0, self.lang, ".4g") + "°"
 
     @cached_property
     def round_drives(self) -> Reals:
@@ -108,16 +107,16 @@ class PlotRun:
     @property
     def range(self) -> str:
         """From where to where, in words."""
-        return _RANGE[self.lang].format(low=self.value(self.drives[0]), high=self.value(self.drives[-1]))
+        low, high = self.value(self.drives[0]), self.value(self.drives[-1])
+        return translate("drive from {low} to {high}", self.lang, low=low, high=high)
 
 
-def plot_run(linkage: Linkage, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
+def plot_run(linkage: LinkageLike, order: int, branch: Branch, between: Between, lang: str, name: str) -> PlotRun:
     """Full turns from 0 on, else the range, or the part of it between two values; rates for a drive of speed 1.
 
     Raises `LinkageError` for a linkage without a drive, or with several, or if nothing lies between the two values.
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    linkage = as_linkage(linkage)
     if not linkage.mechanism.drives:
         raise LinkageError("no joint is driven, so there is nothing to be plotted; name a drive")
     cycle = drive_cycle(linkage, branch)

@@ -54,10 +54,10 @@ def _number(context: LayerContext) -> int:
         known = context.posed.linkage.mechanism.chain.links
         there = ", ".join(known)
         raise LinkageError(
-            "centrodes and inflection circles are those of a link{suggestion}; {output!r} is none of {there}",
+            "centrodes and inflection circles are those of a link{suggestion}; {output!r} is none of {links}",
             suggestion=nearest(output, known),
             output=output,
-            there=there,
+            links=there,
         )
     return links.index(floating_link(context.posed.linkage) if output is None else output)
 

@@ -15,10 +15,10 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.errors import GrueblerError, LinkageError
 from gruebler.kinematics import Motion, move
-from gruebler.kinematics.messages import stop_message
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage, LinkPoint, Pin
+from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
 
@@ -110,7 +110,7 @@ def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
 
 
 def posed_linkage(
-    linkage: Linkage,
+    linkage: LinkageLike,
     drive: float | Sequence[float] | None = None,
     *,
     branch: str | Iterable[str] | None = None,
@@ -125,8 +125,7 @@ def posed_linkage(
 
     Raises `LinkageError` for a pose that it cannot reach, and without a drive if there is no home.
     """
-    if not isinstance(linkage, Linkage):
-        raise LinkageError("expected a linkage, but found {linkage!r}", linkage=linkage)
+    linkage = as_linkage(linkage)
     try:
         given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
     except (TypeError, ValueError):
@@ -151,7 +150,7 @@ def posed_linkage(
         given = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
     pose = move(linkage, given.reshape(1, -1), branch=branch)
     if not len(pose):
-        raise LinkageError("{reason}", reason=stop_message(pose))
+        raise LinkageError("{reason}", reason=pose.reason)
     return _posed(pose)
 
 
@@ -224,13 +223,13 @@ def _value(cycle: DriveCycle, given: Reals | None, rows: Reals) -> float:
             return start
         return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
     if given.shape != (1,) or not np.isfinite(given).all():
-        raise LinkageError("expected one finite drive value, but found {tolist}", tolist=given.tolist())
+        raise LinkageError("expected one finite drive value, but found {found}", found=given.tolist())
     value, span = float(given[0]), cycle.span
     if cycle.turning_drive and not span.full:
         value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
     if not span.full and not span.low <= value <= span.high:
         raise LinkageError(
-            "{range}; there is no pose at {value}", range=_range(cycle), value=_drive_value(cycle, float(given[0]))
+            "{range}; there is no pose at {drive}", range=_range(cycle), drive=_drive_value(cycle, float(given[0]))
         )
     return value
 
@@ -242,8 +241,8 @@ def _range(cycle: DriveCycle) -> Message:
 
 def _drive_value(cycle: DriveCycle, value: float) -> Message:
     if cycle.turning_drive:
-        return message("{value:.6g} degrees", value=math.degrees(value))
-    return message("{value:.6g} {unit}", value=value, unit=cycle.linkage.unit)
+        return message("{angle:.6g} degrees", angle=math.degrees(value))
+    return message("{length:.6g} {unit}", length=value, unit=cycle.linkage.unit)
 
 
 def floating_link(linkage: Linkage) -> str:

@@ -26,6 +26,7 @@ from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.drawing.canvas.symbols import arrow_head
 from gruebler.drawing.machines.cam_follower import follower_body, ground
 from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagram
+from gruebler.text import message, translate
 
 __all__ = ["animate_cam", "draw_cam", "lift_diagram"]
 
@@ -36,37 +37,13 @@ _KEYS = 180  # of a turn
 _HOLE = 56.0  # pixels: with a smaller base circle a cam has no mark
 _ALPHA = 62.0  # pixels: radius of the arc of the pressure angle
 _BESIDE = 0.4  # radians: a smaller pressure angle is written beside the guide
-_FOLLOWERS = {
-    (False, "roller"): ("a translating roller follower", "Rollenstößel"),
-    (False, "knife"): ("a translating knife-edge follower", "Schneidenstößel"),
-    (False, "flat"): ("a translating flat-faced follower", "Tellerstößel"),
-    (True, "roller"): ("a swinging roller follower", "Schwinghebel mit Rolle"),
-    (True, "knife"): ("a swinging knife-edge follower", "Schwinghebel mit Schneide"),
-    (True, "flat"): ("a swinging flat-faced follower", "Schwinghebel mit ebener Fläche"),
-}
-_WORDS = {
-    "en": {
-        "title": "Cam with {follower}",
-        "about": "A disc cam, to scale, base circle {base:.4g}, turning counter-clockwise.",
-        "pose": "At {at}° the lift is {lift}, the pressure angle {pressure:.2f}°.",
-        "undercut": "Undercut near {at:.4g}°: the profile crosses itself.",
-        "turn": "It makes a turn in {seconds:g} s.",
-        "base": "base circle",
-        "pitch": "pitch curve",
-        "under": "undercut",
-        "diagram": "Lift over the cam's angle",
-    },
-    "de": {
-        "title": "Kurvenscheibe mit {follower}",
-        "about": "Eine Kurvenscheibe, maßstäblich, Grundkreis {base:.4g}, gegen den Uhrzeiger drehend.",
-        "pose": "Bei {at}° ist der Hub {lift}, der Druckwinkel {pressure:.2f}°.",
-        "undercut": "Unterschnitt bei {at:.4g}°: Das Profil überschneidet sich.",
-        "turn": "Eine Umdrehung in {seconds:g} s.",
-        "base": "Grundkreis",
-        "pitch": "Rollenmittelpunktbahn",
-        "under": "Unterschnitt",
-        "diagram": "Hub über dem Kurvenwinkel",
-    },
+_TITLES = {
+    (False, "roller"): message("Cam with a translating roller follower"),
+    (False, "knife"): message("Cam with a translating knife-edge follower"),
+    (False, "flat"): message("Cam with a translating flat-faced follower"),
+    (True, "roller"): message("Cam with a swinging roller follower"),
+    (True, "knife"): message("Cam with a swinging knife-edge follower"),
+    (True, "flat"): message("Cam with a swinging flat-faced follower"),
 }
 
 
@@ -87,22 +64,25 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
     >>> draw_cam(cam, 1.0).title
     'Cam with a translating roller follower'
     """
-    report, words = cam.findings(), _WORDS[lang]
     if at is None:
-        at = max(report.pressure, key=lambda one: abs(one.value)).at
+        at = max(cam.findings().pressure, key=lambda extreme: abs(extreme.value)).at
     if isinstance(at, bool) or not isinstance(at, int | float) or not math.isfinite(at):
         raise CamError("the cam's angle is a finite number, not {at!r}", at=at)
     scale = _scale(cam)
-    shown = [*_machine(cam, scale, np.array([at]), lang), Body(tuple(_pressure(cam, scale, at)))]
+    shown = [*_machine(cam, scale, np.array([at]), lang), Body(tuple(_pressure(cam, scale, at, lang)))]
     if plot:
         shown += [Body(tuple(beneath(lift_diagram(cam, at, lang), shown)))]
     lift = float(cam.lift.at(at))
-    told = words["pose"].format(
-        at=_short(math.degrees(at)),
-        lift=f"{math.degrees(lift) + 0.0:.4g}°" if cam.follower.swings else f"{lift + 0.0:.4g}",
+    pose = translate(
+        "At {angle:g}° the lift is {lift:.4g}°, the pressure angle {pressure:.2f}°."
+        if cam.follower.swings
+        else "At {angle:g}° the lift is {lift:.4g}, the pressure angle {pressure:.2f}°.",
+        lang,
+        angle=round(math.degrees(at), 2) + 0.0,
+        lift=(math.degrees(lift) if cam.follower.swings else lift) + 0.0,
         pressure=math.degrees(float(cam.pressure_angle(at))) + 0.0,
     )
-    return still_picture(shown, name or _title(cam, lang), f"{_about(cam, lang)} {told}")
+    return still_picture(shown, name or _title(cam, lang), f"{_about(cam, lang)} {pose}")
 
 
 def animate_cam(
@@ -122,7 +102,7 @@ def animate_cam(
     bodies = _machine(cam, scale, np.linspace(0, math.tau, _KEYS + 1), lang)
     if plot:
         bodies += running(beneath(lift_diagram(cam, None, lang), bodies))
-    about = f"{_about(cam, lang)} {_WORDS[lang]['turn'].format(seconds=seconds)}"
+    about = " ".join([_about(cam, lang), translate("It makes a turn in {seconds:g} s.", lang, seconds=seconds)])
     return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), name or _title(cam, lang), about)
 
 
@@ -136,17 +116,19 @@ def _title(cam: Cam, lang: str) -> str:
     kind = "flat"
     if isinstance(cam.follower, Roller):
         kind = "roller" if cam.follower.radius else "knife"
-    return _WORDS[lang]["title"].format(follower=_FOLLOWERS[cam.follower.swings, kind][lang == "de"])
+    return _TITLES[cam.follower.swings, kind].in_language(lang)
 
 
 def _about(cam: Cam, lang: str) -> str:
-    words, report = _WORDS[lang], cam.findings()
-    under = [words["undercut"].format(at=math.degrees(report.room.at))] if report.undercut else []
-    return " ".join([words["about"].format(base=cam.base), *under])
-
-
-def _short(value: float) -> str:
-    return f"{round(value, 2) + 0.0:g}"
+    about = translate(
+        "A disc cam, to scale, base circle {radius:.4g}, turning counter-clockwise.", lang, radius=cam.base
+    )
+    report = cam.findings()
+    if not report.undercut:
+        return about
+    at = math.degrees(report.room.at)
+    undercut = translate("Undercut near {angle:.4g}°: the profile crosses itself.", lang, angle=at)
+    return f"{about} {undercut}"
 
 
 # --- the machine -----------------------------------------------------------------------------------
@@ -155,16 +137,16 @@ def _short(value: float) -> str:
 def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     """Cam and follower at one angle, or at keys evenly through a turn."""
     turn = even_keys(1.0 if len(phi) > 1 else 0.0, float(phi[0]))
-    words, report = _WORDS[lang], cam.findings()
+    report = cam.findings()
     middle = Point(0.0, 0.0)
-    rows = [("dead", words["base"])]
+    rows = [("dead", translate("base circle", lang))]
     disc: list[Shape] = [Polylines((_line(_contour(cam), scale),), "area", closed=True)]
     if isinstance(cam.follower, Roller) and cam.follower.radius:
         disc.append(Polylines((_line(_complex(cam.pitch(_turn())), scale),), "centrode-moving", closed=True))
-        rows.append(("centrode-moving", words["pitch"]))
+        rows.append(("centrode-moving", translate("pitch curve", lang)))
     if report.undercut:
         disc.append(Polylines(tuple(_line(part, scale) for part in _undercut(cam)), "drive"))
-        rows.append(("drive", words["under"]))
+        rows.append(("drive", translate("undercut", lang)))
     if scale * cam.base > _HOLE:
         disc.append(CircleShape(Point(0.6 * scale * cam.base, 0.0), 3.0, "node"))
     arrow = ArcShape(middle, 24.0, math.radians(-30), math.radians(-120), "drive")
@@ -216,7 +198,7 @@ def _undercut(cam: Cam) -> Iterator[Complexes]:
         yield contour[first : last + 1]
 
 
-def _pressure(cam: Cam, scale: float, at: float) -> Iterator[Shape]:
+def _pressure(cam: Cam, scale: float, at: float, lang: str) -> Iterator[Shape]:
     """The normal at the contact, the motion of the follower's point, and the angle between."""
     turn = cmath.exp(1j * at)
     touch, centre = (complex(*pair) * turn for pair in (cam.profile(at), cam.pitch(at)))
@@ -235,7 +217,7 @@ def _pressure(cam: Cam, scale: float, at: float) -> Iterator[Shape]:
     if abs(alpha) > 0.01:
         yield ArcShape(start, _ALPHA, -cmath.phase(way), -alpha, "drive")
     beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
-    words = f"α = {math.degrees(alpha) + 0.0:.1f}°".replace("-", "−")
+    words = translate("α = {angle:.1f}°", lang, angle=math.degrees(alpha) + 0.0).replace("-", "−")
     anchor = "start" if beside.x >= 0 else "end"
     yield TextShape(
         start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), words, "mark", anchor
@@ -252,4 +234,6 @@ def lift_diagram(cam: Cam, at: float | None = None, lang: str = "en") -> Figure:
     spans = [(span, np.linspace(span.start, span.end, 73)) for span in cam.lift.spans()]
     rates = [np.concatenate([span.orders[order](phi) for span, phi in spans]) for order in range(3)]
     rows = [*zip(names, (unit * rates[0], *rates[1:]), strict=True)]
-    return turn_diagram(np.concatenate([phi for _, phi in spans]), rows, at, _WORDS[lang]["diagram"])
+    return turn_diagram(
+        np.concatenate([phi for _, phi in spans]), rows, at, translate("Lift over the cam's angle", lang), lang
+    )

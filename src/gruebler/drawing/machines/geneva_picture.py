@@ -25,32 +25,16 @@ from gruebler.drawing.canvas.symbols import arrow_head
 from gruebler.drawing.machines.geneva_shape import GenevaShape
 from gruebler.drawing.machines.turn_diagram import beneath, running, turn_diagram
 from gruebler.geneva import Geneva, GenevaError
+from gruebler.text import message, translate
 
 __all__ = ["animate_geneva", "draw_geneva", "ratio_panels"]
 
 
 _PIXELS = 360.0  # the greater extent, about
 _KEYS = 240  # of a turn of the driver
-_WORDS = {
-    "en": {
-        False: "External Geneva drive with {slots} slots",
-        True: "Internal Geneva drive with {slots} slots",
-        "about": "A Geneva drive, to scale: {slots} slots, {pins} pin(s), the driver turning counter-clockwise.",
-        "pose": "Driver at {at:g}°, wheel at {wheel:.4g}°, ratio {ratio:.4g}.",
-        "rest": "The wheel is locked.",
-        "turn": "A turn of the driver in {seconds:g} s.",
-        "diagram": "Wheel over the driver's angle",
-    },
-    "de": {
-        False: "Malteserkreuzgetriebe mit {slots} Schlitzen, Außeneingriff",
-        True: "Malteserkreuzgetriebe mit {slots} Schlitzen, Inneneingriff",
-        "about": "Ein Malteserkreuzgetriebe, maßstäblich: {slots} Schlitze, {pins} Zapfen, der Treiber dreht gegen den "
-        "Uhrzeiger.",
-        "pose": "Treiber bei {at:g}°, Rad bei {wheel:.4g}°, Übersetzung {ratio:.4g}.",
-        "rest": "Das Rad ist gesperrt.",
-        "turn": "Eine Umdrehung des Treibers in {seconds:g} s.",
-        "diagram": "Rad über dem Treiberwinkel",
-    },
+_TITLES = {
+    False: message("External Geneva drive with {slots} slots"),
+    True: message("Internal Geneva drive with {slots} slots"),
 }
 
 
@@ -71,15 +55,19 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
     """
     if isinstance(at, bool) or not isinstance(at, int | float):
         raise GenevaError("the driver's angle is a finite number, not {at!r}", at=at)
-    moved, words = geneva.move(at), _WORDS[lang]
+    moved = geneva.move(at)
     bodies = _machine(geneva, np.array([at], np.float64))
     if plot:
         bodies.append(Body(tuple(beneath(ratio_panels(geneva, at, lang), bodies))))
-    pose = words["pose"].format(
-        at=round(math.degrees(at), 4), wheel=math.degrees(float(moved.angle)) + 0.0, ratio=float(moved.ratio) + 0.0
+    pose = translate(
+        "Driver at {driver:g}°, wheel at {wheel:.4g}°, ratio {ratio:.4g}.",
+        lang,
+        driver=round(math.degrees(at), 4),
+        wheel=math.degrees(float(moved.angle)) + 0.0,
+        ratio=float(moved.ratio) + 0.0,
     )
-    told = [_about(geneva, lang), pose, *([words["rest"]] if moved.dwell else [])]
-    return still_picture(bodies, name or words[geneva.internal].format(slots=geneva.slots), " ".join(told))
+    locked = [translate("The wheel is locked.", lang)] if moved.dwell else []
+    return still_picture(bodies, name or _title(geneva, lang), " ".join([_about(geneva, lang), pose, *locked]))
 
 
 def animate_geneva(
@@ -89,13 +77,11 @@ def animate_geneva(
 
     Raises `gruebler.GrueblerError` for a time that is no positive number of seconds.
     """
-    words = _WORDS[lang]
     bodies = _machine(geneva, np.linspace(0.0, math.tau, _KEYS + 1))
     if plot:
         bodies += running(beneath(ratio_panels(geneva, None, lang), bodies))
-    about = f"{_about(geneva, lang)} {words['turn'].format(seconds=seconds)}"
-    title = name or words[geneva.internal].format(slots=geneva.slots)
-    return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), title, about)
+    about = " ".join([_about(geneva, lang), translate("A turn of the driver in {seconds:g} s.", lang, seconds=seconds)])
+    return moving(bodies, Clock(always(seconds), 0.0, 360.0, "°"), name or _title(geneva, lang), about)
 
 
 def ratio_panels(geneva: Geneva, at: float | None = None, lang: str = "en") -> Figure:
@@ -110,11 +96,20 @@ def ratio_panels(geneva: Geneva, at: float | None = None, lang: str = "en") -> F
         ("ψ′ = dψ/dφ", geneva_motion.ratio),
         ("ψ″ = d²ψ/dφ²", geneva_motion.acceleration),
     ]
-    return turn_diagram(x, rows, at, _WORDS[lang]["diagram"])
+    return turn_diagram(x, rows, at, translate("Wheel over the driver's angle", lang), lang)
+
+
+def _title(geneva: Geneva, lang: str) -> str:
+    return _TITLES[geneva.internal].filled(slots=geneva.slots).in_language(lang)
 
 
 def _about(geneva: Geneva, lang: str) -> str:
-    return str(_WORDS[lang]["about"].format(slots=geneva.slots, pins=geneva.pins))
+    return translate(
+        "A Geneva drive, to scale: {slots} slots, {pins} pin(s), the driver turning counter-clockwise.",
+        lang,
+        slots=geneva.slots,
+        pins=geneva.pins,
+    )
 
 
 # --- the machine -----------------------------------------------------------------------------------

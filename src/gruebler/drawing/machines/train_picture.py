@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any, TypedDict
+from typing import TypedDict
 
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.moving_picture import (
@@ -26,6 +26,7 @@ from gruebler.drawing.machines.train_motion import TrainMotion, train_motion
 from gruebler.drawing.machines.train_shapes import PaintOptions, stage_bodies
 from gruebler.gears import Train
 from gruebler.gears.messages import fraction_text
+from gruebler.text import number, number_separator, translate
 
 __all__ = ["TrainPictureOptions", "animate_train", "draw_train"]
 
@@ -33,31 +34,6 @@ _SIZE = Point(640.0, 360.0)
 _LARGEST = 9.0  # pixels to a unit of pitch diameter 2, so that few teeth do not fill the picture
 _GAP = 46.0  # between stages
 _ROW = 17.0
-_WORDS = {
-    "en": {
-        "title": "Gear train",
-        "about": "A gear train with {links} moving links, to scale by tooth numbers or radii; directions are chosen.",
-        "bevel": "Bevel wheels are unfolded into the plane, as their carrier sees them.",
-        "cycle": "Until everything repeats: {turns}.",
-        "cut": "It repeats only after {whole}; shown: {turns}.",
-        "fro": "To and fro: {turns}.",
-        "turns": "{link} {turns} turn(s)",
-        "way": "{link} moves",
-        "chosen": "Driven: {links}.",
-    },
-    "de": {
-        "title": "Rädergetriebe",
-        "about": "Ein Rädergetriebe mit {links} bewegten Gliedern, maßstäblich nach Zähnezahlen oder Halbmessern; "
-        "Richtungen sind gewählt.",
-        "bevel": "Kegelräder sind in die Ebene geklappt, vom Steg aus gesehen.",
-        "cycle": "Bis alles sich wiederholt: {turns}.",
-        "cut": "Es wiederholt sich erst nach {whole}; gezeigt: {turns}.",
-        "fro": "Hin und her: {turns}.",
-        "turns": "{link} {turns} Umdrehung(en)",
-        "way": "{link} verschiebt sich",
-        "chosen": "Angetrieben: {links}.",
-    },
-}
 
 
 class TrainPictureOptions(TypedDict, total=False):
@@ -92,7 +68,9 @@ def draw_train(
     ('Gear train', True)
     """
     shown = gear_stages(train, planets or {})
-    return still_picture(_bodies(shown, None, teeth), name or _WORDS[lang]["title"], _about(train, shown, lang))
+    return still_picture(
+        _bodies(shown, None, teeth, lang), name or translate("Gear train", lang), _about(train, shown, lang)
+    )
 
 
 def animate_train(
@@ -129,40 +107,46 @@ def animate_train(
     """
     shown = gear_stages(train, planets or {})
     motion = train_motion(train, drives or {}, always(seconds), most)
-    words = _WORDS[lang]
-    told = [_about(train, shown, lang), _told(motion, words)]
+    sentences = [_about(train, shown, lang), _cycle(motion, lang)]
     if motion.chosen:
-        told.insert(1, words["chosen"].format(links=", ".join(motion.chosen)))
+        sentences.insert(1, translate("Driven: {links}.", lang, links=", ".join(motion.chosen)))
     clock = Clock(motion.seconds, 0.0, 360.0 * float(motion.drive_turns), "°", not motion.slides)
-    return moving(_bodies(shown, motion, teeth), clock, name or words["title"], " ".join(told))
+    return moving(
+        _bodies(shown, motion, teeth, lang), clock, name or translate("Gear train", lang), " ".join(sentences)
+    )
 
 
 def _about(train: Train, shown: list[GearStage], lang: str) -> str:
-    words = _WORDS[lang]
-    bevel = [words["bevel"]] if any(stage.is_bevel for stage in shown) else []
-    return " ".join([words["about"].format(links=len(train.links)), *bevel])
+    about = translate(
+        "A gear train with {links} moving links, to scale by tooth numbers or radii; directions are chosen.",
+        lang,
+        links=len(train.links),
+    )
+    if not any(stage.is_bevel for stage in shown):
+        return about
+    bevel = translate("Bevel wheels are unfolded into the plane, as their carrier sees them.", lang)
+    return f"{about} {bevel}"
 
 
-def _told(motion: TrainMotion, words: dict[str, Any]) -> str:
-    def turns(time: Fraction) -> str:
-        return ", ".join(
-            words["way"].format(link=link)
-            if link in motion.slides
-            else words["turns"].format(link=link, turns=fraction_text(rate * time))
-            for link, rate in motion.rates.items()
-        )
+def _cycle(motion: TrainMotion, lang: str) -> str:
+    """How far the links go until everything repeats, or is cut."""
 
+    def turns(link: str, time: Fraction) -> str:
+        if link in motion.slides:
+            return translate("{link} moves", lang, link=link)
+        return translate("{link} {turns} turn(s)", lang, link=link, turns=fraction_text(motion.rates[link] * time))
+
+    shown = ", ".join(turns(link, motion.time) for link in motion.rates)
     if motion.slides:
-        return str(words["fro"].format(turns=turns(motion.time)))
+        return translate("To and fro: {turns}.", lang, turns=shown)
     if motion.time != motion.cycle:
-        whole = words["turns"].format(
-            link=motion.drive, turns=fraction_text(abs(motion.rates[motion.drive]) * motion.cycle)
-        )
-        return str(words["cut"].format(whole=whole, turns=turns(motion.time)))
-    return str(words["cycle"].format(turns=turns(motion.time)))
+        whole = fraction_text(abs(motion.rates[motion.drive]) * motion.cycle)
+        cycle = translate("{link} {turns} turn(s)", lang, link=motion.drive, turns=whole)
+        return translate("It repeats only after {cycle}; shown: {turns}.", lang, cycle=cycle, turns=shown)
+    return translate("Until everything repeats: {turns}.", lang, turns=shown)
 
 
-def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool) -> list[Body]:
+def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool, lang: str) -> list[Body]:
     """All stages side by side, each with the list of its links beneath."""
     plain = [stage_bodies(stage, PaintOptions(1.0, False), None) for stage in shown]
     sizes = [bounds(at_time(part, 0.0), 0.0)[1] for part in plain]
@@ -173,7 +157,7 @@ def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool) -> 
         bodies = stage_bodies(stage, PaintOptions(scale, teeth), course)
         corner, size = bounds(at_time(bodies, 0.0), 0.0)
         shift = Point(left - corner.x, -(corner.y + size.y / 2))
-        texts = _listed(stage, Point(left, size.y / 2 + 22.0))
+        texts = _listed(stage, Point(left, size.y / 2 + 22.0), lang)
         all_bodies += [Body(body.shapes, (Shift((shift,)), *body.steps)) for body in bodies]
         all_bodies.append(Body(tuple(texts)))
         words = bounds(texts, 0.0)[1].x
@@ -181,17 +165,18 @@ def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool) -> 
     return all_bodies
 
 
-def _listed(stage: GearStage, at: Point) -> list[Shape]:
+def _listed(stage: GearStage, at: Point, lang: str) -> list[Shape]:
     """The links of a stage with what tells their sizes."""
     sizes: dict[str, list[str]] = {}
     for wheel in stage.wheels:
-        size = f"{wheel.size:g}".replace("-", "−")
+        size = number(wheel.size, lang, "g").replace("-", "−")
         mine = sizes.setdefault(wheel.link, [])
         if size not in mine:
             mine.append(size)
     several = {wheel.link for wheel in stage.wheels if wheel.planet and stage.copies > 1}
     rows = [
-        f"{link}: {', '.join(mine)}{f' × {stage.copies}' if link in several else ''}" for link, mine in sizes.items()
+        f"{link}: {number_separator(lang).join(mine)}{f' × {stage.copies}' if link in several else ''}"
+        for link, mine in sizes.items()
     ]
     others = [
         link

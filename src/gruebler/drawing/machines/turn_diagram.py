@@ -14,6 +14,7 @@ from gruebler.drawing.canvas.moving_picture import Body, Shift, at_time
 from gruebler.drawing.canvas.panels import AxisMarker, Curve, Panel, draw_panels
 from gruebler.drawing.canvas.shapes import Point, Polylines, Shape, bounds, moved_shape
 from gruebler.drawing.canvas.styles import LINES
+from gruebler.text import number
 
 __all__ = ["beneath", "running", "turn_diagram"]
 
@@ -22,7 +23,7 @@ _PANEL = Point(460.0, 120.0)
 _GAP = 22.0  # pixels between a machine and its diagram
 
 
-def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, title: str) -> Figure:
+def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, title: str, lang: str) -> Figure:
     """Panels one below the other over the angle phi from 0 to a turn.
 
     Args:
@@ -30,18 +31,19 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
         rows: of each panel what it measures, and its values.
         at: an angle in radians that is marked.
         title: of the figure.
+        lang: language of its numbers.
     """
     marks: tuple[AxisMarker, ...] = ()
     if at is not None:
         degrees = round(math.degrees(at % math.tau), 2)
-        marks = (AxisMarker(degrees, f"{degrees:g}°"),)
+        marks = (AxisMarker(degrees, number(degrees, lang, "g") + "°"),)
     panels = []
     for k, (words, y) in enumerate(rows):
         axis = Axis(words, decimals(float(y.min()), float(y.max()), few=4))
         shown = tuple(mark._replace(words=mark.words if k == 0 else "") for mark in marks)
         curves = (Curve(np.degrees(x), y, "", LINES[0]),)
         panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
-    return draw_panels(panels, title, "")
+    return draw_panels(panels, title, "", lang)
 
 
 def beneath(diagram: Figure, bodies: Sequence[Body]) -> list[Shape]:

@@ -3,42 +3,17 @@
 from __future__ import annotations
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.mechanism import Mechanism
+from gruebler.text import arity, message, translate
 
 __all__ = ["chain_name", "describe", "title"]
 
-_WORDS = {
-    "en": {
-        "chain": "Kinematic chain",
-        "mechanism": "Mechanism",
-        "size": "Links: {n} ({links}). Joints: {g}. Independent loops: {loops}.",
-        "kind": "{kind}: {n}",
-        "frame": "Frame: {frame}.",
-        "drives": "Drives: {drives}.",
-        "text": "{text}.",
-    },
-    "de": {
-        "chain": "Kinematische Kette",
-        "mechanism": "Getriebe",
-        "size": "Glieder: {n} ({links}). Gelenke: {g}. Unabhängige Maschen: {loops}.",
-        "kind": "{kind}: {n}",
-        "frame": "Gestell: {frame}.",
-        "drives": "Antriebe: {drives}.",
-        "text": "{text}.",
-    },
-}
-
-
-_KINDS = {
-    "en": {1: "singular", 2: "binary", 3: "ternary", 4: "quaternary"},
-    "de": {1: "singulär", 2: "binär", 3: "ternär", 4: "quaternär"},
-}
-
 # What the chains of the literature are called; the first of a family of inversions tells the chain.
 _CHAINS = {
-    "four-bar linkage": ("four-bar chain", "Viergelenkkette"),
-    "Watt I": ("Watt's chain", "Wattsche Kette"),
-    "Stephenson I": ("Stephenson's chain", "Stephensonsche Kette"),
+    "four-bar linkage": message("four-bar chain"),
+    "Watt I": message("Watt's chain"),
+    "Stephenson I": message("Stephenson's chain"),
 }
 
 
@@ -53,7 +28,7 @@ def chain_name(chain: Chain, lang: str = "en") -> str:
     if chain.n > _LARGEST_NAMED:
         return ""
     families = {family(mechanism) for mechanism in inversions(chain)}
-    return next((both[lang == "de"] for name, both in _CHAINS.items() if name in families), "")
+    return next((known.in_language(lang) for name, known in _CHAINS.items() if name in families), "")
 
 
 _LARGEST_NAMED = 6
@@ -68,8 +43,8 @@ def title(thing: Chain | Mechanism, lang: str = "en", name: str = "") -> str:
     from gruebler.mechanism.inversion import family
 
     if isinstance(thing, Chain):
-        return name or chain_name(thing, lang) or str(_WORDS[lang]["chain"])
-    return name or family(thing, lang) or str(_WORDS[lang]["mechanism"])
+        return name or chain_name(thing, lang) or translate("Kinematic chain", lang)
+    return name or family(thing, lang) or translate("Mechanism", lang)
 
 
 def describe(thing: Chain | Mechanism, lang: str = "en") -> str:
@@ -78,14 +53,21 @@ def describe(thing: Chain | Mechanism, lang: str = "en") -> str:
     >>> describe(Chain.parse("R(0-1) R(1-2) R(2-0)"))
     'Links: 3 (binary: 3). Joints: 3. Independent loops: 1. R(0-1) R(1-2) R(2-0).'
     """
-    words = _WORDS[lang]
     chain = thing if isinstance(thing, Chain) else thing.chain
-    alphabet = "german" if lang == "de" else "international"
-    kinds = _KINDS["de" if lang == "de" else "en"]
-    links = ", ".join(words["kind"].format(n=n, kind=kinds.get(k, f"{k}")) for k, n in chain.link_kinds.items())
-    parts = [words["size"].format(n=chain.n, links=links, g=chain.g, loops=chain.loops)]
+    alphabet = Alphabet.of_language(lang)
+    kinds = ", ".join(f"{arity(k, lang)}: {n}" for k, n in chain.link_kinds.items())
+    parts = [
+        translate(
+            "Links: {links} ({kinds}). Joints: {joints}. Independent loops: {loops}.",
+            lang,
+            links=chain.n,
+            kinds=kinds,
+            joints=chain.g,
+            loops=chain.loops,
+        )
+    ]
     if isinstance(thing, Mechanism):
-        parts.append(words["frame"].format(frame=thing.frame))
+        parts.append(translate("Frame: {frame}.", lang, frame=thing.frame))
         if thing.drives:
-            parts.append(words["drives"].format(drives=", ".join(thing.drive_names(alphabet))))
-    return " ".join([*parts, words["text"].format(text=chain.text(alphabet))])
+            parts.append(translate("Drives: {drives}.", lang, drives=", ".join(thing.drive_names(alphabet))))
+    return " ".join([*parts, f"{chain.text(alphabet)}."])

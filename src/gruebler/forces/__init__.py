@@ -4,8 +4,8 @@
 virtual work gives; `slide_friction` and `slider_friction` estimate what a slide rubs. docs/theory/statics.md.
 """
 
-from gruebler.statics.friction import SlideFriction, SliderFriction, slide_friction, slider_friction
-from gruebler.statics.loads import Loads
-from gruebler.statics.solution import Statics, statics
+from gruebler.forces.friction import SlideFriction, SliderFriction, slide_friction, slider_friction
+from gruebler.forces.loads import Loads
+from gruebler.forces.solution import Statics, statics
 
 __all__ = ["Loads", "SlideFriction", "SliderFriction", "Statics", "slide_friction", "slider_friction", "statics"]

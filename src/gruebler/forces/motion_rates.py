@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from gruebler.arrays import Reals
+from gruebler.forces.loads import Rows
 from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import branch_of
-from gruebler.statics.loads import Rows
 
 __all__ = ["drive_speed", "with_velocities"]
 

@@ -12,6 +12,7 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, nearest
 from gruebler.kinematics import Motion
 from gruebler.linkages import LinkPoint
+from gruebler.text import Message, message
 
 __all__ = ["Loads", "Wrench", "loads_over_rows"]
 
@@ -60,13 +61,13 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
     out = []
     none = np.zeros(len(motion))
     for name, given in loads.forces.items():
-        force = _over_rows(f"the force at {_said(name)}", given, (len(motion), 2))
+        force = _over_rows(message("the force at {point}", point=_point_text(name)), given, (len(motion), 2))
         out.append(Wrench(_place(motion, name), np.ascontiguousarray(force).view(np.complex128)[:, 0], none))
-    gravity = _over_rows("gravity", loads.gravity, (2,))
+    gravity = _over_rows(message("gravity"), loads.gravity, (2,))
     for name, given in loads.masses.items():
-        mass = _over_rows(f"the mass at {_said(name)}", given, (len(motion),))
+        mass = _over_rows(message("the mass at {point}", point=_point_text(name)), given, (len(motion),))
         if (mass < 0).any():
-            raise LinkageError("the mass at {said} is negative: {min:g}", said=_said(name), min=mass.min())
+            raise LinkageError("the mass at {point} is negative: {mass:g}", point=_point_text(name), mass=mass.min())
         out.append(Wrench(_place(motion, name), (mass * complex(*gravity)).astype(np.complex128), none))
     links = motion.linkage.mechanism.chain.links
     for link, given in loads.moments.items():
@@ -77,7 +78,7 @@ def loads_over_rows(motion: Motion, loads: Loads) -> tuple[Wrench, ...]:
                 suggestion=nearest(str(link), links),
                 links=", ".join(links),
             )
-        moment = _over_rows(f"the moment on {link!r}", given, (len(motion),))
+        moment = _over_rows(message("the moment on {link!r}", link=link), given, (len(motion),))
         out.append(Wrench(LinkPoint(link, 0.0, 0.0), np.zeros(len(motion), np.complex128), moment))
     return tuple(out)
 
@@ -94,12 +95,15 @@ def _place(motion: Motion, name: str | LinkPoint) -> LinkPoint:
     return place
 
 
-def _said(name: str | LinkPoint) -> str:
-    return repr(name) if isinstance(name, str) else f"({name.x:g}, {name.y:g}) of {name.link!r}"
+def _point_text(name: str | LinkPoint) -> Message:
+    if isinstance(name, str):
+        return message("{name!r}", name=name)
+    return message("({x:g}, {y:g}) of {link!r}", x=name.x, y=name.y, link=name.link)
 
 
-def _over_rows(what: str, given: ArrayLike, shape: tuple[int, ...]) -> Reals:
-    wanted = "one number for each row" if len(shape) == 1 else "x and y, for each row if they change"
+def _over_rows(what: Message, given: ArrayLike, shape: tuple[int, ...]) -> Reals:
+    each_row = len(shape) == 1
+    wanted = message("one number for each row" if each_row else "x and y, for each row if they change")
     try:
         numbers = np.asarray(given, np.float64)
         out: Reals = np.broadcast_to(numbers, shape)

@@ -10,9 +10,9 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Flags, Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.loads import Wrench
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line
-from gruebler.statics.loads import Wrench
 
 __all__ = ["JointConnection", "Reactions", "joint_connections", "reactions"]
 
@@ -49,8 +49,8 @@ def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError(
-                "joint forces are those of turning and sliding joints, but {joint_names} is none",
-                joint_names=chain.joint_names()[number],
+                "joint forces are those of turning and sliding joints, but {joint} is none",
+                joint=chain.joint_names()[number],
             )
         for other in joint.links[1:]:
             one = chain.links.index(joint.links[0])
@@ -76,9 +76,9 @@ def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactio
     matrix = columns[:, bodies]
     if matrix.shape[1] != matrix.shape[2]:
         raise LinkageError(
-            "joint forces are not determined by statics: {shape} unknowns in {shape_2} equations",
-            shape=matrix.shape[2],
-            shape_2=matrix.shape[1],
+            "joint forces are not determined by statics: {unknowns} unknowns in {equations} equations",
+            unknowns=matrix.shape[2],
+            equations=matrix.shape[1],
         )
     load = _loads(motion, wrenches, rows)[:, bodies]
     probe = np.random.default_rng(0).uniform(0.5, 1.0, load.shape)

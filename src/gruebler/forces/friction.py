@@ -9,11 +9,11 @@ import numpy.typing as npt
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.motion_rates import with_velocities
+from gruebler.forces.solution import Statics
 from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
-from gruebler.statics.motion_rates import with_velocities
-from gruebler.statics.solution import Statics
 
 __all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]
 
@@ -66,8 +66,8 @@ def slider_friction(size: SliderCrank, phi: npt.ArrayLike, load: float, coeffici
     if not (np.abs(sine) < 1).all():
         raise LinkageError(
             "the slider-crank transmits no force, or cannot be assembled, at some of the crank angles: "
-            "sin(alpha) = {max:.6g}",
-            max=float(np.abs(sine).max()),
+            "sin(alpha) = {sine:.6g}",
+            sine=float(np.abs(sine).max()),
         )
     alpha = np.arcsin(sine)
     coupler = force / np.cos(alpha)
@@ -82,12 +82,10 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     linkage = statics.motion.linkage
     number, mu = joint_number(linkage.mechanism, joint), _coefficient(coefficient)
     if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
-        raise LinkageError(
-            "{joint_names} does not slide along one line", joint_names=linkage.mechanism.chain.joint_names()[number]
-        )
+        raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_names()[number])
     if len(linkage.mechanism.drives) != 1:
         raise LinkageError(
-            "friction is told for one drive; this linkage has {count}", count=len(linkage.mechanism.drives)
+            "friction is computed for one drive; this linkage has {count}", count=len(linkage.mechanism.drives)
         )
     side: Reals = np.hypot(*statics.force(number).T)
     rate = np.full(len(side), np.nan)
@@ -99,5 +97,5 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
 def _coefficient(value: float) -> float:
     mu = as_finite("coefficient", value)
     if mu < 0:
-        raise LinkageError("a coefficient of friction is not negative, but {value!r} is", value=value)
+        raise LinkageError("a coefficient of friction is not negative, but found {found!r}", found=value)
     return mu

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from gruebler.errors import LinkageError
+from gruebler.forces import Loads, slide_friction, slider_friction, statics
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
-from gruebler.statics import Loads, slide_friction, slider_friction, statics
 
 
 @pytest.mark.parametrize(

@@ -9,30 +9,26 @@ import numpy as np
 
 from gruebler.arrays import Flags, Reals
 from gruebler.errors import LinkageError
+from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connections, reactions
+from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
+from gruebler.forces.motion_rates import drive_speed, with_velocities
 from gruebler.kinematics import Motion
-from gruebler.kinematics.messages import stop_message
 from gruebler.linkages.model import joint_number
 from gruebler.notebook import Brief
-from gruebler.statics.equilibrium import JointConnection, Reactions, joint_connections, reactions
-from gruebler.statics.loads import Loads, Rows, Wrench, loads_over_rows
-from gruebler.statics.motion_rates import drive_speed, with_velocities
+from gruebler.text import Message, joined, message
 
 __all__ = ["Statics", "statics"]
 
 _TWO_IN_PLACE_OF_ONE = ("roll_slide", "double_slide")
-_SAID = {
-    "en": "At the drive values {rows} the joint forces are not determined: the links are not held there (a limit of "
-    "the drive, or a change point).",
-    "de": "Bei den Antriebswerten {rows} sind die Gelenkkräfte nicht bestimmt: die Glieder sind dort nicht gehalten "
-    "(Grenze des Antriebs oder Verzweigungslage).",
-}
-_UNKNOWN = {
-    "en": "At {rows} virtual work has no answer either: the drive stands at its limit, or the effort depends on the "
-    "branch, which a change point alone does not tell.",
-    "de": "Bei {rows} antwortet auch die virtuelle Arbeit nicht: der Antrieb steht an seiner Grenze, oder sein Moment "
-    "hängt von der Einbaulage ab, die eine Verzweigungslage allein nicht verrät.",
-}
-_MOST_SAID = 6
+_SINGULAR = message(
+    "At the drive values {values} the joint forces are not determined: the links are not held there (a limit of the "
+    "drive, or a change point)."
+)
+_UNKNOWN = message(
+    "At {values} virtual work has no answer either: the drive stands at its limit, or the effort depends on the "
+    "branch, which a change point alone does not tell."
+)
+_MOST_VALUES = 6
 
 
 @dataclass(frozen=True, repr=False)
@@ -116,15 +112,19 @@ class Statics(Brief):
     def message(self, lang: str = "en") -> str:
         """Where joint forces, or not even the drives' efforts, are determined; else empty."""
         unknown = np.asarray(np.isnan(self.work).any(axis=1))
-        parts = ((_SAID, self.singular), (_UNKNOWN, unknown))
-        return " ".join(said[lang].format(rows=self._values(rows)) for said, rows in parts if rows.any())
+        parts = ((_SINGULAR, self.singular), (_UNKNOWN, unknown))
+        sentences = [text.filled(values=self._values(rows)) for text, rows in parts if rows.any()]
+        return joined(sentences, " ").in_language(lang)
 
-    def _values(self, flags: Flags) -> str:
+    def _values(self, flags: Flags) -> Message:
         rows = np.flatnonzero(flags)
         turning = self.motion.linkage.mechanism.drives[0].turning
-        values = self.motion.drives[rows[:_MOST_SAID], 0]
-        said = [f"{np.degrees(value):.6g}°" if turning else f"{value:.6g}" for value in values]
-        return ", ".join(said) + (", ..." if len(rows) > _MOST_SAID else "")
+        values = self.motion.drives[rows[:_MOST_VALUES], 0]
+        if turning:
+            written = [message("{value:.6g}°", value=float(np.degrees(value))) for value in values]
+        else:
+            written = [message("{value:.6g}", value=float(value)) for value in values]
+        return joined([*written, *(["..."] if len(rows) > _MOST_VALUES else [])])
 
     def _of(self, joint: str | int, link: str | None) -> tuple[int, str]:
         mechanism = self.motion.linkage.mechanism
@@ -134,7 +134,7 @@ class Statics(Brief):
             return number, next(one for one in reversed(links) if one != mechanism.frame)
         if link not in links:
             raise LinkageError(
-                "{joint_names} is no joint of {link!r}", joint_names=mechanism.chain.joint_names()[number], link=link
+                "{joint} is no joint of {link!r}", joint=mechanism.chain.joint_names()[number], link=link
             )
         return number, link
 
@@ -178,7 +178,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
     wrenches = loads_over_rows(motion, loads)
     if not len(motion):
-        raise LinkageError("the motion has no rows. {reason}", reason=stop_message(motion))
+        raise LinkageError("the motion has no rows. {reason}", reason=motion.reason)
     return Statics(motion, wrenches, reactions(motion, wrenches), _virtual_work(motion, wrenches))
 
 

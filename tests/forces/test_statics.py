@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.errors import LinkageError
+from gruebler.forces import Loads, statics
 from gruebler.fourbar import FourBar, SliderCrank
-from gruebler.kinematics import degrees, move
+from gruebler.kinematics import from_degrees, move
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
-from gruebler.statics import Loads, statics
 from tests.geometry.linkages import MOVING
 
 numbers = st.floats(-100, 100)
@@ -95,7 +95,7 @@ def test_free_bodies(name):
 
 def test_two_force_members_and_a_joint_of_three_links():
     """Unloaded rods carry along their length; the three forces on one pin add up to zero."""
-    motion = move(FORKED, degrees(90, 130, 10), branch=None)
+    motion = move(FORKED, from_degrees(90, 130, 10), branch=None)
     held = statics(motion, Loads({"R(2-4)": (0, -50), "R(3-5)": (0, -20)}))
     pin = sum(held.force("R(1-2-3)", link) for link in "123")
     assert np.abs(pin).max() < 1e-12

@@ -1,0 +1,125 @@
+"""What `import gruebler as gr` gives: every name opens, shorthands are taken everywhere, mistakes are one sentence."""
+
+import ast
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import gruebler as gr
+from gruebler.catalog import entry
+from gruebler.synthesis import DeadCentreTask, PathTask
+from gruebler.text import error_in_language
+
+CRANK_ROCKER = gr.FourBar(25, 70, 40, 70)
+SHORTHANDS = [CRANK_ROCKER, gr.SliderCrank(20, 70, 8), gr.InvertedSliderCrank(30, 50)]
+
+
+def names_by_room():
+    stub = ast.parse(Path(gr.__file__).with_suffix(".pyi").read_text(encoding="utf-8"))
+    return [node for node in stub.body if isinstance(node, ast.ImportFrom)]
+
+
+def test_every_name_opens_and_is_listed_once():
+    listed = [alias.name for node in names_by_room() for alias in node.names]
+    assert sorted(listed) == sorted(set(listed)) == sorted(gr.__all__)
+    assert all(getattr(gr, name) is not None for name in listed)
+    assert len([name for node in names_by_room() if node.module for name in node.names]) <= 52
+
+
+@pytest.mark.parametrize("lengths", SHORTHANDS, ids=lambda lengths: type(lengths).__name__)
+def test_lengths_are_taken_wherever_a_linkage_is(lengths, tmp_path):
+    linkage = lengths.linkage()
+    assert (gr.move(lengths, [1.0]).places == gr.move(linkage, [1.0]).places).all()
+    assert gr.measures(lengths).travel == gr.measures(linkage).travel
+    assert gr.circuit(lengths).closed == gr.circuit(linkage).closed
+    assert gr.drive_range(lengths).full == gr.drive_range(linkage).full
+    assert [row.joint for row in gr.rotatability(lengths)] == [row.joint for row in gr.rotatability(linkage)]
+    assert gr.freedoms(lengths).mobility == 1
+    assert gr.assembly_modes(lengths, 1.0) == gr.assembly_modes(linkage, 1.0)
+    assert gr.draw(lengths).svg() == gr.draw(linkage).svg()
+    assert gr.plot(lengths, "transfer").svg() == gr.plot(linkage, "transfer").svg()
+    gr.write(lengths, tmp_path / "a.toml")
+    assert gr.read(tmp_path / "a.toml").mechanism == linkage.mechanism
+
+
+def test_a_point_is_named_as_on_the_command_line():
+    motion = gr.move(CRANK_ROCKER.linkage({"K": (45, 40)}), gr.from_degrees(0, 360, 30))
+    np.testing.assert_allclose(motion.point("coupler:45,40"), motion.point("K"), atol=1e-12)
+    with pytest.raises(gr.GrueblerError, match="there is no point 'couple:45,40'"):
+        motion.point("couple:45,40")
+
+
+def test_assembly_modes_are_branches():
+    modes = gr.assembly_modes(entry("wiper").linkage(), 0.4)
+    assert len(modes) == len(set(modes)) > 1
+    for mode in modes:
+        pose = gr.move(entry("wiper").linkage(), [0.4], branch=mode)
+        assert pose.complete
+        assert "".join(pose.branch) == mode.replace(",", "")
+
+
+def test_counting_takes_what_listing_takes():
+    for request in ({}, {"fractionated": "all"}, {"multiple_joints": "any"}, {"assortment": (4, 4)}):
+        assert gr.count_chains(8, **request).chains == len(list(gr.chains(8, **request)))
+
+
+@pytest.mark.parametrize("suffix", ["json", "txt", "g6"])
+def test_chains_come_back_from_files(suffix, tmp_path):
+    chains = list(gr.chains(8))
+    path = gr.write(chains, tmp_path / f"chains.{suffix}")
+    assert [gr.code(chain) for chain in gr.read(path)] == [gr.code(chain) for chain in chains]
+
+
+@pytest.mark.parametrize("task", [DeadCentreTask(stroke=50, time_ratio=1.2), PathTask([(0, 0), (1, 2), (3, 1)])])
+def test_tasks_come_back_from_files(task, tmp_path):
+    assert gr.read(gr.write(task, tmp_path / "task.toml")) == task
+
+
+def test_trains_and_joint_screws_are_read(tmp_path):
+    path = tmp_path / "train.toml"
+    path.write_text('train = "sun:24 planet:18 ring:-60 on arm"\nhold = ["ring"]\ndrive.sun = 1000\n', encoding="utf-8")
+    assert gr.read(path).train.mobility == 2
+
+
+@pytest.mark.parametrize("suffix", ["svg", "html", "png"])
+@pytest.mark.parametrize("value", [CRANK_ROCKER, gr.Geneva(4)], ids=["linkage", "geneva"])
+def test_animations_are_saved_by_their_ending(value, suffix, tmp_path):
+    path = gr.animate(value, seconds=0.2).save(tmp_path / f"a.{suffix}")
+    begin = {"svg": b"<svg", "html": b"<!doctype html>", "png": b"\x89PNG"}[suffix]
+    assert path.read_bytes()[:15].lower().startswith(begin.lower())
+
+
+CHAIN = gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
+MISTAKES = [
+    (lambda: gr.move(CHAIN, [0.0]), "a Chain has no dimensions: realise(mechanism) finds some"),
+    (lambda: gr.move(gr.FourBar, [0.0]), "expected a linkage, a FourBar"),
+    (lambda: gr.measures(entry("loco3").placed()), "expected a planar linkage, but found a SpatialLinkage"),
+    (lambda: gr.draw(7), "a int has no picture"),
+    (lambda: gr.draw(CRANK_ROCKER, poses=3), "draw_linkage has no option 'poses'"),
+    (lambda: gr.animate(CHAIN), "a Chain has no moving picture"),
+    (lambda: gr.plot(CRANK_ROCKER, "transmision"), "there is no plot 'transmision'"),
+    (lambda: gr.draw(CRANK_ROCKER).save("x.bmp"), "end it with .svg, .png or .pdf"),
+    (lambda: gr.write("x.toml", CRANK_ROCKER), "the value comes first, then 'x.toml'"),
+    (lambda: gr.write(CRANK_ROCKER, 7), "expected the path of a file, but found 7"),
+    (lambda: gr.write(7, "x.toml"), "a int cannot be written"),
+    (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
+    (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .g6 or .txt, not '.bmp'"),
+    (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),
+    (lambda: gr.synthesise(7), "expected a task of positions"),
+]
+
+
+@pytest.mark.parametrize(("call", "words"), MISTAKES, ids=[words for _, words in MISTAKES])
+def test_mistakes_are_one_sentence(call, words):
+    with pytest.raises(gr.GrueblerError) as caught:
+        call()
+    assert words in str(caught.value)
+    assert error_in_language(caught.value, "de")
+
+
+def test_values_of_many_numbers_are_printed_in_a_line():
+    motion = gr.move(CRANK_ROCKER, gr.from_degrees(0, 360, 1))
+    for value in (motion, gr.circuit(CRANK_ROCKER), gr.draw(CRANK_ROCKER), gr.measures(CRANK_ROCKER)):
+        assert "\n" not in repr(value)
+        assert len(repr(value)) < 1500
