@@ -61,7 +61,8 @@ export class App {
     }
     for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
     this.root = h("div", { class: "app" }, this.header, this.message, ...Object.values(this.views).map((view) => view.element));
-    this.root.addEventListener("keydown", (event) => this.key(event));
+    // a page of its own listens everywhere, a cell of a notebook to itself
+    (this.linkable ? document : this.root).addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
     shadow.append(this.root);
     model.on("connection", ((on: boolean) => this.connection(on)) as (message: never) => void);
     model.on("change:machine", (() => this.open(model.get("machine") as Model)) as (message: never) => void);

@@ -124,7 +124,7 @@ export class StructureView implements View {
       if (number !== this.asked) return;
       const said = (error as Error).message;
       this.field.setAttribute("aria-invalid", "true");
-      const place = /(?:character|Zeichen) (\d+)/.exec(said);
+      const place = /(?:character|Stelle) (\d+)/.exec(said);
       this.error.replaceChildren(said);
       if (place) {
         const at = Number(place[1]);

@@ -94,7 +94,7 @@ export class Track {
     if (!this.cycle?.full) return value;
     const period = this.cycle.turns * TURN;
     const rest = ((value % period) + period) % period;
-    return period - rest < 1e-9 ? 0 : rest;
+    return period - rest < 1e-6 ? 0 : rest;
   }
 
   set(value: number): void {

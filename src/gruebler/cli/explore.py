@@ -52,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         if arguments.output.suffix.lower() not in (".html", ".htm"):
             raise GrueblerError("-o: expected a file .html, but found {name!r}", name=arguments.output.name)
-        write_file(arguments.output, single_file(model, arguments.lang).encode("utf-8"), arguments.lang)
+        write_file(arguments.output, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
         return 0
     return _serve(model, arguments)
 
@@ -90,7 +90,7 @@ def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
         raise GrueblerError(
             "the server of the page needs starlette and uvicorn: pip install 'gruebler[web]', or write one file with -o"
         ) from None
-    listening = server.bound_socket(arguments.host, arguments.port or _PORT, arguments.port is not None)
+    listening = server.bound_socket(arguments.host, _PORT if arguments.port is None else arguments.port, arguments.port is not None)
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
     token = server.kept_token()
@@ -101,7 +101,12 @@ def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
         import webbrowser
 
         webbrowser.open(address)
-    lang = "" if arguments.lang == LANGUAGES[0] else arguments.lang  # else the browser's
+    lang = _page_language(arguments.lang)
     names = frozenset() if host in ("127.0.0.1", "::1") else frozenset({arguments.host, shown})
     server.run_server(server.ExplorerServer(model, token, lang=lang, names=names), listening)
     return 0
+
+
+def _page_language(lang: str) -> str:
+    """The language in which the page opens: another than English if it is asked for, else the browser's own."""
+    return "" if lang == LANGUAGES[0] else lang

@@ -39,12 +39,12 @@ def picture_styles() -> str:
     return "".join(rules)
 
 
-def single_file(model: Mapping[str, Any], lang: str = "en") -> str:
+def single_file(model: Mapping[str, Any], lang: str = "") -> str:
     """One HTML file in which a linkage moves and can be dragged; it loads nothing and sends nothing.
 
     Args:
         model: what `gruebler.explorer.model.model_of` returns.
-        lang: the language in which it opens; the reader may choose another.
+        lang: the language in which it opens, the browser's if empty; the reader may choose another.
 
     The policy in the file allows its own script, by the script's digest, and nothing else.
 
@@ -73,13 +73,13 @@ def single_file(model: Mapping[str, Any], lang: str = "en") -> str:
 def served_page(model: Mapping[str, Any], lang: str = "") -> str:
     """The page of a server, which loads the module from beside it; its policy is sent as a header."""
     values = {"lang": lang, "machine": model, "styles": picture_styles()}
-    return _page("gruebler", lang or "en", "server", values, '<script type="module" src="explorer.js"></script>', "")
+    return _page("gruebler", lang, "server", values, '<script type="module" src="explorer.js"></script>', "")
 
 
 def _page(title: str, lang: str, host: str, values: Mapping[str, Any], script: str, policy: str) -> str:
     data = json.dumps(values, ensure_ascii=False, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     return (
-        f'<!doctype html><html lang="{lang}"><head><meta charset="utf-8">{policy}'
+        f'<!doctype html><html lang="{lang or "en"}"><head><meta charset="utf-8">{policy}'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
         '<meta name="referrer" content="no-referrer"><link rel="icon" href="data:,">'
         f"<title>{html.escape(title)}</title></head>"
