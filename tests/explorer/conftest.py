@@ -89,7 +89,7 @@ class Tab:
         self.page.on("request", lambda request: self.requests.append(request.url))
 
     def until(self, expression: str, seconds: float = 30.0):
-        """The value of an expression of the page as soon as it is true; the page's policy allows no evaluation there."""
+        """The value of an expression of the page as soon as it is true (its policy forbids waiting within the page)."""
         for _ in range(int(seconds * 20)):
             found = self.page.evaluate(expression)
             if found:

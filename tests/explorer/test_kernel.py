@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.strategies import GROUPS
 
 from gruebler.catalog import entries
 from gruebler.chain import Chain
@@ -22,6 +21,7 @@ from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from tests.strategies import GROUPS
 
 BUILT = Path(__file__).parents[2] / "src/gruebler/explorer/static/explorer.js"
 AGREED = 1e-9
@@ -113,8 +113,8 @@ def test_a_thousand_random_linkages(tmp_path):
         forms.update(group.form() for group in plan.decomposition.groups)
     found = compared(records, tmp_path)
     same = [check(f"random linkage {number}", *pair) for number, pair in enumerate(zip(records, found, strict=True))]
-    # a group behind a dyad that comes to its limit is lost at the same place, within 1e-13: which of them is named there
-    # hangs on the last bit of a sine, and sines differ between a browser and the library
+    # a group behind a dyad that comes to its limit is lost at the same place, within 1e-13: which of them is named
+    # there hangs on the last bit of a sine, and sines differ between a browser and the library
     assert same.count(False) <= 3
     assert {"RRR", "RRP", "RPR", "PRP", "RPP"} <= set(forms)
     assert sum(count for form, count in forms.items() if len(form) > 3) > 100

@@ -90,7 +90,9 @@ def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
         raise GrueblerError(
             "the server of the page needs starlette and uvicorn: pip install 'gruebler[web]', or write one file with -o"
         ) from None
-    listening = server.bound_socket(arguments.host, _PORT if arguments.port is None else arguments.port, arguments.port is not None)
+    listening = server.bound_socket(
+        arguments.host, _PORT if arguments.port is None else arguments.port, arguments.port is not None
+    )
     host, port = listening.getsockname()[:2]
     shown = f"[{host}]" if ":" in host else host
     token = server.kept_token()

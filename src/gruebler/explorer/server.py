@@ -221,7 +221,7 @@ def _read(text: str | None) -> _Message:
     if text is None:
         raise GrueblerError("a message is a text, not bytes")
     if len(text) > LARGEST:
-        raise GrueblerError("a message has at most {most} characters, not {found}", most=LARGEST, found=len(text))
+        raise GrueblerError("a message has at most {most:,} characters, not {found:,}", most=LARGEST, found=len(text))
     try:
         return msgspec.json.decode(text.encode("utf-8"), type=_Message)
     except (msgspec.DecodeError, UnicodeEncodeError) as error:
