@@ -8,11 +8,15 @@ from math import pi
 import numpy as np
 
 from gruebler.fourbar import FourBar
-from gruebler.kinematics import move
-from gruebler.synthesis import PathTask, PositionTask, synthesise_path
+from gruebler.kinematics import circuit, move
+from gruebler.mechanism import Mechanism
+from gruebler.realisation import realise
+from gruebler.synthesis import Demands, PathTask, PositionTask, synthesise_path, synthesise_structures
 from gruebler.synthesis.alt_burmester import PROBLEMS, load_generic_solutions, parameters, solutions
+from gruebler.synthesis.closure import DesignClosure
 from gruebler.synthesis.curves import fit_curve
 from gruebler.synthesis.dyads import Displacements, all_dyads
+from gruebler.synthesis.structure_atlas import dyad_structure, structure_atlas
 
 
 def seconds(run: Callable[[], object], repeat: int = 1) -> float:
@@ -108,6 +112,45 @@ def curves() -> None:
     print(f"{'median':22}{'':>14}{statistics.median(errors):>10.3%}{statistics.median(times):>8.2f} s")
 
 
+STEPHENSON = "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(0-1)"
+
+
+def six_bars() -> None:
+    mechanism = Mechanism.parse(STEPHENSON)
+    structure = dyad_structure(mechanism)
+    assert structure is not None
+    print(f"\natlas of the six-bar: {seconds(lambda: structure_atlas(structure)):.2f} s")
+    print(f"{'curve':22}{'accepted':>14}{'largest':>10}{'time':>10}")
+    errors, times = [], []
+    for name, (z, closed) in targets().items():
+        task = PathTask([(w.real, w.imag) for w in z], closed=closed)
+        start = time.perf_counter()
+        found = synthesise_structures(task, [mechanism], Demands(tolerance=0.2))
+        times.append(time.perf_counter() - start)
+        errors.append(found.designs[0].verdict.error if found.designs else float("nan"))
+        print(f"{name:22}{len(found.designs):>14}{errors[-1]:>10.3%}{times[-1]:>8.2f} s", flush=True)
+    print(f"{'median':22}{'':>14}{statistics.median(errors):>10.3%}{statistics.median(times):>8.2f} s")
+
+
+def six_bar_gradient(poses: int = 64) -> None:
+    """One quantity of each pose by all dimensions, beside the pose itself by both solvers."""
+    linkage = realise(Mechanism.parse(STEPHENSON), seed=0).linkage
+    assert linkage is not None
+    closure, course = DesignClosure(linkage), circuit(linkage)
+    q, p = closure.poses(course.at(np.linspace(0, course.length, poses))), closure.sizes
+    near = q + 1e-2 * np.random.default_rng(0).normal(size=q.shape) * np.tile([linkage.size] * 2 + [1.0], 5)
+    quantity = np.zeros((poses, 1, closure.unknowns))
+    quantity[:, :, closure.column["4"]] = 1.0
+    drives = np.linspace(course.drive[0], course.drive[0] + np.ptp(course.drive) / 2, poses)
+    for name, run in (
+        ("pose by Newton's method", lambda: closure.closed(near, p, size=linkage.size)),
+        ("pose by move", lambda: move(linkage, drives)),
+        (f"gradient by {len(p)} numbers", lambda: closure.derivatives(q, p, size=linkage.size).gradient(quantity)),
+    ):
+        run()
+        print(f"six-bar, {poses} poses: {name:24}{1e6 * seconds(run, 9) / poses:>8.1f} us a pose")
+
+
 def rival(task: PositionTask, points: np.ndarray) -> None:
     """The four-bar 1, 3, 2.5, 3.5 from five of its positions and points."""
     try:
@@ -139,7 +182,9 @@ def main() -> None:
     points = PathTask(motion.point("P"), crank_angles=tuple(drives))
     print(f"five points with crank angles, with verdicts: {seconds(lambda: synthesise_path(points), 3):.2f} s")
     rival(task, motion.complex_point("P"))
+    six_bar_gradient()
     curves()
+    six_bars()
 
 
 if __name__ == "__main__":

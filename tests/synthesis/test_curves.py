@@ -2,18 +2,20 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from gruebler.errors import SynthesisError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.kinematics import circuit, move
+from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.realisation import realise
 from gruebler.synthesis import Demands, PathTask, pareto, synthesise_path, synthesise_structures
 from gruebler.synthesis.closure import DesignClosure
 from gruebler.synthesis.curves import atlas, fit_curve, linkages_of
 from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, curve_points
+from gruebler.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 
 ROWS = {
     FOUR_BAR: np.array([0.1, 0.2, 3.1, 0.4, 1, 3, 2.5, 1.2, 0.8]),
@@ -107,14 +109,16 @@ def test_closing_conditions_against_differences(text):
     linkage = realise(Mechanism.parse(text), seed=1).linkage
     closure = DesignClosure(linkage)
     q, p = closure.poses(circuit(linkage).at([0.3, 0.9])), closure.sizes
-    made = closure.slopes(q, p)
-    assert np.abs(made.gaps).max() < 1e-11 * linkage.size
-    for matrix, count, by_pose in ((made.by_pose, closure.unknowns, True), (made.by_sizes, len(p), False)):
+    joined = closure.joined(q, p)
+    assert np.abs(closure.gaps(joined)).max() < 1e-11 * linkage.size
+    every = np.broadcast_to(np.eye(closure.equations), (len(q), closure.equations, closure.equations))
+    by_sizes = closure.weighted_by_sizes(joined, every)
+    for matrix, count, by_pose in ((closure.by_pose(joined), closure.unknowns, True), (by_sizes, len(p), False)):
         for k in range(count):
             step = np.zeros(count)
             step[k] = 1e-6
             moved = [(q + s * step, p) if by_pose else (q, p + s * step) for s in (1, -1)]
-            gaps = [closure.slopes(*pair).gaps for pair in moved]
+            gaps = [closure.gaps(closure.joined(*pair)) for pair in moved]
             assert matrix[:, :, k] == pytest.approx((gaps[0] - gaps[1]) / 2e-6, abs=1e-5)
 
 
@@ -125,7 +129,8 @@ def test_poses_change_with_dimensions_as_derived(text):
     closure = DesignClosure(linkage)
     size = linkage.size
     q, p = closure.poses(circuit(linkage).at([0.4])), closure.sizes
-    motion, by_sizes = closure.tangents(q, p, size=size)
+    derivatives = closure.derivatives(q, p, size=size)
+    by_sizes = derivatives.gradient(np.eye(closure.unknowns)[None])
     for k in range(len(p)):
         step = np.zeros(len(p))
         step[k] = 1e-6 * size
@@ -134,7 +139,60 @@ def test_poses_change_with_dimensions_as_derived(text):
         across = (moved - q)[0] - by_sizes[0] @ step
         weights = np.tile([1 / size, 1 / size, 1], len(closure.links))
         assert np.abs(weights * across).max() < 1e-8  # of second order in the step
-    assert closure.slopes(q + 1e-6 * motion, p).gaps == pytest.approx(0, abs=1e-9 * size)
+    moved = closure.joined(q + 1e-6 * derivatives.motion, p)
+    assert closure.gaps(moved) == pytest.approx(0, abs=1e-9 * size)
+
+
+SIX_BARS = (
+    "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(0-1)",
+    "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3); frame=0; drive=R(0-1)",
+)
+
+
+@pytest.mark.parametrize("text", SIX_BARS)
+def test_the_atlas_of_a_structure_against_the_solver_of_motion(text):
+    """Closed form for all drawings at once; `move` for single ones."""
+    structure = dyad_structure(Mechanism.parse(text))
+    book = structure_atlas(structure)
+    assert len(book.z) == 12_000
+    assert np.isfinite(book.z).all()
+    assert set(structure.coupler_links) == ({"2", "4"} if text is SIX_BARS[0] else {"2", "4", "5"})
+    names = structure.mechanism.chain.joint_names()
+    for n in (0, 7001):
+        places = {name: (z.real, z.imag) for name, z in zip(names, book.drawn[n], strict=True)}
+        point = (structure.coupler_links[book.link[n]], book.point[n].real, book.point[n].imag)
+        drawing = Linkage.from_drawing(structure.mechanism, places, {"P": point})
+        path = circuit(drawing, step=0.02).samples.complex_point("P")
+        assert np.abs(path[:, None] - book.z[n]).min(axis=0).max() < 0.02 * np.abs(
+            np.ptp(path.real) + np.ptp(path.imag)
+        )
+
+
+def test_no_atlas_of_structures_with_slides_or_larger_groups():
+    slide = Mechanism.parse("R(0-1) R(1-2) R(2-3) P(0-3); frame=0; drive=R(0-1)")
+    triad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); frame=0; drive=R(5-0)")
+    assert dyad_structure(slide) is None
+    assert dyad_structure(triad) is None
+
+
+@settings(max_examples=2, deadline=None)
+@given(st.integers(0, 10**6), st.floats(-3, 3), st.floats(0.1, 20), st.booleans())
+def test_a_six_bar_curve_comes_back_wherever_it_lies(number, angle, scale, mirrored):
+    """The curve of a six-bar with other dimensions than any of the atlas is met by a six-bar."""
+    structure = dyad_structure(Mechanism.parse(SIX_BARS[0]))
+    book = structure_atlas(structure)
+    own = np.flatnonzero(book.link == structure.coupler_links.index("4"))
+    n = own[number % len(own)]
+    rng = np.random.default_rng(number)
+    drawn = book.drawn[n] * (1 + 0.02 * rng.normal(size=structure.joints))
+    rotation, shift = link_motions(structure, drawn[:, None], TURN[None])["4"]
+    z = (rotation * book.point[n] + shift)[0]
+    assume(np.isfinite(z).all())
+    z = scale * np.exp(1j * angle) * (np.conj(z) if mirrored else z)
+    task = PathTask([(w.real, w.imag) for w in z], closed=True)
+    found = synthesise_structures(task, [structure.mechanism], starts=2, link="4")
+    best = min(design.verdict.error for design in (*found.designs, *found.rejected))
+    assert best < 5e-3
 
 
 def test_a_six_bar_follows_a_figure_eight_better_than_a_four_bar():

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gruebler._numeric.compiling import njit
 
-__all__ = ["ARRIVED", "FAILED", "INFINITE", "evaluate_system", "refine_solutions", "track"]
+__all__ = ["ARRIVED", "FAILED", "INFINITE", "evaluate_system", "refine_solutions", "sharp_residuals", "track"]
 
 Complexes = NDArray[np.complex128]
 Reals = NDArray[np.float64]
@@ -23,6 +23,8 @@ ARRIVED, FAILED, INFINITE = 0, 1, 2
 
 UNKNOWNS = 8
 _FAR = 1e8  # a solution so many sizes away is at infinity
+_LARGE = 30.0  # sizes: beyond it terms of degree seven cancel, so that residuals are computed with twice the digits
+_FINE = 1e-4  # paths followed with finer steps have twice the digits throughout: near singular solutions need them
 _SHORTEST = 1e-10
 _MOST = 20000
 
@@ -109,6 +111,119 @@ def evaluate_system(
         ft[r] = -dp[3, r]
 
 
+DoubleDouble = tuple[float, float, float, float]
+"""A complex number as unevaluated sums: real part, what rounding left of it, imaginary part, what is left of that."""
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _product(a: float, b: float) -> tuple[float, float]:
+    """A product and its rounding error, exact (Dekker)."""
+    p = a * b
+    t = 134217729.0 * a
+    ah = t - (t - a)
+    al = a - ah
+    t = 134217729.0 * b
+    bh = t - (t - b)
+    bl = b - bh
+    return p, ((ah * bh - p) + ah * bl + al * bh) + al * bl
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _sum(a: float, al: float, b: float, bl: float) -> tuple[float, float]:
+    """The sum of two numbers of twice the digits."""
+    s = a + b
+    t = s - a
+    e = ((a - (s - t)) + (b - t)) + (al + bl)
+    h = s + e
+    return h, e - (h - s)
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _times(a: float, al: float, b: float, bl: float) -> tuple[float, float]:
+    """The product of two numbers of twice the digits."""
+    p, e = _product(a, b)
+    e += a * bl + al * b
+    h = p + e
+    return h, e - (h - p)
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _exact(z: complex) -> DoubleDouble:
+    """A complex number with nothing left of rounding."""
+    return z.real, 0.0, z.imag, 0.0
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _add(u: DoubleDouble, v: DoubleDouble) -> DoubleDouble:
+    re, rl = _sum(u[0], u[1], v[0], v[1])
+    im, il = _sum(u[2], u[3], v[2], v[3])
+    return re, rl, im, il
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _subtract(u: DoubleDouble, v: DoubleDouble) -> DoubleDouble:
+    re, rl = _sum(u[0], u[1], -v[0], -v[1])
+    im, il = _sum(u[2], u[3], -v[2], -v[3])
+    return re, rl, im, il
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def _multiply(u: DoubleDouble, v: DoubleDouble) -> DoubleDouble:
+    a, al = _times(u[0], u[1], v[0], v[1])
+    b, bl = _times(u[2], u[3], v[2], v[3])
+    c, cl = _times(u[0], u[1], v[2], v[3])
+    d, dl = _times(u[2], u[3], v[0], v[1])
+    re, rl = _sum(a, al, -b, -bl)
+    im, il = _sum(c, cl, d, dl)
+    return re, rl, im, il
+
+
+@njit(cache=True, error_model="numpy", nogil=True)
+def sharp_residuals(z: Complexes, p: Complexes, poses: int, points: int, f: Complexes) -> None:
+    """The equations of `evaluate_system` with twice the digits: 32 of them, rounded at the end.
+
+    Args:
+        z: (8,) the unknowns.
+        p: (4, 8) parameters, as in `evaluate_system`.
+        poses: as in `evaluate_system`.
+        points: as in `evaluate_system`.
+        f: (8,) written.
+    """
+    one = _exact(1.0 + 0.0j)
+    for j in range(poses + points):
+        t, s = _exact(p[0, j]), _exact(p[1, j])
+        ts = _multiply(t, s)
+        # The condition of each dyad: A g + B h + C = 0, with h = -g/(1 + g).
+        x, xb, a, ab = _exact(z[0]), _exact(z[1]), _exact(z[4]), _exact(z[5])
+        a1 = _multiply(x, _subtract(ab, s))
+        b1 = _multiply(xb, _subtract(a, t))
+        c1 = _subtract(_add(_multiply(t, _subtract(ab, xb)), _multiply(s, _subtract(a, x))), ts)
+        y, yb, b, bb = _exact(z[2]), _exact(z[3]), _exact(z[6]), _exact(z[7])
+        a2 = _multiply(y, _subtract(bb, s))
+        b2 = _multiply(yb, _subtract(b, t))
+        c2 = _subtract(_add(_multiply(t, _subtract(bb, yb)), _multiply(s, _subtract(b, y))), ts)
+        if j < poses:
+            g = _exact(p[2, j])
+            turned = _add(one, g)
+            near = -p[2, j] / (1 + p[2, j])
+            rest = _add(g, _multiply(_exact(near), turned))  # what rounding left of the quotient
+            lost = -complex(rest[0], rest[2]) / (1 + p[2, j])
+            h = _add(_exact(near), _exact(lost))
+            v = _add(_add(_multiply(a1, g), _multiply(b1, h)), c1)
+            f[2 * j] = complex(v[0], v[2])
+            v = _add(_add(_multiply(a2, g), _multiply(b2, h)), c2)
+            f[2 * j + 1] = complex(v[0], v[2])
+        else:
+            first = _subtract(_multiply(b1, c2), _multiply(b2, c1))
+            second = _subtract(_multiply(c1, a2), _multiply(c2, a1))
+            both = _subtract(_multiply(a1, b2), _multiply(a2, b1))
+            by_both = _add(first, second)
+            v = _add(_multiply(by_both, both), _multiply(first, second))
+            f[poses + j] = complex(v[0], v[2])
+    for r in range(2 * poses + points, UNKNOWNS):
+        f[r] = z[r] - p[3, r]
+
+
 @njit(cache=True, error_model="numpy", nogil=True)
 def _solve(matrix: Complexes, right: Complexes) -> bool:
     """Gauss with row scaling and pivoting, in place; False for a singular matrix."""
@@ -193,6 +308,8 @@ def refine_solutions(z: Complexes, p: Complexes, poses: int, points: int, steps:
         steps[n] = np.inf
         for _ in range(8):
             evaluate_system(z[n], p, still, poses, points, f, jac, ft)
+            if _norm(z[n]) > _LARGE:
+                sharp_residuals(z[n], p, poses, points, f)
             if not _solve(jac, f):
                 steps[n] = np.inf
                 break
@@ -227,7 +344,8 @@ def track(
         end: (4, 8) parameters.
         poses: as in `evaluate_system`.
         points: as in `evaluate_system`.
-        loose: 1e-3 is quick; 1e-6 keeps paths apart that come near each other.
+        loose: 1e-3 is quick; 1e-6 keeps paths apart that come near each other, and computes residuals with twice the
+            digits throughout.
         out: (paths, 8) written: where the path ended.
         status: (paths,) written: ARRIVED, FAILED or INFINITE.
         work: (paths,) written: steps taken.
@@ -281,6 +399,8 @@ def track(
                 last = 1e300
                 for turn in range(3):
                     evaluate_system(w, p, dp, poses, points, f, jac, ft)
+                    if loose < _FINE or _norm(w) > _LARGE:
+                        sharp_residuals(w, p, poses, points, f)
                     if not _solve(jac, f):
                         break
                     for i in range(n):

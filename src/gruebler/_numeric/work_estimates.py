@@ -95,3 +95,8 @@ def tracking(paths: int) -> float:
 def refining(solutions: int) -> float:
     """`homotopy.refine`: some steps of Newton's method with eight equations."""
     return 5e-3 * solutions
+
+
+def evaluating(solutions: int) -> float:
+    """`homotopy.sharp_residuals`: eight equations with twice the digits."""
+    return 5e-3 * solutions

@@ -37,7 +37,7 @@ def add(parser: Parser) -> None:
         "copied from the page (default: crankrocker)",
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="one file .html instead of a server")
-    parser.add_argument("--port", type=int, metavar="N", help=f"where it listens (default: {_PORT}, or any free one)")
+    parser.add_argument("--port", type=int, metavar="N", help="where it listens (default: 8117, or any free one)")
     parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help="who may reach it (default: 127.0.0.1)")
     parser.add_argument("--no-browser", action="store_true", help="only print the address")
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.linkages import Linkage
+from gruebler.synthesis.curve_matching import PLACES, CurveMatch, best_matches, drive_angles, evenly_along
 from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.four_bar_curves import FOUR_BAR, SLIDER_CRANK, FourBarKind, curve_points
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
@@ -28,9 +29,7 @@ __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
 Progress = Callable[[int, int], None]
 
-_ARCS = 64  # places on each curve of the atlas, evenly along it
-_WINDOWS = (8, 12, 16, 24, 32, 48)  # pieces of a curve, in such places, for open targets
-_STEPS = 80
+_STEPS = 300
 ACCEPTED = 0.05
 """A whole curve is accepted if it is missed by less than this part of its size, unless the caller says otherwise."""
 
@@ -78,13 +77,11 @@ def atlas(kind: FourBarKind, count: int = 0) -> Atlas:
     rows[kind.unknowns.index("u")], rows[kind.unknowns.index("v")] = w.real, w.imag
     rows = rows[:, _turns(kind, rows)]
     branch = np.where(np.arange(rows.shape[1]) % 2, 1.0, -1.0)
-    phi = np.linspace(0, 2 * np.pi, 2 * _ARCS + 1)
+    phi = np.linspace(0, 2 * np.pi, 2 * PLACES + 1)
     z = curve_points(kind, rows[:, :, None], phi[None, :], branch[:, None]).z
     good = np.isfinite(z).all(axis=1)
     rows, branch, z = rows[:, good], branch[good], z[good]
-    arcs = np.concatenate([np.zeros((len(z), 1)), np.cumsum(np.abs(np.diff(z, axis=1)), axis=1)], axis=1)
-    places = np.arange(_ARCS) / _ARCS
-    at = np.stack([np.interp(places * row[-1], row, phi) for row in arcs])
+    at = evenly_along(z, phi)
     return Atlas(kind, rows, branch, at, curve_points(kind, rows[:, :, None], at, branch[:, None]).z)
 
 
@@ -99,102 +96,21 @@ class _Start(NamedTuple):
     """(points,) crank angles of the target's points, in the plane."""
 
 
-def _resampled(z: Complexes, closed: bool, count: int) -> tuple[Complexes, Reals]:
-    """Points evenly along the curve through points, and the part of the curve at which each given point lies."""
-    whole = np.append(z, z[0]) if closed else z
-    arcs = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(whole)))])
-    parts = arcs / arcs[-1]
-    at = np.arange(count) / count if closed else np.linspace(0, 1, count)
-    places = np.interp(at, parts, whole.real) + 1j * np.interp(at, parts, whole.imag)
-    return places, parts[: len(z)]
-
-
 def _neighbours(kind: FourBarKind, z: Complexes, closed: bool, number: int) -> list[_Start]:
     """The nearest curves of the atlas, or pieces of them, up to a similarity."""
     book = atlas(kind)
-    spectrum = np.fft.fft(book.z, axis=1)
-    out: list[_Start] = []
-    for mirrored in (False, True):
-        wanted = np.conj(z) if mirrored else z
-        for length in (_ARCS,) if closed else _WINDOWS:
-            target, parts = _resampled(wanted, closed, length if closed else length + 1)
-            for back in (False, True):
-                rows = target[::-1] if back else target
-                along = (1 - parts) % 1.0 if back and closed else (1 - parts if back else parts)
-                if back and closed:
-                    rows, along = np.roll(target[::-1], 1), (-parts) % 1.0
-                out += _matched(book, spectrum, rows, along, length, number, mirrored)
-    out.sort(key=lambda start: start.gap)
-    return out[:number]
+    return [_placed(book, match) for match in best_matches(book.z, z, number, closed=closed)]
 
 
-def _matched(
-    book: Atlas, spectrum: Complexes, target: Complexes, along: Reals, length: int, number: int, mirrored: bool
-) -> list[_Start]:
-    count = len(target)
-    middle = target.mean()
-    centred = target - middle
-    energy = float(np.sum(np.abs(centred) ** 2))
-    # For every begin of a piece of every curve: sum of conj(curve) * target, and the spread of the piece.
-    padded = np.zeros(_ARCS, np.complex128)
-    padded[:count] = centred[:_ARCS]
-    # inner[begin] = sum over j of conj(curve[begin + j]) * target[j], by the theorem of convolution.
-    inner = np.conj(np.fft.ifft(spectrum * np.conj(np.fft.fft(padded)), axis=1))
-    around = np.concatenate([book.z, book.z[:, :count]], axis=1)
-    sums = np.cumsum(np.concatenate([np.zeros((len(around), 1)), around], axis=1), axis=1)
-    squares = np.cumsum(np.concatenate([np.zeros((len(around), 1)), np.abs(around) ** 2], axis=1), axis=1)
-    begins = np.arange(_ARCS)
-    mean = (sums[:, begins + count] - sums[:, begins]) / count
-    spread = (squares[:, begins + count] - squares[:, begins]).real - count * np.abs(mean) ** 2
-    with np.errstate(invalid="ignore", divide="ignore"):
-        likeness = np.abs(inner) ** 2 / (np.maximum(spread, 1e-12) * energy)
-    best = np.argmax(likeness, axis=1)
-    rows = np.arange(len(best))
-    order = np.argsort(-likeness[rows, best])[:number]
-    return [
-        _placed(
-            book,
-            int(n),
-            int(best[n]),
-            complex(inner[n, best[n]]),
-            float(spread[n, best[n]]),
-            complex(mean[n, best[n]]),
-            middle,
-            along,
-            length,
-            mirrored,
-            1 - float(likeness[n, best[n]]),
-        )
-        for n in order
-    ]
-
-
-def _placed(
-    book: Atlas,
-    number: int,
-    begin: int,
-    inner: complex,
-    spread: float,
-    mean: complex,
-    middle: complex,
-    along: Reals,
-    length: int,
-    mirrored: bool,
-    gap: float,
-) -> _Start:
+def _placed(book: Atlas, match: CurveMatch) -> _Start:
     """A curve of the atlas turned, scaled and shifted onto the target."""
-    turn = inner / spread
-    shift = middle - turn * mean
-    phi = np.unwrap(np.concatenate([book.phi[number], book.phi[number][:1] + 2 * np.pi]))
-    at = begin + along * length
-    laps = np.floor(at / _ARCS)
-    crank = np.interp(at - laps * _ARCS, np.arange(_ARCS + 1), phi) + 2 * np.pi * laps
-    row = _transformed(book.kind, book.rows[:, number], turn, shift)
-    angle = crank + float(np.angle(turn))
-    branch = float(book.branch[number])
-    if mirrored:
+    n = match.number
+    row = _transformed(book.kind, book.rows[:, n], match.turn, match.shift)
+    angle = drive_angles(book.phi[n], match.at) + float(np.angle(match.turn))
+    branch = float(book.branch[n])
+    if match.mirrored:
         row, angle, branch = _mirrored(book.kind, row), -angle, -branch
-    return _Start(gap, row, branch, angle)
+    return _Start(match.gap, row, branch, angle)
 
 
 def _transformed(kind: FourBarKind, row: Reals, turn: complex, shift: complex) -> Reals:

@@ -225,7 +225,10 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
     falls, rises = -slope[target, segment], slope[target, segment + 1]
     speed = np.sqrt(np.sum(np.abs(rates[target, segment]) ** 2, axis=1))
     near = np.sqrt(np.minimum(square[target, segment], square[target, segment + 1]))
-    keep = near <= 2 * (high - low) * speed + (1e-3 + 2 * tolerance) * targets.size
+    nearest = np.full(count, np.inf)
+    np.minimum.at(nearest, target, near)
+    # Of a target that is missed the nearest place is refined all the same: the verdict says how near it is.
+    keep = near <= np.maximum(2 * (high - low) * speed + (1e-3 + 2 * tolerance) * targets.size, nearest[target])
     target, low, high, falls, rises = (v[keep] for v in (target, low, high, falls, rises))
     with np.errstate(invalid="ignore", divide="ignore"):
         at = low + (high - low) * np.nan_to_num(falls / (falls + rises), nan=0.5)
@@ -248,7 +251,7 @@ def _met(course: Circuit, targets: Targets, tolerance: float) -> _Met:
         border = np.sqrt(square[k, [0, -1]]) / targets.size
         all_arcs = np.concatenate([at[mine], arcs[[0, -1]]])
         misses = np.concatenate([ends[mine], border])
-        error = max(error, float(misses.min()))
+        error = max(error, min(float(misses.min()), float(np.sqrt(square[k].min())) / targets.size))
         found.append(_distinct(np.sort(all_arcs[misses <= limit]), course))
     return _Met(found, error)
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -19,10 +20,11 @@ from gruebler.synthesis.dyads import GuidingDyad
 from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_design, point_targets, position_targets
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
-from gruebler.synthesis.tasks import PathTask, PositionTask
+from gruebler.synthesis.tasks import SAME, PathTask, PositionTask
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
+MOST_ON_CIRCLE = 6
 Progress = Callable[[int, int], None]
 
 
@@ -104,6 +106,7 @@ def _exact(
     threads: int | None,
     progress: Progress | None,
 ) -> SynthesisResult:
+    _check_general(task)
     made, found = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
     for guiding_dyad, two in _dyad_pairs(problem, found):
@@ -114,6 +117,35 @@ def _exact(
     accepted, rejected = ranked(designs)
     count = SolutionCount(what, problem.classes, len(found.z) + found.infinite, len(found.real))
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(found, made.added)))
+
+
+def _check_general(task: PathTask) -> None:
+    """Raise `SynthesisError` for more points on a line or circle than a coupler curve has there.
+
+    A coupler curve is of degree six and passes three times through each circular point: it meets a line in six points,
+    a circle in 12 - 2 * 3 = 6.
+    """
+    z = (task.z - task.z.mean()) / task.size
+    rows = np.stack([np.abs(z) ** 2, z.real, z.imag, np.ones(len(z))], axis=1)
+    for three in combinations(range(len(z)), 3):
+        circle = np.linalg.svd(rows[list(three)])[2][-1]
+        # The distance from the circle a |z|^2 + ... = 0 (a line where a = 0), by its gradient.
+        slope = np.abs(2 * circle[0] * z + circle[1] + 1j * circle[2])
+        count = int(np.count_nonzero(np.abs(rows @ circle) <= SAME * np.maximum(slope, 1e-3)))
+        if count > MOST_ON_CIRCLE:
+            if abs(circle[0]) < SAME:
+                raise SynthesisError(
+                    "{count} of the points lie on one line, which a coupler curve meets in at most {most} points "
+                    "unless it contains it: give closed = true for the curves that come nearest",
+                    count=count,
+                    most=MOST_ON_CIRCLE,
+                )
+            raise SynthesisError(
+                "{count} of the points lie on one circle, which a coupler curve meets in at most {most} points unless "
+                "it contains it: give closed = true for the curves that come nearest",
+                count=count,
+                most=MOST_ON_CIRCLE,
+            )
 
 
 def _notes(found: Solutions, added: int) -> Iterator[str]:
