@@ -285,11 +285,15 @@ export class Stage {
       const turn = `rotate(${(-machine.angles[k]! * 180) / Math.PI})`;
       if (carries) {
         const room = 26 / this.scale;
-        const from = band.low - room, to = band.high + room;
+        const pins = frame ? [] : mine.filter((m) => model.elements[m]!.kind === "pin").map((m) => {
+          const dx = machine.at[2 * m]! - band.x, dy = machine.at[2 * m + 1]! - band.y;
+          return [band.c * dx + band.s * dy, band.c * dy - band.s * dx] as const;
+        }).filter(([, off]) => Math.abs(off) < 1e-6 * machine.size).map(([way]) => way);
+        const from = Math.min(band.low - room, ...pins), to = Math.max(band.high + room, ...pins);
         const a = place(band.x + band.c * from, band.y + band.s * from), b = place(band.x + band.c * to, band.y + band.s * to);
         if (frame) out.push(svg("path", { class: "rail", d: `M${a}L${b}` }), svg("path", { class: "rail-hatch", d: `M${a}L${b}` }));
         else out.push(svg("path", { class: pinned ? "slot-outline" : "rod-outline", d: `M${a}L${b}` }), svg("path", { class: pinned ? "slot" : "rod", d: `M${a}L${b}` }));
-        if (!frame) nodes.push([band.x + band.c * (band.low + band.high) / 2, band.y + band.s * (band.low + band.high) / 2]);
+        if (!frame && !pins.length) nodes.push([band.x + band.c * (band.low + band.high) / 2, band.y + band.s * (band.low + band.high) / 2]);
       } else {
         out.push(svg("rect", { class: "block", x: -15, y: -9, width: 30, height: 18, rx: 3, transform: `translate(${place(...here)}) ${turn}` }));
         nodes.push(here);
