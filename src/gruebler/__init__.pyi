@@ -46,7 +46,8 @@ from .gears import Train
 from .geneva import Geneva
 from .geometry import coupler_curve
 from .isomorphism import code, decode, is_isomorphic, symmetry
-from .kinematics import Circuit, Motion, assembly_modes, circuit, from_degrees, move, move_many
+from .kinematics import Circuit, Motion, circuit, from_degrees, move, move_many
+from .kinematics.solve import assembly_modes
 from .linkages import Linkage
 from .mechanism import Mechanism
 from .mechanism.inversion import driven_mechanisms, inversions

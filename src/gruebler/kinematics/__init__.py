@@ -18,7 +18,7 @@ from gruebler.kinematics.circuits import ChangePoint, Circuit, Extremum, Monoton
 from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.solve import all_branches, assembly_modes, move
+from gruebler.kinematics.solve import all_branches, move
 
 __all__ = [
     "ChangePoint",
@@ -31,7 +31,6 @@ __all__ = [
     "Poses",
     "Stop",
     "all_branches",
-    "assembly_modes",
     "circuit",
     "designs",
     "four_bars",
