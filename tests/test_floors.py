@@ -27,6 +27,7 @@ FLOORS = [
     {"synthesis", "catalog"},
     {"exercises", "sheets"},
     {"files", "pictures", "teaching"},
+    {"explorer"},
     {"cli"},
 ]
 ENTRANCES = {"", "__main__"}  # the front door looks into every room, lazily; python -m opens the command line

@@ -9,6 +9,7 @@ from . import (
     drawing,
     enumeration,
     errors,
+    explorer,
     forces,
     formats,
     fourbar,
@@ -37,6 +38,7 @@ from .cams import Cam
 from .chain import Chain, Joint
 from .enumeration import chains, count_chains
 from .errors import GrueblerError
+from .explorer.notebook import explore
 from .files import read, write
 from .forces import Loads, Statics, statics
 from .fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -99,6 +101,8 @@ __all__ = [
     "driven_mechanisms",
     "enumeration",
     "errors",
+    "explore",
+    "explorer",
     "extend",
     "forces",
     "formats",
