@@ -18,6 +18,7 @@ from gruebler.atomic_files import atomic_file
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
 from gruebler.formats.dot import dot_from_chain, graph_from_dot
+from gruebler.formats.structures import chain_of_text
 from gruebler.formats.text_files import parse_xml
 from gruebler.text import Message, message
 
@@ -224,7 +225,7 @@ def _plain_graph(chain: Chain, form: str) -> nx.MultiGraph:
 
 
 LINES: dict[str, tuple[Callable[[str], Chain], Callable[[Chain], str]]] = {
-    "text": (Chain.parse, Chain.text),
+    "text": (chain_of_text, Chain.text),
     "graph6": (_from_graph6, _to_graph6),
     "sparse6": (_from_sparse6, _to_sparse6),
 }
