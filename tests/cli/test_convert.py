@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from gruebler.cli import main
-from gruebler.files import FORMATS, read
+from gruebler.files import FORMATS, read, write
+from gruebler.fourbar import FourBar
 
 FILES = Path(__file__).parents[1] / "formats" / "files"
 
@@ -47,3 +48,15 @@ def test_a_file_is_not_written_over_itself(tmp_path, capsys):
     assert main(["convert", str(path), str(path)]) == 2
     assert "over itself" in capsys.readouterr().err
     assert path.read_text(encoding="utf-8").startswith("R(0-1)")
+
+
+def test_other_commands_name_the_conversion(capsys):
+    assert main(["analyse", str(FILES / "klann.linkage2")]) == 2
+    assert "gruebler convert" in capsys.readouterr().err
+
+
+def test_a_linkage_with_points_is_no_task(tmp_path):
+    """The key ``points`` is of tasks, too."""
+    linkage = FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
+    for suffix in (".toml", ".json"):
+        assert read(write(linkage, tmp_path / f"a{suffix}")) == linkage

@@ -87,8 +87,15 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     kind, colon, _ = word.partition(":")
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
+        from gruebler.files import FORMATS
         from gruebler.formats.linkages import read_linkage
 
+        others = [ending for form in FORMATS if form.read is not None for ending in form.suffixes]
+        if path.name.lower().endswith(tuple(others)) and path.suffix.lower() not in (".toml", ".json"):
+            raise GrueblerError(
+                "{path}: another format; `gruebler convert {path} NAME.toml` makes a file that this command reads",
+                path=path,
+            )
         return read_linkage(path), None
     if "(" in word:
         raise GrueblerError(
