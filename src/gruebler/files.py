@@ -10,6 +10,7 @@ import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from importlib import import_module
+from math import atan2
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -35,6 +36,8 @@ __all__ = ["FORMATS", "Format", "FormatWarning", "convert", "format_of", "read",
 
 _TASKS = frozenset({"positions", "points", "inputs", "swing", "stroke"})
 _LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
+_LARGEST_TABLE = 1_000_000  # bytes
+_POSE = 4  # numbers: a place and a direction
 
 
 class FormatWarning(UserWarning):
@@ -117,10 +120,24 @@ def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None
 
 
 def _task(path: Path, left_out: list[Message]) -> Task:
-    from gruebler.synthesis import read_task
+    """A task in CSV, or without a header a curve of four-bar-rs, closed if its name has ``.closed.``."""
+    from gruebler.formats.four_bar_rs import curve_from_csv
+    from gruebler.formats.text_files import read_text
+    from gruebler.synthesis import PathTask, PositionTask, read_task
 
     del left_out
-    return read_task(path)
+    text = read_text(path, _LARGEST_TABLE)
+    try:
+        rows = curve_from_csv(text)
+        if rows is None:
+            return read_task(path)
+        if len(rows[0]) == _POSE:
+            return PositionTask(tuple((x, y, atan2(dy, dx)) for x, y, dx, dy in rows))
+        return PathTask(tuple((x, y) for x, y in rows), closed=".closed." in path.name.lower())
+    except GrueblerError as error:
+        if str(path) in str(error):
+            raise
+        raise GrueblerError("{path}: {error}", path=path, error=error) from None
 
 
 def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
@@ -309,7 +326,14 @@ FORMATS: tuple[Format, ...] = (
         _own_document,
         _write_own_document,
     ),
-    Format("csv", (".csv",), message("gruebler, CSV"), message("tasks of synthesis, completely"), _task, _write_task),
+    Format(
+        "csv",
+        (".csv",),
+        message("gruebler, CSV; curves of four-bar-rs are recognised"),
+        message("tasks of synthesis, completely"),
+        _task,
+        _write_task,
+    ),
     _lines("text", ".txt", message("gruebler, texts of chains"), message("chains one a line, with any joints")),
     _lines("graph6", ".g6", message("nauty, House of Graphs"), message("chains one a line: revolute, one between two")),
     _lines("sparse6", ".s6", message("nauty"), message("chains one a line: simple revolute joints")),

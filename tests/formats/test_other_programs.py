@@ -473,3 +473,21 @@ def test_json_of_others_is_named_by_its_format(tmp_path):
     files.write(FourBar(25, 70, 40, 70), path, "pylinkage", left_out=[])
     assert json.loads(path.read_text())["ground"] == "frame"
     assert files.read(path, left_out=[]).length("crank", 0, 1) == pytest.approx(25)
+
+
+def test_curves_of_four_bar_rs_are_tasks(tmp_path):
+    """Bulatovic's points of 2016, and the first poses of Hsieh 2017, as four-bar-rs has them."""
+    path = tmp_path / "mkh1.closed.csv"
+    path.write_text("# a source\n0.5,1.1\n0.4,1.1\n0,0.5\n0.03,.3\n.6,1.\n", encoding="utf-8")
+    task = files.read(path)
+    assert task.closed
+    assert task.points == ((0.5, 1.1), (0.4, 1.1), (0, 0.5), (0.03, 0.3), (0.6, 1.0))
+    path = tmp_path / "hsieh1.open.csv"
+    path.write_text("18.8,12.1,0.62161,-0.783327\n13.3,18.1,1.0,0.0\n6.3,19.8,0.764842,0.644218\n", encoding="utf-8")
+    assert [round(angle, 3) for _, _, angle in files.read(path).positions] == [-0.9, 0.0, 0.7]
+    path.write_text("1,2\n3\n", encoding="utf-8")
+    with pytest.raises(GrueblerError, match="csv: expected rows of two or four numbers"):
+        files.read(path)
+    path.write_text("1,2\n3,nan\n", encoding="utf-8")
+    with pytest.raises(GrueblerError, match="csv: coordinate: expected a number"):
+        files.read(path)

@@ -1,4 +1,4 @@
-"""Files of four-bar-rs: a four-bar with a coupler point in RON (``.ron``).
+"""Files of four-bar-rs: a four-bar with a coupler point in RON (``.ron``), curves to reach in CSV without a header.
 
 ``p1x, p1y`` is the pivot of the crank, ``a`` the direction of the frame to the other pivot, ``l1`` the frame, ``l2``
 the crank, ``l3`` the coupler, ``l4`` the rocker, ``l5`` and ``g`` the coupler point: its distance from the crank pin
@@ -18,7 +18,7 @@ from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing
 from gruebler.formats.text_files import read_number
 from gruebler.text import Message, message
 
-__all__ = ["drawing_from_ron", "ron_from_drawing"]
+__all__ = ["curve_from_csv", "drawing_from_ron", "ron_from_drawing"]
 
 _FIELD = re.compile(r"\s*([A-Za-z_]\w*)\s*:\s*([^\s,()]+)\s*(?:,|$)")
 _COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.DOTALL)
@@ -105,6 +105,20 @@ def _crank_range(frame: float, crank: float, coupler: float, rocker: float, stat
     if not folded:
         return -angle(far), angle(far)
     return (2 * pi - angle(far), 2 * pi - angle(near)) if state.endswith("b1") else (angle(near), angle(far))
+
+
+def curve_from_csv(text: str) -> list[tuple[float, ...]] | None:
+    r"""The rows of a curve that four-bar-rs takes as a target: x, y, or x, y and a unit vector; None for another table.
+
+    >>> curve_from_csv("# a circle\n1,0\n0.,1\n-1,0\n"), curve_from_csv("x,y\n1,0\n")
+    ([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)], None)
+    """
+    rows = [line.split(",") for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    if not rows or re.match(r"\s*[-+.\d]", rows[0][0]) is None:
+        return None
+    if any(len(row) != len(rows[0]) for row in rows) or len(rows[0]) not in (2, 4):
+        raise GrueblerError("expected rows of two or four numbers")
+    return [tuple(read_number(cell.strip(), message("coordinate")) for cell in row) for row in rows]
 
 
 def ron_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
