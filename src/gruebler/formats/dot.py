@@ -16,6 +16,7 @@ __all__ = ["dot_from_chain", "graph_from_dot"]
 
 _COMMENT = re.compile(r'("(?:[^"\\]|\\.)*")|//[^\n]*|^#[^\n]*|/\*.*?\*/', re.DOTALL | re.MULTILINE)
 _TOKEN = re.compile(r'"(?:[^"\\]|\\.)*"|--|->|-?(?:\.\d+|\d+(?:\.\d*)?)|\w+|[{}\[\];,=]|\S')
+_MOST = 300_000  # words and signs; a chain of thousands of joints has fewer
 _WORD = re.compile(r"[A-Za-z_]\w*|\d+")
 
 
@@ -47,6 +48,8 @@ class _Reader:
         import networkx
 
         self._tokens = _TOKEN.findall(_COMMENT.sub(lambda found: found[1] or " ", text))
+        if len(self._tokens) > _MOST:
+            raise GrueblerError("has more than {most:,} words and signs", most=_MOST)
         self._place = 0
         self.graph = networkx.MultiGraph()
         self._passed("strict")

@@ -36,7 +36,7 @@ __all__ = [
     "with_slot_ends",
 ]
 
-_MOST = 3000  # joints, and links; real mechanisms have fewer than a hundred
+_MOST = 600  # joints, and links; real mechanisms have fewer than a hundred
 _MOST_AT_A_PIN = 60
 _SAME = 1e-9  # of the size of the drawing: places that are nearer are one place
 _PARALLEL = 1e-6  # radians

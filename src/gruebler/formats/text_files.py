@@ -11,7 +11,7 @@ from gruebler.errors import GrueblerError
 
 __all__ = ["parse_xml", "read_number", "read_text"]
 
-LARGEST = 8_000_000
+LARGEST = 2_000_000
 """Bytes of a file; drawings of a thousand links fit."""
 _DEEPEST = 100  # elements within elements
 
