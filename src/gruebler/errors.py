@@ -112,20 +112,20 @@ def _without_middle(text: str, most: int) -> str:
 
 
 class Suggestion(str):
-    """The end of an English message that offers a word; `text` says it in other languages."""
+    """A remark in an English message that offers a word; `text` translates it."""
 
     word: str
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """The end of a message that offers the known word nearest to a wrong one, or nothing.
+    """A remark for behind a wrong word, which offers the known word nearest to it; empty if none is near.
 
     >>> nearest("cranck", ["frame", "crank"])
-    "; did you mean 'crank'?"
+    " (did you mean 'crank'?)"
     """
     close = get_close_matches(word, list(known), n=1, cutoff=0.5)
     if not close:
         return ""
-    suggestion = Suggestion(f"; did you mean {close[0]!r}?")
+    suggestion = Suggestion(f" (did you mean {close[0]!r}?)")
     suggestion.word = close[0]
     return suggestion
