@@ -1,7 +1,7 @@
-"""What can be wrong with a question, each kind with a name of its own.
+"""The errors of this library.
 
 Every message says what was expected, what was found and, where there is one, the way out. A wrong call
-raises; an honest failure (a budget spent, a proof not found) is a result and never one of these.
+raises; a failure (a budget spent, a proof not found) is a result and never one of these.
 """
 
 import re
@@ -27,7 +27,7 @@ class Template(Protocol):
 
 
 class GrueblerError(ValueError):
-    """The common parent: catching it catches every refusal of this library, and nothing else.
+    """The base class of all errors of this library.
 
     It carries an English text with gaps and the values that fill them (or a message that has both), so that
     `text.error_in_language` can say it in another language. What it says is one line of bounded length, however long
@@ -109,6 +109,22 @@ def _without_middle(text: str, most: int) -> str:
     middle = f"… ({len(text):,} characters) …"
     end = (most - len(middle)) // 4
     return text[: most - len(middle) - end] + middle + text[-end:]
+
+
+def expect(value: object, wanted: type) -> None:
+    """Nothing if a value is of a class; otherwise `GrueblerError`, which names the attribute of the value that is.
+
+    >>> expect(3, str)
+    Traceback (most recent call last):
+    gruebler.errors.GrueblerError: expected str, but found int
+    """
+    if isinstance(value, wanted):
+        return
+    names = {"wanted": wanted.__name__, "found": type(value).__name__}
+    attribute = wanted.__name__.lower()
+    if isinstance(getattr(value, attribute, None), wanted):
+        raise GrueblerError("expected {wanted}, but found {found}: take its {attribute}", attribute=attribute, **names)
+    raise GrueblerError("expected {wanted}, but found {found}", **names)
 
 
 class Suggestion(str):

@@ -18,7 +18,7 @@ from functools import cache
 from numbers import Number
 from pathlib import Path
 from string import Formatter
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 import msgspec
 
@@ -109,7 +109,7 @@ class _LocalFormatter(Formatter):
             return translate(" (did you mean {word!r}?)", self.lang, word=value.word)
         return value.in_language(self.lang) if isinstance(value, Readable) else value
 
-    def convert_field(self, value: Any, conversion: Literal["r", "s", "a"] | None) -> Any:
+    def convert_field(self, value: Any, conversion: str | None) -> Any:
         if conversion == "r" and isinstance(value, float):
             # Still a number for `format_field`: NumPy's have their type in their repr, and -40.0 was given as -40.
             return int(value) if value.is_integer() and abs(value) < 2**53 else float(value)

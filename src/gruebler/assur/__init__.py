@@ -1,6 +1,6 @@
-"""Assur groups: a mechanism taken apart into what can be solved one after another, and all groups there are.
+"""Assur groups: a mechanism decomposed into groups that are solved one after another, and the list of all groups.
 
-`decompose` takes a mechanism apart; `drive_choices` does so for each choice of drives. `AssurGroup` is a group apart
+`decompose` decomposes a mechanism; `drive_choices` does so for each choice of drives. `AssurGroup` is a group apart
 from any mechanism, `assur_groups` lists those of turning joints. Definitions and proofs: docs/theory/assur.md.
 """
 

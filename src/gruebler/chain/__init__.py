@@ -1,4 +1,4 @@
-"""The waist of the house: chains and joints."""
+"""Kinematic chains and their joints."""
 
 from gruebler.chain.joint import Joint
 from gruebler.chain.model import Chain

@@ -33,7 +33,7 @@ class Chain:
 
     Args:
         joints: each a `Joint` or (pair or its full name, link names). Joints between the same links may repeat.
-        links: the names of the links, if their order matters or a slip in a joint is to be found; otherwise
+        links: the names of the links, if their order matters or misspelt joints are to be detected; otherwise
             the links are those the joints name, in that order. Numbers serve as names.
         space: ``planar`` (default), ``spherical`` or ``spatial``.
 

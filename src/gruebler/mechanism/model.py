@@ -33,7 +33,7 @@ class Drive:
 
 
 class Mechanism:
-    """A chain, its frame and its drives. A value: sound or not constructed, never changed.
+    """A chain, its frame and its drives. Immutable, and checked when it is constructed.
 
     Args:
         chain: any chain.

@@ -1,4 +1,4 @@
-"""How many freedoms a chain has, by the formula and in truth, and what is wrong where the two differ."""
+"""Mobility: counted by the formula, computed exactly, and what is wrong where the two differ."""
 
 from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count_freedoms, counted

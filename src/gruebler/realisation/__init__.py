@@ -1,4 +1,4 @@
-"""Realisation: sensible dimensions for any planar mechanism, found by a search.
+"""Realisation: dimensions for any planar mechanism, found by a search.
 
 `realise` draws a mechanism at random, makes its driven links small, and improves what moves;
 docs/theory/realisation.md says why that works.

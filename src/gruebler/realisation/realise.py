@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import combinations
 
 from gruebler.assur import decompose
-from gruebler.errors import LinkageError
+from gruebler.errors import LinkageError, expect
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic
 from gruebler.realisation.finishing import finish_linkage
@@ -29,13 +29,13 @@ def realise(
         mechanism: a planar mechanism of turning and sliding joints and pins in slots; without drives, `with_drives`
             chooses them.
         seed: of the random numbers; the same seed gives the same linkage.
-        budget: how many drawings to try; up to three times as many if nothing turns fully.
+        budget: how many layouts to try; up to three times as many if nothing turns fully.
         target_quality: the measure of conditioning above which more is not sought; 0.5 is a transmission angle of 30
             degrees.
         unit: the name of the unit of lengths; the largest length on a link is about 100.
 
-    An honest failure (drives that do not fix the motion, nothing found) is a result with ``found`` False and a
-    ``message``. Cost: about 0.3 ms a drawing, 1 to 3 ms with groups beyond dyads.
+    A failure (drives that do not fix the motion, nothing found) is a result with ``found`` False and a
+    ``message``. Cost: about 0.3 ms a layout, 1 to 3 ms with groups beyond dyads.
 
     Raises:
         LinkageError: joints whose dimensions are not known (rolling pairs), other spaces, numbers out of range.
@@ -44,6 +44,7 @@ def realise(
     >>> found.full, found.quality > 0.4
     (True, True)
     """
+    expect(mechanism, Mechanism)
     _check("seed", seed, 0)
     _check("budget", budget, 1)
     if isinstance(target_quality, bool) or not isinstance(target_quality, int | float) or not 0 < target_quality <= 1:

@@ -58,7 +58,7 @@ class JointRequirement:
 
 @dataclass(frozen=True, slots=True)
 class Requirements:
-    """Everything that is asked for; what is left out may be anything."""
+    """Requirements of `variants` on chains and mechanisms; what is left out may be anything."""
 
     links: int
     mobility: int = 1
