@@ -506,7 +506,8 @@ def _check_kind(value: object) -> None:
     chains = isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value)
     if not (chains or isinstance(value, Chain | Linkage | Task)):
         raise GrueblerError(
-            "a {kind} cannot be written; linkages, tasks, chains and lists of chains can", kind=type(value).__name__
+            "values of type {kind} cannot be written; linkages, tasks, chains and lists of chains can",
+            kind=type(value).__name__,
         )
 
 

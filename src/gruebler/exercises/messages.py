@@ -48,6 +48,14 @@ _SOURCE_WORDS = (
     message("first exercise"),
     message("second exercise"),
     message("exercise"),
+    message("figure"),
+    message("chapter"),
+    message("classification"),
+    message("common machine, not in"),
+    message("numeric checks, bevel differential"),
+    message("the first of two with this number"),
+    message("variant of"),
+    message("variant"),
     message("and"),
 )
 
