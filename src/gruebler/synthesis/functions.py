@@ -25,6 +25,7 @@ from gruebler.synthesis.judging import Demands, Probe, Targets, judge_design
 from gruebler.synthesis.positions import guiding_dyads, ranked
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import FunctionTask, PositionTask
+from gruebler.text import message
 
 __all__ = ["Coordination", "coordination_of", "function_task", "minimax", "structural_error", "synthesise_function"]
 
@@ -163,23 +164,26 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
         made += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
         if len(task) < 5:
             notes.append(
-                f"There are infinitely many solutions, one for each point of a curve; {len(dyads)} were taken."
+                message(
+                    "There are infinitely many solutions, one for each point of a curve; {count} were taken.",
+                    count=len(dyads),
+                )
             )
     elif not made and not theorem:
         most = 3 + free
         if len(task) > most:
             raise SynthesisError(
-                "{count} pairs cannot be met exactly with {free} free start{value}: at most {most}; free a start "
+                "{count} pairs cannot be met exactly, at most {most} with this many free starts ({free}): free a start "
                 "(start_input or start_output = false) or ask for the minimax optimum",
                 count=len(task),
                 free=free,
-                value="s" if free != 1 else "",
                 most=most,
             )
-        notes.append("There are infinitely many solutions: give more pairs.")
+        notes.append(message("There are infinitely many solutions: give more pairs."))
         theorem = None
     designs, rejected = ranked(made)
-    return SynthesisResult(task, designs, rejected, SolutionCount("linkages", theorem, found, real), tuple(notes))
+    count = SolutionCount(message("linkages"), theorem, found, real)
+    return SynthesisResult(task, designs, rejected, count, tuple(notes))
 
 
 class _Solutions(NamedTuple):

@@ -21,6 +21,7 @@ from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_d
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import SAME, PathTask, PositionTask
+from gruebler.text import Message, message
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
@@ -53,8 +54,9 @@ def synthesise_path(
     below 1 s, and 10 ms for each verdict.
 
     >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
-    >>> synthesise_path(task).count
-    SolutionCount(what='four-bars', theorem=36, found=36, real=14)
+    >>> count = synthesise_path(task).count
+    >>> str(count.what), count.theorem, count.found, count.real
+    ('four-bars', 36, 36, 14)
     """
     wanted = demands or Demands()
     oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
@@ -112,8 +114,8 @@ def _exact(
     for guiding_dyad, two in _dyad_pairs(problem, found):
         guiding_dyad, two = (d.moved(made.size, made.origin) for d in (guiding_dyad, two))  # noqa: PLW2901
         designs += _judged(task, demands, guiding_dyad, two, made.first)
-    cognates = 3 if problem.poses == 0 and not problem.given_pivots else 1
-    what = "cognate triples" if cognates == 3 else "four-bars"
+    cognate = problem.poses == 0 and not problem.given_pivots
+    what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
     count = SolutionCount(what, problem.classes, len(found.z) + found.infinite, len(found.real))
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(found, made.added)))
@@ -148,19 +150,22 @@ def _check_general(task: PathTask) -> None:
             )
 
 
-def _notes(found: Solutions, added: int) -> Iterator[str]:
+def _notes(found: Solutions, added: int) -> Iterator[Message]:
     if added:
-        yield (
-            f"There are infinitely many solutions: to make them finite {added} more on a smooth curve through the "
-            "given points were added."
+        yield message(
+            "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added, "
+            "which leaves finitely many.",
+            count=added,
         )
     if found.infinite:
-        yield f"{found.infinite} solutions lie at infinity: the task is a special one."
+        yield message("{count} solutions lie at infinity: the task is a special one.", count=found.infinite)
     if found.missing:
-        yield f"{found.missing} solutions are missing: their paths could not be followed to the end."
+        yield message(
+            "{count} solutions are missing: their paths could not be followed to the end.", count=found.missing
+        )
     doubtful = int(np.count_nonzero(~found.certified))
     if doubtful:
-        yield f"{doubtful} solutions are not certified: they are singular or nearly so."
+        yield message("{count} solutions are not certified: they are singular or nearly so.", count=doubtful)
 
 
 def _best_reference(
@@ -296,10 +301,9 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
             designs += _judged_timed(task, demands, own, other)
     accepted, rejected = ranked(designs)
     theorem = 12 if len(task) == 5 else None
-    notes = [] if theorem else ["There are infinitely many solutions; some dyads of each family were taken."]
-    return SynthesisResult(
-        task, accepted, rejected, SolutionCount("linkages", theorem, 12 if theorem else real, real), tuple(notes)
-    )
+    family = message("There are infinitely many solutions; some dyads of each family were taken.")
+    count = SolutionCount(message("linkages"), theorem, theorem or real, real)
+    return SynthesisResult(task, accepted, rejected, count, () if theorem else (family,))
 
 
 def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:

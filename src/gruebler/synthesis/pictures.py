@@ -11,28 +11,11 @@ from gruebler.drawing.linkage.picture import draw_linkage
 from gruebler.linkages import Linkage
 from gruebler.synthesis.results import Design, SynthesisResult
 from gruebler.synthesis.tasks import PathTask, PositionTask, Task
+from gruebler.text import Message, joined, message, translate
 
 __all__ = ["design_figure", "designs_page"]
 
 _MOST_MARKS = 12  # targets that get a name; of more every second, third, ... is shown
-_WORDS = {
-    "en": {
-        "title": "Designs",
-        "accepted": "Accepted",
-        "rejected": "Rejected",
-        "round": "full turn",
-        "mu": "minimum transmission angle {mu:.1f}°",
-        "note": "{accepted} accepted, {rejected} rejected",
-    },
-    "de": {
-        "title": "Entwürfe",
-        "accepted": "Angenommen",
-        "rejected": "Verworfen",
-        "round": "umlaufend",
-        "mu": "kleinster Übertragungswinkel {mu:.1f}°",
-        "note": "{accepted} angenommen, {rejected} verworfen",
-    },
-}
 
 
 def _marked(task: Task, linkage: Linkage) -> Linkage:
@@ -64,26 +47,26 @@ def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
     return draw_linkage(linkage, drive, curves=curves, lang=lang)
 
 
-def designs_page(found: SynthesisResult, *, lang: str = "en", most: int = 24) -> str:
+def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -> str:
     """All accepted designs on one HTML page, so many at most; rejected ones if there are no others."""
-    words = _WORDS[lang]
-    shown, heading = (found.designs, "accepted") if found.designs else (found.rejected, "rejected")
+    shown, heading = (result.designs, message("Accepted")) if result.designs else (result.rejected, message("Rejected"))
     items = []
     for number, design in enumerate(shown[:most]):
-        figure = design_figure(found.task, design, lang=lang)
+        figure = design_figure(result.task, design, lang=lang)
         items.append(Item(figure, f"{number + 1} {_caption(design, lang)}"))
-    note = words["note"].format(accepted=len(found.designs), rejected=len(found.rejected))
-    return gallery_html(words["title"], [Section(words[heading], tuple(items))], lang=lang, note=note)
+    totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
+    note = translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals)
+    sections = [Section(heading.in_language(lang), tuple(items))]
+    return gallery_html(translate("Designs", lang), sections, lang=lang, note=note)
 
 
 def _caption(design: Design, lang: str) -> str:
-    words = _WORDS[lang]
-    verdict = design.verdict
+    verdict, form = design.verdict, design.form_in_language(lang)
     if verdict.reasons:
-        return f"{design.form}: {'; '.join(verdict.reasons)}"
-    parts = [design.form]
+        return f"{form}: {joined(verdict.reasons, '; ').in_language(lang)}"
+    parts: list[Message | str] = [form]
     if verdict.turns_fully:
-        parts.append(words["round"])
+        parts.append(message("full turn"))
     if not isnan(verdict.transmission):
-        parts.append(words["mu"].format(mu=degrees(verdict.transmission)))
-    return ", ".join(parts)
+        parts.append(message("minimum transmission angle {angle:.1f}°", angle=degrees(verdict.transmission)))
+    return joined(parts).in_language(lang)

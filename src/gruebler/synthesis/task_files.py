@@ -101,7 +101,9 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
             for k, row in enumerate(record.positions):
                 if len(row) != 3:
                     raise SynthesisError(
-                        "positions {k}: expected [x, y, degrees], but found {count} values", k=k + 1, count=len(row)
+                        "positions {number}: expected [x, y, degrees], but found {count} values",
+                        number=k + 1,
+                        count=len(row),
                     )
             rows = [(row[0], row[1], _radians(row[2], f"positions {k + 1}")) for k, row in enumerate(record.positions)]
             return PositionTask(**{**data, "positions": rows})
@@ -179,7 +181,7 @@ def _text(path: Path) -> str:
     try:
         return path.read_bytes()[:1_000_001].decode("utf-8-sig")
     except OSError as error:
-        raise SynthesisError("cannot be read ({value})", value=error.strerror or error) from None
+        raise SynthesisError("cannot be read ({reason})", reason=error.strerror or error) from None
     except UnicodeDecodeError:
         raise SynthesisError("is not UTF-8 text") from None
 
@@ -192,7 +194,10 @@ def _from_csv(text: str) -> Task:
     for k, row in enumerate(lines[1:]):
         if len(row) != len(header):
             raise SynthesisError(
-                "line {k}: expected {count} columns, but found {count_2}", k=k + 2, count=len(header), count_2=len(row)
+                "line {line}: expected {expected} columns, but found {count}",
+                line=k + 2,
+                expected=len(header),
+                count=len(row),
             )
     columns = {name: [row[c].strip() for row in lines[1:]] for c, name in enumerate(header)}
 
@@ -203,7 +208,7 @@ def _from_csv(text: str) -> Task:
                 out.append(float(cell))
             except ValueError:
                 raise SynthesisError(
-                    "line {k}, {name}: expected a number, but found {cell!r}", k=k + 2, name=name, cell=cell[:40]
+                    "line {line}, {name}: expected a number, but found {cell!r}", line=k + 2, name=name, cell=cell[:40]
                 ) from None
         return out
 
@@ -302,9 +307,7 @@ def _to_csv(document: Mapping[str, Any]) -> str:
                 "a CSV file has no columns for {keys}: write .toml or .json", keys=", ".join(sorted(keys))
             )
     if document["unit"] != "mm":
-        raise SynthesisError(
-            "a CSV file does not name the unit {document!r}: write .toml or .json", document=document["unit"]
-        )
+        raise SynthesisError("a CSV file does not name the unit {unit!r}: write .toml or .json", unit=document["unit"])
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(
         [header, *([f"{v}°" if isinstance(v, str) and v else v for v in row] for row in rows)]
