@@ -1,7 +1,16 @@
 """Commands run inside the tests, without a process of their own."""
 
+from argparse import Namespace
+
 from gruebler import GrueblerError
 from gruebler.cli.commands import command
+
+
+def arguments_of(name, *words, **options):
+    """The arguments that a command gets from these words, some of them replaced."""
+    given = vars(command(name).parser().parse_args(words))
+    assert set(options) <= set(given)
+    return Namespace(**(given | options))
 
 
 def run_command(capsys, name, *arguments):

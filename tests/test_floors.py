@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[1]
 BENEATH = ["errors", "text"]
 FLOORS = [
     {"arrays", "disjoint_sets", "errors", "text", "atomic_files", "documents", "notebook", "_numeric"},
-    {"chain", "cams", "gears", "geneva", "drawing/canvas"},
+    {"chain", "columns", "cams", "gears", "geneva", "drawing/canvas"},
     {"mobility", "isomorphism", "drawing/machines"},
     {"enumeration", "mechanism"},
     {"assur", "linkages", "drawing/structure"},

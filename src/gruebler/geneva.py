@@ -125,6 +125,15 @@ class Geneva:
         return (2 * self.slots - self.pins * (self.slots + 2 * self._side)) / (2 * self.slots)
 
     @property
+    def motion_ratio(self) -> float:
+        """The time in which the wheel moves by the time in which it rests, at constant speed; infinite without a dwell.
+
+        >>> Geneva(4).motion_ratio, Geneva(4, internal=True).motion_ratio
+        (0.3333333333333333, 3.0)
+        """
+        return self.motion_fraction / self.dwell_fraction if self.dwell_fraction else math.inf
+
+    @property
     def greatest_ratio(self) -> float:
         """The greatest angular speed of the wheel by that of the driver, on the line of centres."""
         return self.crank_ratio / (1 + self._side * self.crank_ratio)

@@ -40,6 +40,7 @@ __all__ = [
     "message",
     "number",
     "number_separator",
+    "numbers",
     "plural",
     "translate",
     "translate_in_context",
@@ -73,6 +74,15 @@ def number(value: Any, lang: str = "en", form: str = ".6g") -> str:
     """
     written = format(value, form)
     return written.translate(_DECIMAL_COMMA) if lang in _COMMA_LANGUAGES else written
+
+
+def numbers(values: Iterable[Any], lang: str = "en", form: str = ".6g") -> str:
+    """Numbers as a list: with semicolons between them where the comma is the decimal sign.
+
+    >>> numbers([1.5, 2]), numbers([1.5, 2], "de")
+    ('1.5, 2', '1,5; 2')
+    """
+    return number_separator(lang).join(number(value, lang, form) for value in values)
 
 
 @runtime_checkable

@@ -227,6 +227,14 @@ class TestTrust:
         for path in (folder, folder.parent, folder.parent.parent):
             assert path.stat().st_mode & 0o777 == 0o700
 
+    def test_a_folder_that_others_can_read_is_closed_before_it_is_used(self) -> None:
+        folder = kernel_cache.prepared_folder()
+        assert folder is not None
+        folder.chmod(0o755)
+        kernel_cache.prepared_folder.cache_clear()
+        assert kernel_cache.prepared_folder() == folder
+        assert folder.stat().st_mode & 0o777 == 0o700
+
     @pytest.mark.parametrize("depth", [0, 1])
     @pytest.mark.parametrize("mode", [0o777, 0o770, 0o702])
     def test_a_folder_others_may_write_to_is_refused(self, depth: int, mode: int) -> None:

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from gruebler.cli.geometry_columns import curvature_columns
 from gruebler.formats.linkages import write_linkage
 from gruebler.fourbar import FourBar
+from gruebler.geometry.columns import curvature_columns
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage, LinkPoint
 from gruebler.mechanism import Mechanism
@@ -32,7 +32,7 @@ def test_a_pole_at_infinity_is_a_direction(capsys):
 
 
 def test_poles_as_columns(capsys):
-    _, found = table(capsys, "slider-crank:25,70", "--drive", "45:90:45", "--poles")
+    _, found = table(capsys, "slider-crank:25,70", "--range", "45:90:45", "--poles")
     assert found["pole frame/coupler x mm"][0] == pytest.approx(17.67766952966369 + 4587.5**0.5)
     assert found["pole frame/coupler y mm"] == [pytest.approx(85.408755450384), None]
     assert found["pole frame/coupler direction °"] == [None, pytest.approx(90)]
@@ -70,6 +70,6 @@ def test_several_drives(capsys, tmp_path):
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(0-4); frame=0; drive=R(0-1); drive=R(0-4)")
     places = {0: (0, 0), 1: (0, 2), 2: (2, 4), 3: (4, 2), 4: (4, 0)}
     write_linkage(tmp_path / "five.toml", Linkage.from_drawing(mechanism, places))
-    status, _, err = run(capsys, str(tmp_path / "five.toml"), "--at", "90", "--at", "90", "--poles")
+    status, _, err = run(capsys, str(tmp_path / "five.toml"), "--at", "90,90", "--poles")
     assert status == 2
-    assert "--poles and --curvature are those of linkages with one drive" in err
+    assert "--poles and --curvature need a linkage with one drive" in err

@@ -19,12 +19,10 @@ def test_features_in_both_languages(capsys):
     status, out, err = run(capsys, "search", *SHEET)
     assert (status, err) == (0, "")
     lines = out.splitlines()
-    assert lines[0].split()[:5] == ["id", "name", "n", "F", "moves"]
-    assert any(
-        line.startswith("mzc ") and line.endswith("1 (1)           1 (0)            n2=4   R:4") for line in lines
-    )
+    assert lines[0].split()[:6] == ["id", "name", "n", "F", "finite", "mobility"]
+    assert any(line.startswith("mzc ") and " ".join(line.split()).endswith("1 (1) 1 (0) n2=4 R:4") for line in lines)
     _, german, _ = run(capsys, "search", *SHEET, "--lang", "de")
-    assert "Antriebe (Gestell)" in german
+    assert "Antriebe (am Gestell)" in german
     assert "D:4" in german
     _, counted, _ = run(capsys, "search", *SHEET, "--count")
     assert int(counted) == len(lines) - 1
@@ -38,8 +36,8 @@ def test_words_and_pairs_as_before(capsys):
     _, out, _ = run(capsys, "search", "Kurbel", "--text", "Nähmaschine", "--joints", "4")
     assert out.splitlines()[1].startswith("sewing")
     _, out, _ = run(capsys, "search", "unicorn")
-    assert out == "No entry answers.\n"
-    _, out, _ = run(capsys, "search", "--pair", "P", "--drive", "P", "--count", "--json")
+    assert out == "No entry of the catalog matches.\n"
+    _, out, _ = run(capsys, "search", "--pair", "P", "--drive-pair", "P", "--count", "--json")
     assert json.loads(out)["count"] >= 5
 
 
@@ -63,7 +61,7 @@ def test_every_structure(capsys):
     _, out, _ = run(capsys, "search", "--enumerate", "--links", "8", "--limit", "71")
     assert out.splitlines()[-1] == "71 found."
     _, out, _ = run(capsys, "search", "--enumerate", "--links", "8", "--limit", "70")
-    assert out.splitlines()[-1] == "70 told; there are more."
+    assert out.splitlines()[-1] == "70 listed; there are more."
     _, out, _ = run(capsys, "search", "--enumerate", "--link-kinds", "4,2", "--json")
     document = json.loads(out)
     assert (document["count"], document["complete"], len(document["items"])) == (5, True, 5)
@@ -74,7 +72,7 @@ def test_every_structure(capsys):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("--links four", "invalid int value"),
+        ("--links four", "expected a whole number"),
         ("--pairs D", "expected joints with their numbers"),
         ("--pairs D:1,P:1", "mix two alphabets"),
         ("--pair revolut", "did you mean 'revolute'"),
@@ -82,11 +80,11 @@ def test_every_structure(capsys):
         ("--link-kinds 4;2", "expected the numbers of binary"),
         ("--link-kinds 4,2 --links 5", "are 6 links, not 5"),
         ("--links 4 --binary 5", "those are 5"),
-        ("--limit 3", "--limit goes with --enumerate"),
+        ("--limit 3", "--limit needs --enumerate"),
         ("--enumerate", "the number of links is needed"),
-        ("--enumerate --links 6 --limit 0", "1 or more"),
+        ("--enumerate --links 6 --limit 0", "expected a number from 1, but found 0"),
         ("--enumerate --links 6 --claims", "does not go with --enumerate"),
-        ("--enumerate --links 6 crank", "belongs to the machines"),
+        ("--enumerate --links 6 crank", "WORD searches the catalog"),
         ("--enumerate --links 6 --pairs D:5", "the other 2"),
     ],
 )

@@ -27,6 +27,8 @@ KEYS = {
     "rigid_clusters",
     "immobile_joints",
     "idle_freedoms",
+    "instant",
+    "reasons",
     "claims_hold",
 }
 
@@ -90,7 +92,7 @@ def test_catalog_list_show_search(capsys):
     _, out, _ = run(capsys, "catalog", "search", "compressor", "--links", "6", "--json")
     assert [e["id"] for e in json.loads(out)] == ["vcomp"]
     _, out, _ = run(capsys, "catalog", "search", "unicorn")
-    assert out == "No entry answers.\n"
+    assert out == "No entry of the catalog matches.\n"
 
 
 def test_files(capsys, tmp_path):
@@ -148,7 +150,7 @@ def test_the_language_of_the_environment(capsys, monkeypatch):
         (["check", "missing.json"], "missing.json: cannot be read"),
         (["check", "vcomp", "--frame", "wall"], "no link 'wall'"),
         (["check", "vcomp", "--b", "9"], "1 to 6"),
-        (["check", "vcomp", "--b", "x"], "invalid int value"),
+        (["check", "vcomp", "--b", "x"], "expected a whole number"),
         (["check", "--lang", "fr"], "invalid choice"),
         (["check", "--nonsense"], "unknown arguments: --nonsense"),
         (["check", "--explian", "vcomp"], "did you mean '--explain'?"),
@@ -285,5 +287,5 @@ def test_a_table_is_not_written_under_the_name_of_a_picture(capsys, tmp_path):
     for command in (("analyse", "lambda"), ("statics", "slider-crank:20,60", "--load", "R(coupler-slider)=-1,0")):
         status, _, err = run(capsys, *command, "-o", str(tmp_path / "x.svg"))
         assert status == 2
-        assert "end the name with .csv" in err
+        assert "expected a name that ends with .txt, .json or .csv" in err
     assert list(tmp_path.iterdir()) == []

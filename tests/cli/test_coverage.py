@@ -79,7 +79,7 @@ def test_every_command_does_it(command, wanted):
 def test_the_table(run):
     status, out = run()
     assert status == 0
-    assert out.splitlines()[-1].endswith("0 rows without one.")
+    assert out.splitlines()[-1].endswith("not covered: 0 rows.")
     status, out = run("wiper", "--json", "--lang", "de")
     assert status == 0
     assert [row["where"] for row in json.loads(out)] == ["wiper"]
@@ -88,7 +88,7 @@ def test_the_table(run):
 def test_running_a_row(run):
     status, out = run("tri", "--run", "--lang", "de")
     assert status == 0
-    assert "endeten wie gewollt" in out
+    assert "endeten wie erwartet" in out
     _, out = run("mindestens drei", "--run", "--json")
     (row,) = json.loads(out)
     assert [(one["wanted"], one["status"]) for one in row["commands"]] == [(0, 0), (2, 2)]
@@ -103,11 +103,11 @@ def test_what_is_missing_is_said(run, monkeypatch):
     monkeypatch.setattr(coverage, "coverage_rows", lambda: rows)
     status, out = run()
     assert status == 1
-    assert "NOTHING DOES IT" in out
+    assert "NOT COVERED" in out
     status, out = run("wrong", "--run")
     assert status == 1
     assert "status 2 instead of 0: gruebler check: the catalog has no entry 'no-such-machine'" in out
-    assert "gruebler.no_such_thing  (not there)" in out
+    assert "gruebler.no_such_thing  (missing)" in out
 
 
 def test_a_strange_machine_is_refused(monkeypatch, tmp_path):

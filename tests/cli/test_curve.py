@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from gruebler.catalog import entry
+from gruebler.cli import main
 from gruebler.kinematics import move
 from tests.commands import run_command
 
@@ -35,7 +36,7 @@ def test_a_path_in_words(capsys):
 def test_a_six_point_contact_in_german(capsys):
     status, out = run(capsys, "mzc", "K", "--contact", "180", "--lang", "de")
     assert status == 0
-    assert "Bei 180.000000° berührt die Tangente 6punktig: y = -0.000155006773 x^6." in out
+    assert "Bei 180,000000° haben Bahn und Tangente 6 Punkte gemeinsam: y = -0,000155006773 x^6." in out
     assert "Flachpunkt  " in out
     assert "Radius ∞" in out
 
@@ -46,8 +47,8 @@ def test_between_limits_and_back(capsys):
     assert "The path goes from -54.314665° to 54.314665°" in out
     assert "double point       -54.246388°, -33.089162°" in out
     _, out = run(capsys, "slider-crank:20,50", "R(coupler-slider)", "--contact", "60", "--direction", "90")
-    assert "does not leave its tangent" in out
-    assert "goes back on its own way" in out
+    assert "agrees with its tangent up to order 10" in out
+    assert "The point returns on the same path." in out
     assert "extreme" not in out
 
 
@@ -97,9 +98,9 @@ def test_a_far_point_and_a_far_drive_value(capsys):
 
 def test_a_path_of_several_drives(capsys, tmp_path):
     path = tmp_path / "path.csv"
-    arguments = ("pent", "R(3-4)", "--drive=0:90:5", "--drive=0:180:10")
-    status, out = run(capsys, *arguments, "-o", str(path))
-    assert status == 0
+    arguments = ("pent", "R(3-4)", "--range=0:90:5", "--range=0:180:10")
+    status, out = run(capsys, *arguments)
+    assert run(capsys, *arguments, "-o", str(path))[0] == status == 0
     assert "The path goes from 0.000000° / 0.000000° to 90.000000° / 180.000000°: length 264.0282" in out
     with path.open(encoding="utf-8") as file:
         header, *rows = csv.reader(file)
@@ -117,24 +118,76 @@ def test_a_path_of_several_drives(capsys, tmp_path):
 
 
 def test_a_drive_is_held_and_one_drive_goes_a_part(capsys):
-    _, out = run(capsys, "pent", "R(2-3)", "--drive=0:90:5", "--drive=40")
+    _, out = run(capsys, "pent", "R(2-3)", "--range=0:90:5", "--range=40")
     crank = entry("pent").linkage().length("2", "R(1-2)", "R(2-3)")
     assert f"length {crank * math.pi / 2:.9g} mm" in out
-    _, out = run(capsys, "four-bar:25,70,40,70", "R(crank-coupler)", "--drive=30:90:5")
+    _, out = run(capsys, "four-bar:25,70,40,70", "R(crank-coupler)", "--range=30:90:5")
     assert f"from 30.000000° to 90.000000°: length {25 * math.pi / 3:.9g} mm" in out
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ([], "the linkage has 2 drives: give --drive FROM:TO:STEP once for each"),
-        (["--drive=0:90:5"], "the linkage has 2 drives, but --drive was given 1 times"),
-        (["--drive=0:90:5", "--drive=0:90:10"], "10 rows where another drive has 19"),
-        (["--drive=10", "--drive=20"], "has no length"),
-        (["--drive=0:90:5", "--drive=0:90:5", "--contact=3"], "leave --drive away"),
+        ([], "the linkage has 2 drives: give --range FROM:TO:STEP once for each"),
+        (["--range=0:90:5"], "the linkage has 2 drives, but --range was given 1 times"),
+        (["--range=0:90:5", "--range=0:90:10"], "10 rows where another drive has 19"),
+        (["--range=10", "--range=20"], "has no length"),
+        (["--range=0:90:5", "--range=0:90:5", "--contact=3"], "leave --range out"),
     ],
 )
 def test_refused_paths(capsys, arguments, words):
     status, out = run(capsys, "pent", "R(3-4)", *arguments)
     assert status == 2
     assert words in out
+
+
+def test_lengths_and_points_are_written_as_everywhere(capsys):
+    long = run(capsys, "four-bar:25,70,40,70", "coupler:45,40")
+    assert run(capsys, "25,70,40,70", "45,40") == long
+    assert run(capsys, "25,70,40,70", "coupler:45,40", "--branch=+") == long
+    assert run(capsys, "25,70,40,70", "45,40", "--branch=-")[1] != long[1]
+
+
+def test_files_of_what_is_printed(capsys, tmp_path):
+    text, data = tmp_path / "path.txt", tmp_path / "path.json"
+    words = ["curve", "25,70,40,70", "45,40"]
+    assert main([*words]) == 0
+    printed = capsys.readouterr().out
+    assert main([*words, "-o", str(text)]) == main([*words, "-o", str(data)]) == 0
+    assert text.read_text(encoding="utf-8") == printed
+    assert json.loads(data.read_text(encoding="utf-8"))["closed"]
+    assert main([*words, "-o", str(tmp_path / "path.parquet")]) == 2
+    assert main([*words, "--cognates", "-o", str(tmp_path / "path.csv")]) == 2
+    assert not (tmp_path / "path.csv").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["lambda"], "expected a linkage and a point"),
+        (["lambda", "C", "--kappa", "20"], "--kappa goes with --guidance"),
+        (["lambda", "C", "--straight", "--contact", "3"], "--contact goes with the path of a point"),
+        (["lambda", "C", "--cognates", "--direction", "3"], "--direction goes with the path of a point or --straight"),
+        (["--guidance", "lambda", "watt"], "--guidance takes one name and no linkage, but found 'watt'"),
+        (["--guidance", "lambda", "--length", "5mm", "--tolerance", "1mm"], "--tolerance 1mm is now --band 1mm"),
+        (["lambda", "C", "--straight", "--cognates"], "not allowed with argument"),
+    ],
+)
+def test_options_go_with_their_question(capsys, words, sentence):
+    status, said = run(capsys, *words)
+    assert status == 2
+    assert sentence in said
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (["straight", "lambda", "C", "--band", "1"], "curve lambda C --band 1 --straight"),
+        (["cognates", "25,70,40,70", "45,40"], "curve 25,70,40,70 45,40 --cognates"),
+        (["guidance", "watt"], "curve --guidance watt"),
+    ],
+)
+def test_former_commands_are_answered_by_the_present_ones(capsys, old, new):
+    assert main(old) == 2
+    assert f"is now `gruebler {new}`" in capsys.readouterr().err
+    assert main(new.split()) == 0

@@ -1,4 +1,4 @@
-"""`gruebler enumerate` and `gruebler assortments` as a user meets them."""
+"""`gruebler enumerate` as a user meets them."""
 
 import json
 import os
@@ -110,18 +110,18 @@ def test_a_file_appears_whole_or_not_at_all(capfd, tmp_path):
     [
         (["--links", "20"], "32 TB of output"),
         (["--links", "18", "--format", "graph6"], "1,535,380,884 chains, 43 GB of output"),
-        (["--links", "20", "--count"], "say --yes"),
+        (["--links", "20", "--count"], "use --yes"),
         (["--links", "20", "--lang", "de"], "mit --yes wird trotzdem begonnen"),
         (["--links", "2"], "at least three links"),
         (["--links", "8", "--assortment", "4;4"], "such as 4,4"),
         (["--links", "8", "--assortment", "4,3"], "7 links in all, not 8"),
         (["--links", "8", "--multiple-joints", "few"], "a number, a range"),
         (["--links", "8", "--multiple-joints", "1", "--format", "graph6"], "simple joints only"),
-        (["--links", "8", "--orbits"], "--orbits goes with --count"),
+        (["--links", "8", "--orbits"], "--orbits needs --count"),
         (["--links", "8", "--json", "--format", "text"], "does not go with --format text"),
         (["--links", "8", "--jobs", "0"], "at least one process"),
         (["--links", "8", "-o", "no/such/directory/x"], "there is no directory"),
-        (["--links", "8", "-o", "chains.parquet"], "as .txt, .g6 or .json, not as .parquet"),
+        (["--links", "8", "-o", "chains.parquet"], "ends with .txt, .g6 or .json, not with .parquet"),
         (["--links", "8", "-o", "chains.g6", "--format", "json"], "--format json and the ending .g6 do not agree"),
         (["--links", "8", "-o", "count.txt", "--count"], "a count is written as JSON"),
         (["--links", "8", "--fractionated", "some"], "invalid choice"),
@@ -158,21 +158,21 @@ def test_a_closed_pipe_is_no_fault():
 
 
 def test_assortments(capfd):
-    _, out, _ = run(capfd, "assortments", "8")
+    _, out, _ = run(capfd, "enumerate", "--assortments", "--links", "8")
     assert out.split() == ["binary", "ternary", "quaternary", "4", "4", "0", "5", "2", "1", "6", "0", "2"]
-    _, out, _ = run(capfd, "assortments", "8", "--json")
+    _, out, _ = run(capfd, "enumerate", "--assortments", "--links", "8", "--json")
     assert json.loads(out) == {"links": 8, "mobility": 1, "assortments": [[4, 4], [5, 2, 1], [6, 0, 2]]}
-    _, out, _ = run(capfd, "assortments", "6", "--multiple-joints", "--json")
+    _, out, _ = run(capfd, "enumerate", "--assortments", "--links", "6", "--multiple-joints", "--json")
     assert json.loads(out)["assortments"] == [
         {"links": [4, 2], "joints": [7]},
         {"links": [5, 1], "joints": [5, 1]},
         {"links": [6], "joints": [3, 2]},
     ]
-    _, out, _ = run(capfd, "assortments", "6", "--multiple-joints", "--lang", "de")
-    assert out.splitlines()[0].split("  ") == ["binär", "ternär", "Gelenke zu 2", "Gelenke zu 3"]
-    _, out, _ = run(capfd, "assortments", "7")
+    _, out, _ = run(capfd, "enumerate", "--assortments", "--links", "6", "--multiple-joints", "--lang", "de")
+    assert out.splitlines()[0].split("  ") == ["binär", "ternär", "Gelenke mit 2 Gliedern", "Gelenke mit 3 Gliedern"]
+    _, out, _ = run(capfd, "enumerate", "--assortments", "--links", "7")
     assert out == "No closed chain of 7 links has mobility 1.\n"
-    status, _, err = run(capfd, "assortments", "0")
+    status, _, err = run(capfd, "enumerate", "--assortments", "--links", "0")
     assert status == 2
     assert "at least one link" in err
 

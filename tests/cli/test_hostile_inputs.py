@@ -10,6 +10,8 @@ import sys
 
 import pytest
 
+from gruebler.enumeration import count_chains
+
 LIMITS = {resource.RLIMIT_AS: 3 * 10**9, resource.RLIMIT_CPU: 300}
 
 
@@ -104,13 +106,13 @@ def partitions(n):
 @pytest.mark.parametrize("links", [60, 100, 1000])
 def test_assortments_are_counted(links):
     p = partitions(links - 4)
-    status, out, _ = run("assortments", str(links), "--count")
+    status, out, _ = run("enumerate", "--assortments", "--links", str(links), "--count")
     assert status == 0
     assert int(out) == p[-1] - sum(p[: (links - 4) // 2])
 
 
 def test_assortments_are_listed_as_they_come():
-    status, out, _ = run("assortments", "40")
+    status, out, _ = run("enumerate", "--assortments", "--links", "40")
     p = partitions(36)
     rows = out.splitlines()[1:]
     assert status == 0
@@ -124,11 +126,14 @@ def test_assortments_are_listed_as_they_come():
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("assortments", "100"), "117,343,357 assortments"),
-        (("assortments", "100000"), "more than 10^45 assortments"),
-        (("assortments", "1000000", "--multiple-joints"), "more than 10^65 assortments"),
-        (("assortments", "300", "--multiple-joints"), "109,437,677,344,010,375,993,271 assortments"),
-        (("assortments", "10000000", "--count"), "more than a minute"),
+        (("enumerate", "--assortments", "--links", "100"), "117,343,357 assortments"),
+        (("enumerate", "--assortments", "--links", "100000"), "more than 10^45 assortments"),
+        (("enumerate", "--assortments", "--links", "1000000", "--multiple-joints"), "more than 10^65 assortments"),
+        (
+            ("enumerate", "--assortments", "--links", "300", "--multiple-joints"),
+            "109,437,677,344,010,375,993,271 assortments",
+        ),
+        (("enumerate", "--assortments", "--links", "10000000", "--count"), "more than a minute"),
         (("variants", "--links", "10", "--prismatic", "5", "--count"), "this takes about"),
         (("catalog", "search", "--enumerate", "--links", "14"), "this takes about"),
         (("assur", "--list", "12", "--count"), "this takes about"),
@@ -139,6 +144,13 @@ def test_long_lists_are_refused_with_their_size(words, said):
     assert (status, out) == (2, "")
     assert said in err
     assert "--yes" in err
+
+
+@pytest.mark.slow
+def test_the_groups_of_ten_links_are_listed_without_consent():
+    """As many as ways to choose the frame of an eleven-link truss, which enumeration counts without making groups."""
+    status, out, err = run("assur", "--list", "10", "--count")
+    assert (status, out, err) == (0, f"{count_chains(11, 0, orbits=True).inversions}\n", "")
 
 
 def test_a_limit_ends_a_long_search_and_needs_no_consent():

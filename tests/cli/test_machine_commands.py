@@ -66,12 +66,19 @@ def test_geneva(capsys):
     assert found["greatest_acceleration_at_deg"] == pytest.approx(11.4637449, abs=1e-6)
     assert found["crank"] == pytest.approx(100 / math.sqrt(2))
     assert found["dwell_s"] == pytest.approx(0.75)
+    assert (found["moving_deg"], found["motion_ratio"]) == pytest.approx((90, 1 / 3))
     assert found["step_s"] == pytest.approx(0.25)
     assert len(found["motion"]) == 25
     assert found["motion"][-1]["wheel_deg"] == pytest.approx(-90)
     _, out, _ = run(capsys, "geneva", "6", "--internal", "--lang", "de", "--step", "90")
     assert "Rastanteil einer Umdrehung" in out
-    assert out.splitlines()[-1].split()[:3] == ["360°", "60.000000°", "0.333333"]
+    rows = [" ".join(line.split()) for line in out.splitlines()]
+    assert "Treiberwinkel in Bewegung je Umdrehung 240°" in rows
+    assert "Bewegungszeit / Rastzeit 2" in rows
+    assert out.splitlines()[-1].split()[:3] == ["360°", "60,000000°", "0,333333"]
+    _, out, _ = run(capsys, "geneva", "4", "--pins", "4", "--json")  # one pin enters as another leaves
+    assert json.loads(out)["motion_ratio"] is None
+    assert "inf" not in run(capsys, "geneva", "4", "--pins", "4")[1]
 
 
 def test_cam(capsys):
@@ -132,7 +139,7 @@ def test_cam_of_a_contour(capsys, tmp_path):
         (["cam", LIFT, "--base", "40", "--flat", "--swing", "30", "90"], "no arm"),
         (["cam", "--contour", "nowhere.txt", "--flat"], "cannot be read"),
         (["geneva", "2"], "from 3 to 2,000"),
-        (["geneva", "four"], "invalid int value"),
+        (["geneva", "four"], "expected a whole number"),
         (["geneva", "4", "--pins", "9"], "at most 4 pins"),
         (["geneva", "4", "--distance", "-1"], "positive length"),
         (["geneva", "4", "--speed", "0"], "--speed"),

@@ -37,10 +37,10 @@ def test_counts(capsys):
     watt = "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"
     assert run(capsys, "inversions", watt, "--count")[1] == "2\n"
     assert run(capsys, "inversions", watt, "--drives", "--count")[1] == "4\n"
-    found = run(capsys, "inversions", "g6:Cr", "--drives", "--output", "--count", "--json")[1]
+    found = run(capsys, "inversions", "g6:Cr", "--drives", "--with-output", "--count", "--json")[1]
     assert json.loads(found) == {"count": 2}
     assert run(capsys, "variants", "--links", "6", "--prismatic", "1", "--count")[1] == "6\n"
-    document = json.loads(run(capsys, "variants", "--links", "4", "--drive", "R@frame", "--json")[1])
+    document = json.loads(run(capsys, "variants", "--links", "4", "--drive-joint", "R@frame", "--json")[1])
     assert document["count"] == 1
     assert ";frame=0;drives=" in document["items"][0]["code"]
     assert run(capsys, "variants", "--links", "4", "--lang", "de") == (
@@ -54,12 +54,13 @@ def test_counts(capsys):
     ("arguments", "words"),
     [
         (["inversions", "nothing"], "no entry 'nothing'"),
-        (["inversions", "vcomp", "--output"], "--output goes with --drives"),
+        (["inversions", "vcomp", "--with-output"], "--with-output needs --drives"),
+        (["inversions", "vcomp", "--output"], "--output is now --with-output"),
         (["inversions", "vcomp", "--drives", "--number", "0"], "at least one drive"),
         (["variants"], "--links"),
-        (["variants", "--links", "6", "--drive", "R@wall"], "frame, moving or any"),
+        (["variants", "--links", "6", "--drive-joint", "R@wall"], "frame, moving or any"),
         (["variants", "--links", "6", "--assortment", "four"], "--assortment 'four'"),
-        (["variants", "--links", "6", "--at-frame", "P:x"], "--at-frame 'P:x'"),
+        (["variants", "--links", "6", "--at-frame", "P:x"], "--at-frame: expected a pair"),
     ],
 )
 def test_mistakes_are_one_sentence(capsys, arguments, words):
@@ -72,9 +73,12 @@ def test_mistakes_are_one_sentence(capsys, arguments, words):
 @pytest.mark.parametrize(
     ("arguments", "number"),
     [
-        (("variants", "--links", "6", "--prismatic", "1", "--drive", "P@moving", "--output", "R@frame"), 34),
+        (
+            ("variants", "--links", "6", "--prismatic", "1", "--drive-joint", "P@moving", "--output-joint", "R@frame"),
+            34,
+        ),
         (("variants", "--links", "6", "--prismatic", "1"), 6),
-        (("inversions", "slidercrank", "--drives", "--output", "--text"), 8),
+        (("inversions", "slidercrank", "--drives", "--with-output", "--text"), 8),
         (("inversions", "vcomp", "--drives", "--anywhere", "--text"), 26),
     ],
 )
@@ -112,7 +116,7 @@ def test_no_column_is_empty(capsys):
     header, *rows = run(capsys, "inversions", "slidercrank", "--drives")[1].splitlines()
     assert header.split() == ["frame", "drive", "family"]
     assert len(rows) == 4
-    assert "output" in run(capsys, "inversions", "slidercrank", "--drives", "--output")[1].splitlines()[0]
+    assert "output" in run(capsys, "inversions", "slidercrank", "--drives", "--with-output")[1].splitlines()[0]
 
 
 def test_an_output_goes_into_a_realised_linkage(capsys, tmp_path):
@@ -130,6 +134,6 @@ def test_the_limit_of_a_gallery_is_that_of_the_assortment(capsys, tmp_path):
     ]
     assert page.read_text(encoding="utf-8").count("<svg") == number > 0
     status, _, err = run(capsys, "gallery", "--links", "12", "-o", str(page))
-    assert (status, "6,856 chains do not fit" in err) == (2, True)
+    assert (status, "6,856 chains are too many for one page" in err) == (2, True)
     status, _, err = run(capsys, "gallery", "--links", "12", "--assortment", "6,6", "-o", str(page))
     assert (status, "there are no such chains" in err) == (2, True)

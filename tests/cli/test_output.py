@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from gruebler.cli import main
-from gruebler.cli.analysis_table import Column, as_csv
+from gruebler.columns import Column, as_csv
 
 CHAIN = "R(Kürbel-b) R(b-c) R(c-d) R(d-Kürbel)"
 FOUR_BAR = "four-bar:25,70,40,70"
@@ -64,7 +64,7 @@ WRITING = {
     "plot": (["plot", FOUR_BAR, "--kind", "transmission"], ".svg"),
     "sheet": (["sheet", "draw", "mzc"], ".svg"),
     "gallery": (["gallery", "--links", "4"], ".html"),
-    "analyse": (["analyse", FOUR_BAR, "--drive", "0:90:30"], ".csv"),
+    "analyse": (["analyse", FOUR_BAR, "--range", "0:90:30"], ".csv"),
     "enumerate": (["enumerate", "--links", "6", "--count"], ".json"),
     "realise": (["realise", "R(0-1) R(1-2) R(2-3) R(3-0)"], ".toml"),
     "gears": (["gears", "a:20 b:40; a=1"], ".svg"),
@@ -82,7 +82,7 @@ def test_every_command_says_what_it_wrote(tmp_path, capsys, name, lang):
     assert list(tmp_path.iterdir()) == [path]
 
 
-@pytest.mark.parametrize("command", ["check", "draw", "inversions", "assur", "analyse", "freedoms", "gears"])
+@pytest.mark.parametrize("command", ["check", "draw", "inversions", "assur", "analyse", "gears"])
 def test_files_of_an_unknown_kind_are_refused_by_name(tmp_path, capsys, command):
     path = tmp_path / "chains.parquet"
     path.write_bytes(b"PAR1" + bytes(range(256)))
@@ -106,7 +106,7 @@ def test_too_little_memory_is_one_sentence(monkeypatch, capsys):
 
     monkeypatch.setattr("gruebler.cli.table.run", exhausted)
     assert main(["table", "grashof"]) == 2
-    assert capsys.readouterr().err == "gruebler table: this needs more memory than there is\n"
+    assert capsys.readouterr().err == "gruebler table: not enough memory\n"
 
 
 def test_json_of_what_cannot_be_assembled(capsys):
@@ -143,3 +143,43 @@ def test_a_file_is_written_though_nobody_reads_the_output(tmp_path, monkeypatch,
         monkeypatch.setattr(sys, "stdout", Closed())
         assert main([*arguments, "-o", str(path)]) == 0
     assert path.stat().st_size > 0
+
+
+PRINTING = [
+    ["check", "vcomp"],
+    ["inversions", "vcomp"],
+    ["assur", "wiper"],
+    ["extend", "quad", "--dyad"],
+    ["extend", "quad", "--derivation"],
+    ["enumerate", "--links", "8", "--assortments"],
+    ["catalog", "show", "vcomp"],
+    ["catalog", "search", "--links", "4", "--drives", "1"],
+    ["exercise", "show", "15"],
+    ["coverage", "crank"],
+    ["analyse", FOUR_BAR, "--at", "30"],
+]
+
+
+@pytest.mark.parametrize("arguments", PRINTING, ids=lambda arguments: " ".join(arguments[:2]))
+def test_what_is_printed_goes_into_files_too(tmp_path, capsys, arguments):
+    printed = {}
+    for ending, options in ((".txt", []), (".json", ["--json"])):
+        assert main([*arguments, *options]) == 0
+        printed[ending] = capsys.readouterr().out
+        path = tmp_path / f"out{ending}"
+        assert main([*arguments, "-o", str(path)]) == 0
+        assert capsys.readouterr() == ("", f"Written: {path}\n")
+        assert path.read_text(encoding="utf-8") == printed[ending]
+    assert printed[".txt"] != printed[".json"]
+    json.loads(printed[".json"])
+
+
+def test_a_file_that_does_not_fit_is_refused_and_none_is_left(tmp_path, capsys):
+    for arguments, words in (
+        (["check", "vcomp", "-o", str(tmp_path / "x.csv")], "expected a name that ends with .txt or .json"),
+        (["check", "vcomp", "--json", "-o", str(tmp_path / "x.txt")], "expected a name that ends with .json"),
+        (["check", "no-such-machine", "-o", str(tmp_path / "x.txt")], "no entry 'no-such-machine'"),
+    ):
+        assert main(arguments) == 2
+        assert words in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

@@ -32,13 +32,13 @@ def test_all_forces_of_one_pose(capsys):
     status, out, _ = run(capsys, "four-bar:25,70,40,70", "--moment", "rocker=-1000", "--at", "55", "--lang", "de")
     assert status == 0
     rows = [line.rsplit(maxsplit=2) for line in out.splitlines() if line.endswith(("N", "N·mm"))]
-    assert ["Antriebsmoment R(frame-crank)", "478.521", "N·mm"] in rows
-    assert ["Kraft von R(frame-crank) auf crank y", "-7.44971", "N"] in rows
+    assert ["Antriebsmoment D(frame-crank)", "478,521", "N·mm"] in rows
+    assert ["Kraft von D(frame-crank) auf crank y", "-7,44971", "N"] in rows
 
 
 def test_json_and_csv(capsys, tmp_path):
     path = tmp_path / "forces.csv"
-    arguments = ("four-bar:25,70,40,70", "--mass", "R(coupler-rocker)=2", "--drive", "0:90:45")
+    arguments = ("four-bar:25,70,40,70", "--mass", "R(coupler-rocker)=2", "--range", "0:90:45")
     status, found, columns = document(capsys, *arguments)
     assert status == 0
     assert found["complete"]
@@ -58,8 +58,8 @@ def test_json_and_csv(capsys, tmp_path):
 def test_a_cylinder_has_a_force(capsys):
     """Scissor table: the cylinder's force by the weight's rise for its stroke, F = -W dy/ds."""
     load = ("hubpodium_blocks", "--load", "R(arm2-platform)=0,-100")
-    _, _, forces = document(capsys, *load, "--drive", "40:60:20")
-    main(["analyse", "hubpodium_blocks", "--drive", "40:60:20", "--point", "R(arm2-platform)", "--json"])
+    _, _, forces = document(capsys, *load, "--range", "40:60:20")
+    main(["analyse", "hubpodium_blocks", "--range", "40:60:20", "--point", "R(arm2-platform)", "--json"])
     found = json.loads(capsys.readouterr().out)
     k = next(k for k, c in enumerate(found["columns"]) if c["name"] == "R(arm2-platform) vy")
     assert forces["force P(cylinder-piston)"] == pytest.approx([100 * row[k] for row in found["rows"]])
@@ -69,7 +69,7 @@ def test_a_cylinder_has_a_force(capsys):
 
 
 def test_poses_that_are_not_held(capsys):
-    status, out, _ = run(capsys, "loco2", "--moment", "wheel2=5", "--drive=-15:15:15")
+    status, out, _ = run(capsys, "loco2", "--moment", "wheel2=5", "--range=-15:15:15")
     assert status == 1
     assert "At the drive values 0° the joint forces are not determined" in out
     assert run(capsys, "four-bar:60,30,30,70", "--moment", "rocker=1", "--at", "170")[0] == 1
@@ -78,15 +78,15 @@ def test_poses_that_are_not_held(capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((), "Nothing acts"),
-        (("--load", "K"), "--load: expected POINT=FX,FY or LINK:X,Y=FX,FY, but found 'K'"),
+        ((), "no load is given"),
+        (("--load", "K"), "--load: expected POINT=FX,FY, but found 'K'"),
         (("--load", "R(crank-coupler)=1"), "--load: expected two numbers X,Y"),
         (("--moment", "rocker=x"), "--moment: expected a number, but found 'x'"),
         (("--moment", "roker=1"), "did you mean 'rocker'"),
         (("--mass", "R(crank-coupler)=nan"), "--mass: expected a number"),
         (("--mass", "R(crank-coupler)=1", "--gravity", "1"), "--gravity: expected two numbers"),
         (("--moment", "rocker=1", "--friction", "-1", "--at", "0"), None),
-        (("--moment", "rocker=1", "--at", "nan"), "expected a finite number"),
+        (("--moment", "rocker=1", "--at", "nan"), "expected one finite number"),
     ],
 )
 def test_refusals(capsys, arguments, message):
@@ -126,9 +126,9 @@ def test_loads_at_one_place_add_up(capsys, twice, once):
 
 def test_points_are_written_as_for_analyse(capsys):
     """A load at LINK:X,Y is that at the joint there, and several at one point add up."""
-    at_joint = document(capsys, "slider-crank:25,70", "--load", "R(coupler-slider)=-3,-100", "--drive", "0:90:45")[2]
+    at_joint = document(capsys, "slider-crank:25,70", "--load", "R(coupler-slider)=-3,-100", "--range", "0:90:45")[2]
     pieces = ("--load", "coupler:70,0=-3,0", "--load", "coupler:70,0=0,-100", "--mass", "crank:0,0=5")
-    at_point = document(capsys, "slider-crank:25,70", *pieces, "--drive", "0:90:45")[2]
+    at_point = document(capsys, "slider-crank:25,70", *pieces, "--range", "0:90:45")[2]
     name = "torque R(frame-crank)"
     assert at_point[name] == pytest.approx(at_joint[name], abs=1e-9)
     assert run(capsys, "slider-crank:25,70", "--load", "coupler:7=0,1")[2].startswith("expected a point LINK:X,Y")

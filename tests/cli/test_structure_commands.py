@@ -1,4 +1,4 @@
-"""The commands assur, derive and extend through their run functions: text, JSON, counts, statuses, both languages."""
+"""The commands assur and extend through their run functions: text, JSON, counts, statuses, both languages."""
 
 import json
 from argparse import Namespace
@@ -7,7 +7,7 @@ import pytest
 
 from gruebler import Chain, GrueblerError, code
 from gruebler.assur import AssurGroup
-from gruebler.cli import assur, derive, extend
+from gruebler.cli import assur, extend
 from gruebler.transformations import Derivation
 
 WATT = "R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"
@@ -16,8 +16,7 @@ FIVE_BAR = "R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"
 
 DEFAULTS = {
     assur: {"mechanism": None, "frame": None, "drive": [], "anywhere": False, "list": None, "count": False},
-    derive: {"chain": None},
-    extend: {"chain": None, "dyad": None, "coupler": None, "at_joints": False, "count": False},
+    extend: {"chain": None, "dyad": None, "coupler": None, "at_joints": False, "derivation": False, "count": False},
 }
 
 
@@ -101,12 +100,12 @@ def test_assur_lists_groups(capsys, links, number):
 
 
 def test_derive(capsys):
-    status, out = run(capsys, derive, chain=WATT)
+    status, out = run(capsys, extend, derivation=True, chain=WATT)
     assert status == 0
     assert out.startswith("The chain grows from the closed loop of 4 links")
-    _, german = run(capsys, derive, chain=WATT, lang="de")
+    _, german = run(capsys, extend, derivation=True, chain=WATT, lang="de")
     assert "durch einen Zweischlag" in german
-    _, out = run(capsys, derive, chain=WATT, json=True)
+    _, out = run(capsys, extend, derivation=True, chain=WATT, json=True)
     found = json.loads(out)
     assert found["from_loop"]
     assert found["count"] == len(found["items"]) == 1
@@ -116,10 +115,10 @@ def test_derive(capsys):
 
 def test_derive_says_why_not(capsys):
     rigid = "R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(1-3)"
-    status, out = run(capsys, derive, chain=rigid)
+    status, out = run(capsys, extend, derivation=True, chain=rigid)
     assert status == 0
     assert "does not grow by dyads" in out
-    found = json.loads(run(capsys, derive, chain=rigid, json=True)[1])
+    found = json.loads(run(capsys, extend, derivation=True, chain=rigid, json=True)[1])
     assert (found["from_loop"], found["exact"], found["count"]) == (False, True, 0)
     assert found["core"]["code"] == code(Chain.parse(rigid))
 
@@ -143,8 +142,8 @@ def test_extend(capsys):
 @pytest.mark.parametrize(
     ("command", "arguments", "words"),
     [
-        (assur, {}, "name one mechanism, or ask for --list N"),
-        (assur, {"mechanism": WATT, "list": 4}, "name one mechanism, or ask for --list N"),
+        (assur, {}, "give either a mechanism or --list N"),
+        (assur, {"mechanism": WATT, "list": 4}, "give either a mechanism or --list N"),
         (assur, {"list": 3}, "2, 4, 6"),
         (assur, {"mechanism": "R(0-1) R(1-2"}, "character 13"),
         (assur, {"mechanism": "nothing"}, "no entry 'nothing'"),
@@ -152,7 +151,7 @@ def test_extend(capsys):
         (assur, {"mechanism": WATT, "drive": ["R(0-9)"]}, "not one of the joints"),
         (assur, {"mechanism": "R(0-1) R(1-2) R(2-0)"}, "does not move"),
         (assur, {"mechanism": "spatial: R(0-1) R(1-2) R(2-0); drive=R(0-1)"}, "spatial"),
-        (derive, {"chain": "R(0-1)"}, "at least three links"),
+        (extend, {"chain": "R(0-1)", "derivation": True}, "at least three links"),
         (extend, {"chain": FOUR_BAR, "dyad": "PPP"}, "the forms are RRR"),
         (extend, {"chain": FOUR_BAR, "coupler": "RG"}, "each R, P or W"),
         (extend, {"chain": "spatial: R(0-1) R(1-2) R(2-0)", "dyad": "RRR"}, "spatial"),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from argparse import Namespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -20,9 +19,9 @@ from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, SliderCrank
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
+from tests.commands import arguments_of
 
 SVG = "{http://www.w3.org/2000/svg}"
-ANIMATE = {"output": None, "curve": [], "seconds": 4.0, "branch": None, "lang": "en", "drive": []}
 CRANK_ROCKER = FourBar(25, 70, 40, 70).linkage({"K": (35, 20)})
 
 
@@ -117,14 +116,14 @@ def test_several_drives_are_refused():
 
 
 def test_the_command(capsys, tmp_path):
-    assert animate.run(Namespace(linkage="wiper", **ANIMATE)) == 0
+    assert animate.run(arguments_of("animate", "wiper")) == 0
     assert "<animateTransform" in capsys.readouterr().out
-    assert animate.run(Namespace(linkage="four-bar:25,70,40,70", **(ANIMATE | {"output": tmp_path / "x.svg"}))) == 0
+    assert animate.run(arguments_of("animate", "four-bar:25,70,40,70", out=tmp_path / "x.svg")) == 0
     assert (tmp_path / "x.svg").read_text("utf-8").startswith("<svg")
-    assert animate.run(Namespace(linkage="wiper", **(ANIMATE | {"output": tmp_path / "x.html"}))) == 0
+    assert animate.run(arguments_of("animate", "wiper", out=tmp_path / "x.html")) == 0
     assert (tmp_path / "x.html").read_text("utf-8").startswith("<!doctype html>")
     with pytest.raises(GrueblerError, match=r"end it with \.svg, \.html, \.gif, \.webp or \.png"):
-        animate.run(Namespace(linkage="wiper", **(ANIMATE | {"output": tmp_path / "x.bmp"})))
+        animate.run(arguments_of("animate", "wiper", out=tmp_path / "x.bmp"))
 
 
 def test_a_path_of_several_drives():

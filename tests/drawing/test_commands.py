@@ -1,45 +1,20 @@
 """`gruebler draw` and `gruebler gallery`, run with their arguments."""
 
-from argparse import Namespace
-from pathlib import Path
-
 import pytest
 
 from gruebler import GrueblerError
 from gruebler.cli import draw, gallery
 from gruebler.text import error_in_language
-
-DRAW = {
-    "output": None,
-    "space": None,
-    "frame": None,
-    "drive": [],
-    "labels": False,
-    "graph": False,
-    "contracted": False,
-    "loops": False,
-    "lang": "en",
-}
-GALLERY = {
-    "ids": [],
-    "links": None,
-    "mobility": None,
-    "fractionated": None,
-    "assortment": None,
-    "multiple_joints": None,
-    "inversions": False,
-    "labels": False,
-    "lang": "en",
-}
+from tests.commands import arguments_of
 
 
 def drawn(capsys, chain, **options):
-    assert draw.run(Namespace(chain=chain, **(DRAW | options))) == 0
+    assert draw.run(arguments_of("draw", chain, **options)) == 0
     return capsys.readouterr().out
 
 
 def paged(path, **options):
-    assert gallery.run(Namespace(output=path, **(GALLERY | options))) == 0
+    assert gallery.run(arguments_of("gallery", "-o", str(path), **options)) == 0
     return path.read_bytes()
 
 
@@ -64,11 +39,11 @@ def test_views_differ(capsys, view):
 
 
 def test_files(tmp_path):
-    assert draw.run(Namespace(chain="diff", **(DRAW | {"output": tmp_path / "x.svg"}))) == 0
+    assert draw.run(arguments_of("draw", "diff", out=tmp_path / "x.svg")) == 0
     assert (tmp_path / "x.svg").read_text("utf-8").startswith("<svg")
     for name, words in (("x.gif", "end it with"), ("no/x.svg", "cannot be written")):
         with pytest.raises(GrueblerError, match=words):
-            draw.run(Namespace(chain="diff", **(DRAW | {"output": tmp_path / name})))
+            draw.run(arguments_of("draw", "diff", out=tmp_path / name))
 
 
 def test_the_sixteen_chains_on_one_page(tmp_path):
@@ -96,19 +71,19 @@ def test_machines_on_a_page(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({}, "say what to show"),
-        ({"links": 8, "ids": ["vcomp"]}, "not both"),
-        ({"links": 14}, "do not fit"),
+        ({}, "give --links N"),
+        ({"links": 8, "ids": ["vcomp"]}, "either the given items or"),
+        ({"links": 14}, "too many for one page"),
         ({"links": 2}, "at least three links"),
         ({"ids": ["vcmp"]}, "did you mean vcomp"),
-        ({"ids": ["vcomp"], "inversions": True}, "--inversions is for chains"),
-        ({"ids": ["vcomp"], "mobility": 2}, "--mobility is for chains"),
+        ({"ids": ["vcomp"], "inversions": True}, "--inversions goes only with --links"),
+        ({"ids": ["vcomp"], "mobility": 2}, "--mobility goes only with --links"),
         ({"links": 5}, "no such chains with 5 links and F = 1"),
     ],
 )
 def test_refusals(options, words):
     with pytest.raises(GrueblerError, match=words):
-        gallery.run(Namespace(output=Path("x.html"), **(GALLERY | options)))
+        gallery.run(arguments_of("gallery", "-o", "x.html", **options))
 
 
 def test_pictures_of_a_printed_gallery_stay_legible():
@@ -116,15 +91,17 @@ def test_pictures_of_a_printed_gallery_stay_legible():
     from gruebler.drawing.canvas.gallery import Section
     from gruebler.drawing.canvas.matplotlib_files import _columns
 
-    small, large = (gallery._machine(id, Namespace(**(GALLERY | {"labels": True}))) for id in ("mzc", "excavator"))
+    small, large = (
+        gallery._machine(id, arguments_of("gallery", "-o", "x.html", labels=True)) for id in ("mzc", "excavator")
+    )
     assert _columns(Section("", (small,))) == 5
     assert _columns(Section("", (small, large))) < 4
 
 
 def test_refusals_in_german():
     with pytest.raises(GrueblerError) as refused:
-        gallery.run(Namespace(output=Path("x.html"), **(GALLERY | {"links": 5})))
+        gallery.run(arguments_of("gallery", "-o", "x.html", links=5))
     assert error_in_language(refused.value, "de").startswith("solche Ketten mit 5 Gliedern")
     with pytest.raises(GrueblerError) as refused:
-        draw.run(Namespace(chain="four-bar:60,30,40,50", pose="171", **DRAW))
+        draw.run(arguments_of("draw", "four-bar:60,30,40,50", at="171"))
     assert "der Antrieb geht in dieser Einbaulage" in error_in_language(refused.value, "de")

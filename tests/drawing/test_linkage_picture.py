@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 import re
-from argparse import Namespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -28,6 +27,7 @@ from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.kinematics import move
 from gruebler.linkages import Linkage, LinkPoint, Pin
 from gruebler.mechanism import Mechanism
+from tests.commands import arguments_of
 from tests.samples import CLASS_III, CYLINDER
 
 CRANK_ROCKER = FourBar(25, 70, 40, 70)
@@ -37,9 +37,6 @@ FIVE_BAR = Linkage.from_drawing(
     {"R(0-1)": (0, 0), "R(1-2)": (-1, 2), "R(2-3)": (2, 4), "R(3-4)": (5, 2), "R(0-4)": (4, 0)},
 )
 LAYERS = ["dead-centres", "transmission", "velocities", "poles", "scale"]
-DRAW = {"output": None, "space": None, "frame": None, "drive": [], "labels": False, "lang": "en"} | dict.fromkeys(
-    ["graph", "contracted", "loops"], False
-)
 
 
 def words(figure):
@@ -51,7 +48,7 @@ def styles(figure, name):
 
 
 def drawn(capsys, chain, **options):
-    assert draw.run(Namespace(chain=chain, **(DRAW | options))) == 0
+    assert draw.run(arguments_of("draw", chain, **options)) == 0
     return capsys.readouterr().out
 
 
@@ -333,7 +330,7 @@ def test_poses_are_taken_modulo_a_turn():
 
 
 def test_lengths_are_drawn_to_scale(capsys):
-    text = drawn(capsys, "four-bar:25,70,40,70", pose="55", show=["transmission"])
+    text = drawn(capsys, "four-bar:25,70,40,70", at="55", show=["transmission"])
     assert "Drive at 55°" in text
     assert "μ = " in text
     assert drawn(capsys, "four-bar:25,70,40,70") != text
@@ -342,11 +339,11 @@ def test_lengths_are_drawn_to_scale(capsys):
 
 
 def test_what_is_not_there_is_said(capsys):
-    assert draw.run(Namespace(chain="wiper", **(DRAW | {"show": ["dead-centres", "scale"]}))) == 0
+    assert draw.run(arguments_of("draw", "wiper", show=["dead-centres", "scale"])) == 0
     text, said = capsys.readouterr()  # the blade moves without turning
     assert "Shown: scale. Not there, or outside the picture: dead centres." in text
     assert said == "Not there, or outside the picture: dead centres.\n"
-    assert "Shown: dead centres." in drawn(capsys, "wiper", show=["dead-centres"], of="rocker1")
+    assert "Shown: dead centres." in drawn(capsys, "wiper", show=["dead-centres"], output="rocker1")
 
 
 def test_entries_are_drawn_to_scale_when_asked(capsys):
@@ -354,35 +351,35 @@ def test_entries_are_drawn_to_scale_when_asked(capsys):
     text = drawn(capsys, "watt_axle", curve=["F"], lang="de", labels=True)
     assert "Bahnkurve von F" in text
     assert "Karosserie (Gestell)" in text
-    assert "To scale" in drawn(capsys, "vcomp", pose="")
+    assert "To scale" in drawn(capsys, "vcomp", at="")
 
 
 def test_a_file_is_drawn_to_scale(capsys, tmp_path):
     from gruebler.formats.linkages import write_linkage
 
     write_linkage(tmp_path / "x.json", WITH_POINT)
-    assert re.search("Drive at 30°", drawn(capsys, str(tmp_path / "x.json"), pose="30", curve=["K"]))
+    assert re.search("Drive at 30°", drawn(capsys, str(tmp_path / "x.json"), at="30", curve=["K"]))
 
 
 @pytest.mark.parametrize(
     ("chain", "options", "words"),
     [
-        ("four-bar:25,70,40,70", {"pose": "55,60"}, "expected one number"),
-        ("four-bar:25,70,40,70", {"pose": "north"}, "expected one number"),
-        ("four-bar:25,70,40,70", {"pose": "inf"}, "expected one number"),
+        ("four-bar:25,70,40,70", {"at": "55,60"}, "expected one finite number"),
+        ("four-bar:25,70,40,70", {"at": "north"}, "expected one finite number"),
+        ("four-bar:25,70,40,70", {"at": "inf"}, "expected one finite number"),
         ("four-bar:25,70,40", {}, "a,b,c,d"),
         ("four-baar:25,70,40,70", {}, "did you mean 'four-bar'"),
-        ("four-bar:25,70,40,70", {"frame": "crank"}, "without --frame"),
-        ("vcomp", {"pose": "3", "graph": True}, "do not go together with --pose"),
-        ("R(0-1) R(1-2) R(2-0)", {"pose": "3"}, "no dimensions"),
+        ("four-bar:25,70,40,70", {"frame": "crank"}, "leave out --frame"),
+        ("vcomp", {"at": "3", "graph": True}, "--at needs a drawing to scale"),
+        ("R(0-1) R(1-2) R(2-0)", {"at": "3"}, "no dimensions"),
         ("nowhere/x.toml", {}, "cannot be read"),
-        ("mzc", {"pose": "", "of": "nix"}, "it goes with --show dead-centres"),
-        ("mzc", {"pose": "", "of": "nix", "show": ["centrodes"]}, "'nix' is none of"),
+        ("mzc", {"at": "", "output": "nix"}, "--output needs --show dead-centres"),
+        ("mzc", {"at": "", "output": "nix", "show": ["centrodes"]}, "'nix' is none of"),
         ("mzc", {"ghosts": 0}, "1 to 60"),
-        ("vcomp", {"labels": True, "graph": True}, "--labels names the links of a picture of bodies"),
-        ("vcomp", {"dark": True}, "SVG is on the ground of its reader"),
+        ("vcomp", {"labels": True, "graph": True}, "--labels does not go with --graph"),
+        ("vcomp", {"dark": True}, "--dark does not go with SVG"),
     ],
 )
 def test_wrong_commands(chain, options, words):
     with pytest.raises(GrueblerError, match=words):
-        draw.run(Namespace(chain=chain, **(DRAW | options)))
+        draw.run(arguments_of("draw", chain, **options))

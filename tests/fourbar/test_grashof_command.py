@@ -34,7 +34,7 @@ def test_four_bars_that_stop_or_do_not_close(capsys):
     status, out = run(capsys, "4", "5", "6", "4.5", lang="de")
     assert status == 0
     assert "Totalschwinge" in out
-    assert "Kurbelwinkel: 11.7159°..348.2841°" in out
+    assert "Kurbelwinkel: 11,7159°..348,2841°" in out
     assert run(capsys, "1", "1", "1", "5") == (1, "l_max = 5 > 3 = 1 + 1 + 1: not assemblable.\n")
 
 
@@ -77,7 +77,7 @@ def test_json_of_one(capsys):
     ("lengths", "free", "message"),
     [
         (["1", "2", "3"], None, "four lengths A B C D are needed"),
-        (["1", "2", "x", "4"], None, "a length must be a number, not 'x'"),
+        (["1", "2", "x", "4"], None, "expected a length, but found 'x'"),
         (["1", "2", "-3", "4"], None, "c must be positive, not -3"),
         (["1", "nan", "3", "4"], None, "b must be a finite number"),
         (["1", "2"], "d", "--free d takes the lengths a, b, c"),
@@ -87,3 +87,27 @@ def test_json_of_one(capsys):
 def test_wrong_usage_is_one_sentence(capsys, lengths, free, message):
     with pytest.raises(GrueblerError, match=message):
         run(capsys, *lengths, free=free)
+
+
+def test_other_linkages_are_written_as_everywhere(capsys):
+    assert run(capsys, "25,70,40,70") == run(capsys, "four-bar:25,70,40,70") == run(capsys, "25", "70", "40", "70")
+    assert run(capsys, "25,70,40,70", free="d") == run(capsys, "25", "70", "40", free="d")
+    status, out = run(capsys, "slider-crank:25,70,10", turns="a")
+    assert status == 0
+    assert out.splitlines() == [
+        "slider-crank. Turns fully against the frame: a.",
+        "crank angle: full turn",
+        "stroke of the output: 50.5974",  # sqrt(95^2 - 10^2) - sqrt(45^2 - 10^2)
+        "time ratio: 1.078489",
+        "smallest transmission angle: 60.0000°",
+        "a turns fully: yes",
+    ]
+    assert run(capsys, "slider-crank:50,70,30", turns="a") == (
+        1,
+        "slider-rocker (no link turns fully).\ncrank angle: -53.1301°..233.1301°\n"
+        "smallest transmission angle: 0.0000°\na turns fully: no\n",
+    )
+    document = json.loads(run(capsys, "inverted-slider-crank:70,25,3", json=True)[1])
+    assert (document["type"], document["turning"]) == ("turning_guide", ["a", "guide"])
+    with pytest.raises(GrueblerError, match="--free goes with the lengths of a four-bar"):
+        run(capsys, "slider-crank:25,70", free="b")

@@ -339,10 +339,14 @@ def test_whether_central_wheels_have_one_axis(text, closed):
 
 def test_the_condition_of_the_textbook():
     """z_ring = z_sun + 2 z_planet, for all small tooth numbers."""
+    closed = set()
     for sun, planet, ring in itertools.product(range(18, 24), range(12, 18), range(48, 60)):
-        if ring > planet:
-            (one,) = axes(read_train(f"sun:{sun} planet:{planet} ring:-{ring} on arm").train)
-            assert one.coaxial == (ring == sun + 2 * planet)
+        (place,) = axes(read_train(f"sun:{sun} planet:{planet} ring:-{ring} on arm").train)
+        if place.coaxial:
+            closed.add((sun, planet, ring))
+    both = itertools.product(range(18, 24), range(12, 18))
+    assert closed == {(sun, planet, sun + 2 * planet) for sun, planet in both if 48 <= sun + 2 * planet < 60}
+    assert len(closed) == 24
 
 
 def test_numbers_of_planets():

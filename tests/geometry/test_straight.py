@@ -9,6 +9,7 @@ from scipy.optimize import brentq
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.geometry import coupler_path, linkage_path, longest_piece, path_piece, piece_of_ratio
+from gruebler.geometry.sizing import crank_length, tangent_windows
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
@@ -214,3 +215,19 @@ def test_chebyshev_and_roberts(bar, point, branch, middle, ends, height):
 def test_a_piece_has_two_ends():
     with pytest.raises(LinkageError, match="two different ends"):
         path_piece(LAMBDA, 1.5, 1.5)
+
+
+def test_windows_about_a_tangent_are_those_of_the_table():
+    """Q_G and L of all windows of a linkage that is moved, against windows found one by one."""
+    linkage = FourBar(1, 75**0.5 / 2, 75**0.5 / 2, 4).linkage({"K": (8.018753738744802, 2.268046058132576)})
+    curve = tangent_windows(linkage, "K", math.pi)
+    widths, lengths = (
+        np.interp(np.log([row[0] for row in QG_TABLE[1:]]), np.log(curve.ratios), values)
+        for values in (np.degrees(curve.widths), curve.lengths / crank_length(linkage))
+    )
+    assert curve.ratios[0] < 1.1e-6
+    assert 0.0199 < curve.ratios[-1] <= 0.02
+    assert widths == pytest.approx([row[1] for row in QG_TABLE[1:]], abs=0.02)
+    assert lengths == pytest.approx([row[3] for row in QG_TABLE[1:]], abs=1e-3)
+    with pytest.raises(LinkageError, match="no windows with Q_G"):
+        tangent_windows(linkage, "R(frame-crank)", math.pi)

@@ -1,5 +1,6 @@
 """Cams and Geneva drives as joints of linkages, against the lift, against Geneva drives by formula, by the circuit."""
 
+from math import degrees as in_degrees
 from math import hypot, pi, sqrt
 
 import numpy as np
@@ -238,6 +239,10 @@ def test_dwells_of_geneva_drives(slots, pins, internal):
     assert centres == []
     assert len(rests) == slots
     assert found.dwell_share == pytest.approx(drive.dwell_fraction)
+    assert found.moving_span == pytest.approx(found.span.period * drive.motion_fraction)
+    assert found.motion_ratio == pytest.approx(drive.motion_ratio)
+    assert f"{in_degrees(found.moving_span):.9g}°" in found.explain()
+    assert f"Bewegung durch Rast {found.motion_ratio:.9g}".replace(".", ",") in found.explain("de")
     for k, (begin, end, kind, side) in enumerate(rests):
         pitch = 360 / pins
         assert begin == pytest.approx(np.degrees(drive.engaged) + k * pitch, abs=1e-9)

@@ -58,5 +58,7 @@ def test_the_measures_say_it_in_both_languages():
     assert [point.several for point in found.change_points] == [True] * 4
     assert "More than two curves of positions meet there." in found.explain()
     assert "Dort treffen sich mehr als zwei Lagenkurven." in found.explain("de")
+    places = {round(point.drive, 6) for point in found.change_points}
+    assert found.explain().count("More than two curves") == len(places) < len(found.change_points)
     assert not any(point.several for point in measures(parallelograms(1)).change_points)
     assert all(point["several"] for point in found.to_json()["change_points"])

@@ -107,8 +107,48 @@ def test_a_chain_of_very_many_links_is_refused_with_its_size_unless_it_is_wanted
     from gruebler.mobility import TooLargeError, rank
 
     ring = Chain.from_edges([(k, (k + 1) % 20) for k in range(20)])
-    monkeypatch.setattr(rank, "_MOST_ROWS", 39)
+    monkeypatch.setattr(rank, "_LARGEST", 40 * rank._BYTES_A_ROW - 1)
     with pytest.raises(TooLargeError, match="40 equations") as refused:
         mobility_report(ring)
     assert "40 Gleichungen" in error_in_language(refused.value, "de")
     assert mobility_report(ring, large=True).generic == 17
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "R(0-1) R(1-2) R(2-0) R(0-3) R(3-1)",  # more constraints than unknowns
+        "P(0-1) P(1-2) P(2-0) R(2-3) R(3-4) R(4-5)",  # not more, but sliders have one too many
+    ],
+)
+def test_constraints_that_depend_on_others_are_estimated_with_their_stresses(monkeypatch, text):
+    from gruebler.mobility import TooLargeError, rank
+
+    chain = Chain.parse(text)
+    rows = 2 * len(chain.joints)
+    monkeypatch.setattr(rank, "_LARGEST", rows * rank._BYTES_WITH_STRESSES - 1)
+    with pytest.raises(TooLargeError, match=f"{rows} equations"):
+        mobility_report(chain)
+    assert mobility_report(chain, large=True).redundancy == 1
+    monkeypatch.setattr(rank, "_LARGEST", rows * rank._BYTES_WITH_STRESSES)
+    assert mobility_report(chain).redundancy == 1
+
+
+def test_an_overconstrained_chain_takes_no_more_memory_than_estimated():
+    import tracemalloc
+
+    from gruebler.mobility import rank
+    from gruebler.mobility.rank import generic
+
+    edges = [(0, 1), (1, 2), (2, 0)]
+    for k in range(3, 1500, 2):  # dyads in a row, and a joint too many
+        edges += [(k - 2, k), (k, k + 1), (k + 1, k - 1)]
+    chain = Chain.from_edges([*edges, (0, 1500), (1, 1499)])
+    rows = 2 * len(chain.joints)
+    tracemalloc.start()
+    try:
+        assert generic(chain).stress_form.rank < rows
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < rows * rank._BYTES_WITH_STRESSES

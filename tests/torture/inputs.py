@@ -56,7 +56,7 @@ def _texts(*texts: str) -> list[Case]:
         ("check",),
         ("check", "--explain"),
         ("inversions", "--count"),
-        ("derive",),
+        ("extend", "--derivation"),
         ("draw", "-o", "out.svg"),
         ("assur", "--json"),
         ("extend", "--dyad"),
@@ -76,10 +76,10 @@ def _codes() -> list[Case]:
 
 def _graph6() -> list[Case]:
     made = [Case(("check", "{chains.g6}"), {"chains.g6": b"GCpdd_\nGCQf@o\nEEh_\n"})]
-    return made + [Case((command, "g6:EEh_"), only=(1,)) for command in ("check", "inversions", "derive", "assur")]
+    return made + [Case((command, "g6:EEh_"), only=(1,)) for command in ("check", "inversions", "assur")]
 
 
-_NOT_TAKEN = {("check", "made.json"), ("check", "lambda.json"), ("freedoms", "cam_roller.toml")}
+_NOT_TAKEN = {("check", "made.json"), ("check", "lambda.json")}
 
 
 def _linkages() -> list[Case]:
@@ -92,9 +92,8 @@ def _linkages() -> list[Case]:
     files.append(("made.json", json.dumps(linkage_to_json(_FOUR_BAR)).encode()))
     files.append(("lambda.json", json.dumps(linkage_to_json(entries()["lambda"].linkage())).encode()))
     commands = (
-        ("analyse", "--drive", "0:90:30", "--json"),
-        ("check",),
-        ("freedoms",),
+        ("analyse", "--range", "0:90:30", "--json"),
+        ("check", "--explain"),
         ("draw", "-o", "out.svg"),
         ("inversions", "--count"),
         ("animate", "-o", "out.svg"),
@@ -120,7 +119,7 @@ def _screws() -> list[Case]:
         b'"C(a-b)" = { at = [10, 20, 0], z = [1, 0, 0] }\n"S(b-c)" = { at = [60, 35, 10] }\n'
         b'"R(frame-c)" = { at = [70, 0, 0], z = [0, 1, 0] }\n'
     )
-    commands = (("freedoms", "{s.toml}"), ("freedoms", "{s.toml}", "--json"))
+    commands = (("check", "{s.toml}", "--explain"), ("check", "{s.toml}", "--json"))
     return [Case(command, {"s.toml": text}) for text in (plane, space) for command in commands]
 
 
@@ -215,31 +214,31 @@ def _words() -> list[Case]:
             ("catalog", "search", "crank"),
             ("enumerate", "--links", "8", "--count"),
             ("enumerate", "--links", "6"),
-            ("assortments", "8"),
+            ("enumerate", "--links", "8", "--assortments"),
             ("inversions", _SIX),
             ("variants", "--links", "4", "--prismatic", "1", "--count"),
             ("assur", _MARKED),
             ("assur", "--list", "2"),
-            ("derive", _SIX),
+            ("extend", _SIX, "--derivation"),
             ("extend", "vcomp", "--dyad"),
-            ("analyse", four_bar, "--drive", "0:90:30"),
+            ("analyse", four_bar, "--range", "0:90:30"),
             ("grashof", "25", "70", "40", "70"),
             ("gears", _GEARS),
             ("cam", _LIFT, "--base", "40", "--roller", "10"),
             ("geneva", "4", "--distance", "100"),
-            ("cognates", "25,70,40,70", "45,40"),
-            ("straight", "25,70,40,70", "45,40", "--band", "1"),
+            ("curve", "25,70,40,70", "45,40", "--cognates"),
+            ("curve", "25,70,40,70", "45,40", "--straight", "--band", "1"),
             ("draw", "vcomp", "-o", "out.svg"),
-            ("draw", four_bar, "--pose", "30", "-o", "out.svg"),
+            ("draw", four_bar, "--at", "30", "-o", "out.svg"),
             ("animate", four_bar, "-o", "out.svg"),
             ("gallery", "--links", "4", "-o", "out.html"),
             ("plot", four_bar, "--kind", "transfer", "-o", "out.svg"),
             ("curve", four_bar, "coupler:45,40"),
-            ("guidance", "lambda"),
+            ("curve", "--guidance", "lambda"),
             ("synthesise", "dead-centres", "--swing", "60", "--time-ratio", "1.2"),
             ("synthesise", "function", "log10(x)", "--interval", "1", "2", "--swings", "60", "60"),
             ("statics", four_bar, "--load", "R(crank-coupler)=0,-10", "--at", "30"),
-            ("freedoms", four_bar),
+            ("check", four_bar, "--explain"),
             ("sheet", "show", "mzc"),
             ("exercise", "new", "--kind", "mobility", "--level", "1", "--seed", "7"),
             ("table", "grashof"),
@@ -387,7 +386,7 @@ def _with_options(case: Case, chance: random.Random) -> Case:
         option, takes = chance.choice(_options(tuple(arguments[:2])))
         arguments.append(option)
         if takes and chance.random() < 0.95:
-            values = _FILES if option in ("-o", "--output") else (*_NUMBERS, *_TOKENS, *_VALUES)
+            values = _FILES if option in ("-o", "--out") else (*_NUMBERS, *_TOKENS, *_VALUES)
             arguments.append(chance.choice(values).replace("\0", "?"))
     return Case(tuple(arguments))
 
@@ -407,11 +406,15 @@ def _ring(links: int) -> str:
     return " ".join(f"R({k}-{(k + 1) % links})" for k in range(links))
 
 
+def _assortments(links: str, *options: str) -> Case:
+    return Case(("enumerate", "--links", links, "--assortments", *options))
+
+
 _SLOW: dict[str, Callable[[], Case]] = {
-    "assortments 60": lambda: Case(("assortments", "60")),
-    "assortments 100": lambda: Case(("assortments", "100")),
-    "assortments 100,000": lambda: Case(("assortments", "100000")),
-    "assortments 300 with multiple joints": lambda: Case(("assortments", "300", "--multiple-joints")),
+    "assortments 60": lambda: _assortments("60"),
+    "assortments 100": lambda: _assortments("100"),
+    "assortments 100,000": lambda: _assortments("100000"),
+    "assortments 300 with multiple joints": lambda: _assortments("300", "--multiple-joints"),
     "complete graph of 30 links": lambda: _lines("k.txt", _complete(30)),
     "complete graph of 60 links": lambda: _lines("k.txt", _complete(60)),
     "ring of 10,000 links": lambda: _lines("ring.txt", _ring(10_000)),

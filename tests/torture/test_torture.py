@@ -71,7 +71,9 @@ def test_a_real_crash_and_a_real_loop_are_noticed(folder, monkeypatch):
 
 
 def test_another_answer_is_noticed(folder):
-    assert try_one(Case(("assortments", "4", "--json"), answer=b"{}"), folder)[1].startswith("another answer")
+    assert try_one(Case(("enumerate", "--links", "4", "--assortments", "--json"), answer=b"{}"), folder)[1].startswith(
+        "another answer"
+    )
 
 
 @pytest.mark.slow

@@ -117,6 +117,8 @@ def prepared_folder() -> Path | None:
                     part.mkdir(mode=0o777 if part.parent == _SOURCES else 0o700, exist_ok=True)
             if _trusted(place) is None or not os.access(folder, os.W_OK):
                 continue
+            if os.name == "posix":
+                folder.chmod(0o700)  # others could read a folder from a copied installation, not write to it
             os.utime(folder)
         except OSError:
             continue

@@ -8,6 +8,7 @@ below 2^62.
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from heapq import heapify, heappop, heappush
 from typing import NamedTuple
 
@@ -82,16 +83,18 @@ def modular_inverse(a: int) -> int:
     return pow(a, -1, P)
 
 
-def transposed(rows: list[Row], columns: int) -> list[Row]:
-    """The rows of the transpose."""
+def transposed(rows: list[Row], columns: int) -> Iterator[Row]:
+    """The rows of the transpose, each freed by the iterator as it is handed out."""
     out: list[Row] = [{} for _ in range(columns)]
     for i, row in enumerate(rows):
         for j, value in row.items():
             out[j][i] = value
-    return out
+    out.reverse()
+    while out:
+        yield out.pop()
 
 
-def echelon(rows: list[Row], columns: int, *, large: bool = False) -> Echelon:
+def echelon(rows: Iterable[Row], columns: int, *, large: bool = False) -> Echelon:
     """Eliminate; the input is left as it is.
 
     Raises `CoreTooLarge` where the dense core would take more than about a minute or 1 GB, unless ``large``.

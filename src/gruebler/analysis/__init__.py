@@ -7,6 +7,7 @@ fully: docs/theory/events.md.
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.analysis.measures import Measures, measures
 from gruebler.analysis.rotatability import DriveRange, Rotatability, drive_range, motion_roles, rotatability
+from gruebler.analysis.table import motion_table
 from gruebler.analysis.transmission import deviation_angle, transmission_angle
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "drive_range",
     "measures",
     "motion_roles",
+    "motion_table",
     "rotatability",
     "transmission_angle",
 ]

@@ -7,6 +7,7 @@
 - ``ends``: the output at both ends of a range that is no full turn, else None;
 - ``dead_centres`` (tuple of `OutputDeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
 - ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
+  ``moving_span``, ``motion_ratio``: how far the drive moves while the output does, and that by the dwells;
 - ``inner, outer`` (`OutputDeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
   ``output_turns`` (turns of the output per period);
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
@@ -45,10 +46,11 @@ from gruebler.analysis.events import (
 )
 from gruebler.analysis.messages import (
     MeasureUnits,
-    change_point_message,
+    change_point_lines,
     dead_centre_message,
     dwell_message,
     dwell_share_message,
+    motion_share_message,
     output_lines,
     range_lines,
     stroke_lines,
@@ -181,10 +183,23 @@ class Measures(Brief):
         return way - sum(dwell.duration for dwell in self.dwells if ahead(dwell.drive, begins) < way)
 
     @property
+    def _whole(self) -> float:
+        return self.span.period if self.span.full else self.span.width
+
+    @property
     def dwell_share(self) -> float:
         """The part of the period, or of the drive's range, in which the output rests; 0 without a dwell."""
-        whole = self.span.period if self.span.full else self.span.width
-        return sum(dwell.duration for dwell in self.dwells) / whole
+        return sum(dwell.duration for dwell in self.dwells) / self._whole
+
+    @property
+    def moving_span(self) -> float:
+        """How far the drive moves, in the period or in its range, while the output does: without the dwells."""
+        return self._whole - sum(dwell.duration for dwell in self.dwells)
+
+    @property
+    def motion_ratio(self) -> float | None:
+        """The span in which the output moves by that in which it rests; None without a dwell."""
+        return (1 - self.dwell_share) / self.dwell_share if self.dwells else None
 
     @property
     def dwell_time(self) -> float | None:
@@ -238,10 +253,12 @@ class Measures(Brief):
         yield from (dwell_message(units, dwell, self.span.period) for dwell in self.dwells)
         if self.dwells:
             yield dwell_share_message(self.dwell_share)
+            if self.output_turns:
+                yield motion_share_message(units, self.moving_span, self.span.period, self.motion_ratio)
         if self.phi_forward is not None and self.phi_back is not None:
             yield from stroke_lines(units, self.phi_forward, self.phi_back, self.time_ratio, dwells=bool(self.dwells))
         yield from time_lines(self.speed_rpm, self.times, self.dwell_time if self.dwells else None)
-        yield from (change_point_message(units, point) for point in self.change_points)
+        yield from change_point_lines(units, self.change_points)
         if self.change_points_error is not None:
             yield unknown_change_points_message(self.change_points_error)
         if self.transmission is not None:
@@ -298,6 +315,8 @@ class Measures(Brief):
                 for d in self.dwells
             ],
             "dwell_share": self.dwell_share,
+            "moving_span": turn(self.moving_span),
+            "motion_ratio": self.motion_ratio,
             "dwell_time": self.dwell_time,
             "output_turns": self.output_turns,
             "travel": None if self.travel is None else out(self.travel),

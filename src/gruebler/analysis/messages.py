@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 from math import degrees
 from typing import NamedTuple
 
@@ -16,10 +17,11 @@ from gruebler.text import Message, joined, message
 
 __all__ = [
     "MeasureUnits",
-    "change_point_message",
+    "change_point_lines",
     "dead_centre_message",
     "dwell_message",
     "dwell_share_message",
+    "motion_share_message",
     "output_lines",
     "range_lines",
     "stroke_lines",
@@ -157,15 +159,31 @@ def dwell_share_message(share: float) -> Message:
     return message("The output rests for {share:.9g} % of the drive's motion.", share=100 * share)
 
 
-def change_point_message(units: MeasureUnits, point: GroupChangePoint) -> Message:
-    """Where a group may change its assembly mode."""
+def motion_share_message(units: MeasureUnits, moving: float, period: float, ratio: float | None) -> Message:
+    """How far the drive moves in a period while an output that turns fully does."""
+    return message(
+        "It moves during {moving} of {period} of the drive; motion by dwell {ratio:.9g}.",
+        moving=units.drive(moving),
+        period=units.drive(period),
+        ratio=ratio,
+    )
+
+
+def change_point_lines(units: MeasureUnits, points: Sequence[GroupChangePoint]) -> Iterator[Message]:
+    """Where groups may change their assembly modes; that several curves meet is said once of a place."""
+    for point, following in zip_longest(points, points[1:]):
+        again = following is not None and following.several and abs(following.drive - point.drive) <= _CONSTANT
+        yield _change_point(units, point, several=point.several and not again)
+
+
+def _change_point(units: MeasureUnits, point: GroupChangePoint, *, several: bool) -> Message:
     line = message(
         "Change point of {form} {{{links}}} at {drive}.",
         form=form_message(point.form),
         links=", ".join(point.links),
         drive=units.drive(point.drive),
     )
-    return joined([line, message("More than two curves of positions meet there.")], " ") if point.several else line
+    return joined([line, message("More than two curves of positions meet there.")], " ") if several else line
 
 
 def unknown_change_points_message(error: GrueblerError) -> Message:

@@ -10,8 +10,11 @@ from gruebler.formats.catalog_records import Claims
 from gruebler.linkages import Linkage
 from gruebler.mobility import Count, MobilityReport, counted, mobility_report
 from gruebler.screws import Freedoms, SpatialLinkage, freedoms
+from gruebler.text import message, translate
 
 __all__ = ["CheckedEntry", "WrongClaim", "check_claims"]
+
+_NONE = message("none")
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,8 +25,18 @@ class WrongClaim:
     printed: object
     derived: object
 
+    def in_language(self, lang: str) -> str:
+        """What is printed and what is derived, in a language."""
+        return translate(
+            "{key}: printed {printed}, derived {derived}",
+            lang,
+            key=self.key,
+            printed=self.printed,
+            derived=self.derived,
+        )
+
     def __str__(self) -> str:
-        return f"{self.key}: printed {self.printed}, derived {self.derived}"
+        return self.in_language("en")
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,18 +89,22 @@ def check_claims(
         try:
             found = freedoms(linkage)
         except LinkageError as error:
-            wrong.append(WrongClaim("dimensions", "a linkage that can be assembled", error))
+            wrong.append(WrongClaim("dimensions", message("a linkage that can be assembled"), error))
     if found is not None and found.mobility != (report.generic if claims.mobility is None else claims.mobility):
         wrong.append(WrongClaim("claims.mobility", claims.mobility, found.mobility))
     elif claims.mobility is not None and claims.mobility < report.generic:
-        wrong.append(WrongClaim("claims.mobility", claims.mobility, f"at least {report.generic}"))
+        wrong.append(
+            WrongClaim("claims.mobility", claims.mobility, message("at least {mobility}", mobility=report.generic))
+        )
     if claims.mobility is not None and claims.mobility != report.generic and claims.reason is None:
-        wrong.append(WrongClaim("claims.reason", "none", "a mobility other than the generic one needs a reason"))
+        wrong.append(
+            WrongClaim("claims.reason", _NONE, message("a mobility other than the generic one needs a reason"))
+        )
     if claims.group is not None and (f := counted(chain, claims.group.b)) != claims.group.counted:
         wrong.append(WrongClaim("claims.group.counted", claims.group.counted, f))
     idle = tuple(link for freedom in report.idle_freedoms for link in freedom.links)
     if claims.idle and set(claims.idle) != set(idle):
-        wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or "none"))
+        wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or _NONE))
     return CheckedEntry(id, origin, report, claims, tuple(wrong), found)
 
 

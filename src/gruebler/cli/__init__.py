@@ -32,7 +32,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     except GrueblerError as error:
         return _complain(words, error_in_language(error, lang))
     except MemoryError:
-        return _complain(words, translate("this needs more memory than there is", lang))
+        return _complain(words, translate("not enough memory", lang))
     except BrokenPipeError:
         # The reader has gone (| head): what is still buffered has nowhere to go.
         _forget_output()
@@ -55,18 +55,20 @@ def _run(words: list[str], lang: str) -> int:
 
         print(f"gruebler {__version__}")
         return 0
-    chosen = command(words[0])
+    chosen = command(words[0], words[1:])
     with argparse_in_language(lang):
         arguments = chosen.parser(lang).parse_args(words[1:])
     from gruebler.cli.compiling_progress import show_compiling
+    from gruebler.cli.printed_file import printed_to_file
 
     show_compiling(lang)
     try:
-        status = int(chosen.module().run(arguments))
+        with printed_to_file(arguments):
+            status = int(chosen.module().run(arguments))
         sys.stdout.flush()
     except KeyboardInterrupt:
         folder = getattr(arguments, "checkpoint", None)
-        stopped = translate("stopped; the same command goes on from {folder}", lang, folder=folder)
+        stopped = translate("stopped; run the same command again to continue from {folder}", lang, folder=folder)
         print(f"\ngruebler: {stopped if folder else translate('stopped', lang)}", file=sys.stderr)
         return 130
     return status

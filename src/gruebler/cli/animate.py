@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 
 from gruebler.cli.draw import entry_of, linkage_and_range, picture_suffix
-from gruebler.cli.drive_rows import add_drive_path, driven_path
+from gruebler.cli.drive_rows import add_range, driven_path
+from gruebler.cli.linkage_inputs import add_branch, add_curves, add_linkage, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.linkage.animation import AnimationOptions, animated_svg
@@ -21,48 +21,43 @@ _SUFFIXES = ("svg", "html", "gif", "webp", "png")
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="A full turn of the drive, or to and fro where it has limits, over and over. SVG without script; "
-        "one HTML page with play, pause and a slider for the drive; pictures as .gif, .webp or .png (APNG).",
-        epilog="Example: gruebler animate wiper -o wiper.html --seconds 3. Without -o the SVG goes to standard output. "
-        "GIF, WebP and PNG need matplotlib: pip install 'gruebler[plot]'.",
+        description="Animate a linkage over a full turn of its drive, or back and forth between its limits: as SVG "
+        "without scripts, as an HTML page with play, pause and a slider, or as GIF, WebP or APNG.",
+        epilog="Example: gruebler animate wiper -o wiper.html --seconds 3. Without -o, the SVG is printed. GIF, WebP "
+        "and PNG need matplotlib: pip install 'gruebler[plot]'.",
     )
+    add_linkage(parser)
+    parser.add_out(help="the file: .svg, .html, .gif, .webp or .png (APNG)")
+    add_curves(parser)
     parser.add_argument(
-        "linkage", metavar="FILE|ID", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+        "--seconds", type=float, default=4.0, metavar="S", help="duration of a turn, or of back and forth (default: 4)"
     )
-    parser.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="a file .svg, .html, .gif, .webp or .png (APNG)"
-    )
-    parser.add_argument(
-        "--curve", action="append", default=[], metavar="POINT", help="the path of a point or joint; repeatable"
-    )
-    parser.add_argument(
-        "--seconds", type=float, default=4.0, metavar="S", help="for a turn, or for there and back (default: 4)"
-    )
-    parser.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +-")
-    add_drive_path(parser)
-    parser.add_argument("--dark", action="store_true", help="GIF, WebP and PNG on dark ground")
+    add_branch(parser)
+    add_range(parser)
+    parser.add_argument("--dark", action="store_true", help="dark background for GIF, WebP and PNG")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the animation into a file, or as SVG on standard output."""
-    dark = getattr(arguments, "dark", False)
-    suffix = picture_suffix(arguments.output, dark, _SUFFIXES)
+    dark = arguments.dark
+    suffix = picture_suffix(arguments.out, dark, _SUFFIXES)
     linkage, between = linkage_and_range(arguments.linkage)
+    linkage = with_points(linkage, arguments.curve)
     record = entry_of(arguments.linkage)
     options = AnimationOptions(
         branch=arguments.branch,
         between=between,
-        drives=driven_path(arguments.drive, linkage),
+        drives=driven_path(arguments.range, linkage),
         curves=arguments.curve,
         seconds=arguments.seconds,
         lang=arguments.lang,
         name="" if record is None else record.name.in_language(arguments.lang),
     )
     content = _content(linkage, suffix, options, dark)
-    if arguments.output is None:
+    if arguments.out is None:
         print_svg(content.decode("utf-8"))
     else:
-        write_file(arguments.output, content, arguments.lang)
+        write_file(arguments.out, content, arguments.lang)
     return 0
 
 

@@ -1,4 +1,4 @@
-"""`gruebler assur`: a mechanism taken apart into drives and Assur groups, or all groups with so many links."""
+"""`gruebler assur`: the drives and Assur groups of a mechanism, or all groups with a given number of links."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import Any
 from gruebler.assur import AssurGroup, Decomposition, SolvedGroup, assur_groups, decompose, drive_choices
 from gruebler.assur.forms import roman
 from gruebler.assur.listing import expected_seconds_of_groups
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import mechanism_of
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
@@ -15,49 +16,52 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.mechanism import Mechanism
+from gruebler.text import message, translate
 
 __all__ = ["add", "run"]
 
-_GROUPS = {"en": ("form", "class", "order", "group"), "de": ("Form", "Klasse", "Ordnung", "Gruppe")}
-_PROGRESS = {"en": "{n} groups, {seconds:.0f} s", "de": "{n} Gruppen, {seconds:.0f} s"}
-_CHOICES = {"en": ("drive", "class", "formula"), "de": ("Antrieb", "Klasse", "Formel")}
+_PROGRESS = message("{n} groups, {seconds:.0f} s")
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Drives and Assur groups in solving order, with form, class and order; without a drive: how they "
-        "change with it.",
-        epilog="Exit status: 0 determined, 1 something stays undetermined, 2 wrong usage or unreadable input.",
+        description="Decompose a mechanism into drives and Assur groups, in the order in which they are solved, with "
+        "form, class and order. Without a drive, compare all drives. With --list, list all groups of a size.",
+        epilog="Examples: gruebler assur loader; gruebler assur --list 4 --count. Exit status: 0 the drives determine "
+        "the motion, 1 they do not, 2 wrong usage or unreadable input.",
     )
     parser.add_argument(
         "mechanism",
         nargs="?",
         metavar="MECHANISM",
-        help="a text with '; frame=..; drive=..', a code, g6:CODE or the id of a catalog entry",
+        help="a mechanism such as 'R(0-1) R(1-2) R(2-3) R(3-0); frame=0; drive=R(0-1)', a code, g6:CODE, a catalog "
+        "entry or a linkage file",
     )
-    parser.add_argument("--frame", metavar="LINK", help="the link that stands still")
-    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
-    parser.add_argument("--anywhere", action="store_true", help="without a drive: drives between moving links too")
-    parser.add_argument("--list", type=int, metavar="N", help="all groups with N links instead")
-    parser.add_argument("--count", action="store_true", help="only how many")
-    parser.add_argument("--yes", action="store_true", help="with --list: begin even if it will be long")
-    parser.add_argument("--json", action="store_true", help="an object with count and items")
+    parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
+    parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint (repeatable)")
+    parser.add_argument("--anywhere", action="store_true", help="without a drive: also drives between moving links")
+    parser.add_argument("--list", type=int, metavar="N", help="list all groups with N links")
+    parser.add_argument("--count", action="store_true", help="print only the number")
+    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
+    parser.add_printed(help="print an object with count and items")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Take a mechanism apart (1 if its drives leave something undetermined), compare drives, or list groups."""
     if (arguments.list is None) == (arguments.mechanism is None):
-        raise GrueblerError("name one mechanism, or ask for --list N: all groups with N links")
+        raise GrueblerError("give either a mechanism or --list N for all groups with N links")
     if arguments.list is not None:
         ask_before(expected_seconds_of_groups(arguments.list), arguments.yes)
-        found = list(progress(assur_groups(arguments.list), _PROGRESS[arguments.lang]))
-        _print([_group_item(group) for group in found], arguments, lambda: _list(found, arguments.lang))
+        groups = list(progress(assur_groups(arguments.list), _PROGRESS.in_language(arguments.lang)))
+        _print([_group_item(group) for group in groups], arguments, lambda: _list(groups, arguments.lang))
         return 0
     mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive)
     if not mechanism.drives:
         choices = list(drive_choices(mechanism.chain, mechanism.frame, anywhere=arguments.anywhere))
-        items = [{"code": _code(one.mechanism), "text": str(one.mechanism), **_verdict(one)} for one in choices]
+        items = [
+            {"code": _code(choice.mechanism), "text": str(choice.mechanism), **_verdict(choice)} for choice in choices
+        ]
         _print(items, arguments, lambda: _compare(choices, arguments.lang))
         return 0
     decomposition = decompose(mechanism)
@@ -120,18 +124,19 @@ def _code(mechanism: Mechanism) -> str | None:
         return None  # codes have no place for drives of single freedoms or within multiple joints
 
 
-def _list(found: list[AssurGroup], lang: str) -> None:
-    alphabet = "german" if lang == "de" else "international"
+def _list(groups: list[AssurGroup], lang: str) -> None:
+    alphabet = Alphabet.of_language(lang)
     rows = []
-    for group in found:
+    for group in groups:
         form = group.named(alphabet)
         named = "" if form == group.code else form
         rows.append((named, roman(group.class_number), str(group.order), group.chain.text(alphabet)))
-    print_table(_GROUPS[lang], rows, numbers=(2,))
+    headers = [translate("form", lang), translate("class", lang), translate("order", lang), translate("group", lang)]
+    print_table(headers, rows, numbers=(2,))
 
 
 def _compare(choices: list[Decomposition], lang: str) -> None:
-    alphabet = "german" if lang == "de" else "international"
+    alphabet = Alphabet.of_language(lang)
     rows = [
         (
             ", ".join(decomposition.mechanism.drive_names(alphabet)),
@@ -140,7 +145,7 @@ def _compare(choices: list[Decomposition], lang: str) -> None:
         )
         for decomposition in choices
     ]
-    print_table(_CHOICES[lang], rows)
+    print_table([translate("drive", lang), translate("class", lang), translate("formula", lang)], rows)
 
 
 def _after(decomposition: Decomposition, lang: str) -> str:

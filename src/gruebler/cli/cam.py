@@ -14,6 +14,7 @@ from gruebler.cams import (
     LAWS,
     Cam,
     CamExtremum,
+    CamReport,
     Flat,
     Follower,
     LiftSegment,
@@ -29,102 +30,79 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
-from gruebler.text import message
+from gruebler.text import Message, message, number
 
 __all__ = ["add", "run"]
 
-_WORDS = {
-    "en": {
-        "laws": ("law", "C_v", "C_a", "C_j", "C_v·C_a"),
-        "parts": ("part", "from", "to", "lift", "law"),
-        "dwell": "dwell",
-        "motion": "motion",
-        "jump": "At {at}° the {what} jumps by {size} per radian{square}: {effect}.",
-        "orders": {1: ("velocity", "", "a blow"), 2: ("acceleration", "²", "infinite jerk")},
-        "finding": ("quantity", "value", "at"),
-        "pressure_least": "least pressure angle",
-        "pressure_greatest": "greatest pressure angle",
-        "convex": "least convex radius of curvature",
-        "hollow": "least hollow radius of curvature",
-        "face_least": "face needed, one side",
-        "face_greatest": "face needed, other side",
-        "undercut": "Undercut: the profile crosses itself near {at}°; a larger base circle{roller} helps.",
-        "smaller": " or a smaller roller",
-        "fine": "No undercut.",
-        "table": ("cam", "lift", "velocity", "acceleration", "pressure angle", "radius", "x", "y"),
-        "contour": ("cam", "follower", "velocity", "acceleration"),
-    },
-    "de": {
-        "laws": ("Gesetz", "C_v", "C_a", "C_j", "C_v·C_a"),
-        "parts": ("Abschnitt", "von", "bis", "Hub", "Gesetz"),
-        "dwell": "Rast",
-        "motion": "Bewegung",
-        "jump": "Bei {at}° springt die {what} um {size} je Radiant{square}: {effect}.",
-        "orders": {1: ("Geschwindigkeit", "", "Stoß"), 2: ("Beschleunigung", "²", "unendlicher Ruck")},
-        "finding": ("Größe", "Wert", "bei"),
-        "pressure_least": "kleinster Druckwinkel",
-        "pressure_greatest": "größter Druckwinkel",
-        "convex": "kleinster Krümmungsradius, konvex",
-        "hollow": "kleinster Krümmungsradius, hohl",
-        "face_least": "nötige Tellerbreite, eine Seite",
-        "face_greatest": "nötige Tellerbreite, andere Seite",
-        "undercut": "Unterschnitt: Das Profil überschneidet sich bei {at}°; ein größerer Grundkreis{roller} hilft.",
-        "smaller": " oder eine kleinere Rolle",
-        "fine": "Kein Unterschnitt.",
-        "table": ("Kurve", "Hub", "Geschwindigkeit", "Beschleunigung", "Druckwinkel", "Radius", "x", "y"),
-        "contour": ("Kurve", "Abtrieb", "Geschwindigkeit", "Beschleunigung"),
-    },
+_LAWS = (message("law"), "C_v", "C_a", "C_j", "C_v·C_a")
+_PARTS = (message("part"), message("from"), message("to"), message("lift"), message("law"))
+_FIGURES = (message("quantity"), message("value"), message("at"))
+_MOTION = (message("velocity"), message("acceleration"))
+_TABLE = (message("cam"), message("lift"), *_MOTION, message("pressure angle"), message("radius"), "x", "y")
+_CONTOUR = (message("cam"), message("follower"), *_MOTION)
+_JUMPS = {
+    1: message("At {angle:.6g}° the velocity jumps by {size:+.6g}{unit} per radian: an impact."),
+    2: message("At {angle:.6g}° the acceleration jumps by {size:+.6g}{unit} per radian²: infinite jerk."),
 }
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="A disc cam that turns counter-clockwise. LIFT is a row of 'rise LIFT ANGLE [LAW]', 'fall LIFT "
-        "ANGLE [LAW]', 'dwell [ANGLE]' with angles in degrees (the lift of a swinging follower too); instead of a law "
-        "boundary values per radian, such as v0=0 a0=0 v1=5 a1=0. Rates are told per radian of the cam.",
+        description="A disc cam that turns counter-clockwise. LIFT lists its parts: 'rise LIFT ANGLE [LAW]', 'fall "
+        "LIFT ANGLE [LAW]' and 'dwell [ANGLE]', angles in degrees (and the lift of a swinging follower too). Boundary "
+        "values per radian, such as v0=0 a0=0 v1=5 a1=0, can replace the law. Velocity and acceleration are "
+        "derivatives by the cam angle in radians.",
         epilog="Example: gruebler cam 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell' --base 40 --roller 10 "
         "-o cam.svg --plot. Exit status: 0 good, 1 undercut, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument("lift", nargs="?", metavar="LIFT", help="the lift over a turn; one dwell may take the rest")
-    parser.add_argument("--laws", action="store_true", help="the laws of motion with C_v, C_a, C_j")
+    parser.add_argument("lift", nargs="?", metavar="LIFT", help="the lift over a turn; one dwell may omit its angle")
+    parser.add_argument("--laws", action="store_true", help="list the laws of motion with C_v, C_a, C_j")
     parser.add_argument(
-        "--contour", metavar="FILE", help="points x y of a given contour, one a line: the motion it gives"
+        "--contour", metavar="FILE", help="the points x y of a given contour, one per line: its follower motion"
     )
     parser.add_argument("--base", type=float, metavar="R", help="radius of the base circle")
-    parser.add_argument("--roller", type=float, metavar="R", help="a roller with this radius")
-    parser.add_argument("--knife", action="store_true", help="a knife edge")
+    parser.add_argument("--roller", type=float, metavar="R", help="roller follower with this radius")
+    parser.add_argument("--knife", action="store_true", help="knife-edge follower")
     parser.add_argument(
-        "--flat", type=float, nargs="?", const=0.0, metavar="E", help="a flat face; E: how far from its pivot"
+        "--flat",
+        type=float,
+        nargs="?",
+        const=0.0,
+        metavar="E",
+        help="flat-faced follower; E: its distance from the pivot",
     )
     parser.add_argument(
-        "--offset", type=float, default=0.0, metavar="E", help="the guide lies so far right of the axis"
+        "--offset", type=float, default=0.0, metavar="E", help="distance of the guide to the right of the cam's axis"
     )
     parser.add_argument(
-        "--swing", type=float, nargs=2, metavar=("ARM", "D"), help="arm length (0 for a face) and distance of the pivot"
+        "--swing",
+        type=float,
+        nargs=2,
+        metavar=("ARM", "D"),
+        help="swinging follower: length of its arm (0 for a flat face) and distance of its pivot",
     )
-    parser.add_argument("--step", type=float, metavar="DEG", help="a table of the turn in such steps")
-    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_argument("--step", type=float, metavar="DEG", help="also a table over the turn with this step")
+    parser.add_printed(help="print an object; with --laws a list", pictures=True)
     parser.add_argument(
-        "--at", type=float, metavar="DEG", help="with -o: the cam's angle (default: greatest pressure angle)"
+        "--at", type=float, metavar="DEG", help="with -o: the cam angle shown (default: greatest pressure angle)"
     )
-    parser.add_argument("--plot", action="store_true", help="with -o: lift, velocity and acceleration beneath")
-    add_picture_options(parser, "a turn")
+    parser.add_argument("--plot", action="store_true", help="with -o: add diagrams of lift, velocity and acceleration")
+    add_picture_options(parser, help="with --animate: seconds for a turn (default: 4)")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print laws, a cam's figures (1 if it is undercut), or the motion that a contour gives."""
-    words: dict[str, Any] = _WORDS[arguments.lang]
     if arguments.laws + (arguments.lift is not None) + (arguments.contour is not None) != 1:
         example = "'rise 20 60; dwell 30; fall 20 90; dwell'"
         raise GrueblerError("expected one of: a lift such as {example}, --laws, --contour FILE", example=example)
     if arguments.lift is None:
         refuse_picture(arguments, message("a picture is drawn of a cam for a lift"))
     if arguments.laws:
-        return _laws(arguments.json, words)
+        return _laws(arguments.json, arguments.lang)
     follower = _follower(arguments)
     if arguments.contour is not None:
-        return _contour(arguments, follower, words)
+        return _contour(arguments, follower)
     if arguments.base is None:
         raise GrueblerError("a cam needs --base RADIUS, the radius of its base circle")
     lift = read_lift(arguments.lift)
@@ -136,7 +114,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(_document(cam, table))
     else:
-        _print(cam, table, words)
+        _print(cam, table, arguments.lang)
     return int(cam.findings().undercut)
 
 
@@ -151,14 +129,14 @@ def _picture(arguments: argparse.Namespace, cam: Cam) -> None:
     )
 
 
-def _laws(as_json: bool, words: dict[str, Any]) -> int:
+def _laws(as_json: bool, lang: str) -> int:
     names = list(dict.fromkeys(motion_law(name).name for name in LAWS))
-    found = [(name, motion_law(name).peaks()) for name in names]
+    peaks_by_law = [(name, motion_law(name).peaks()) for name in names]
     if as_json:
-        print_json([{"law": name, **peaks._asdict()} for name, peaks in found])
+        print_json([{"law": name, **peaks._asdict()} for name, peaks in peaks_by_law])
     else:
-        rows = [(name, *(f"{peak + 0.0:.6g}" for peak in peaks)) for name, peaks in found]
-        print_table(words["laws"], rows, numbers=range(1, 5))
+        rows = [(name, *(number(peak + 0.0, lang) for peak in peaks)) for name, peaks in peaks_by_law]
+        print_table(_LAWS, rows, numbers=range(1, 5), lang=lang)
     return 0
 
 
@@ -176,45 +154,45 @@ def _follower(arguments: argparse.Namespace) -> Follower:
     return Roller(arguments.roller or 0.0, arguments.offset, arm, distance)
 
 
-def _contour(arguments: argparse.Namespace, follower: Follower, words: dict[str, Any]) -> int:
-    path = Path(arguments.contour)
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError(
-            "{path}: cannot be read: {value}", path=path, value=getattr(error, "strerror", None) or error
-        ) from None
-    points = []
-    for number, line in enumerate(lines, 1):
-        cells = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
-        if cells:
-            try:
-                points.append([float(cell) for cell in cells])
-            except ValueError:
-                raise GrueblerError(
-                    "{path}, line {number}: expected two numbers, x and y, not {line!r}",
-                    path=path,
-                    number=number,
-                    line=line,
-                ) from None
-            if len(cells) != 2:
-                raise GrueblerError(
-                    "{path}, line {number}: expected two numbers, x and y, not {line!r}",
-                    path=path,
-                    number=number,
-                    line=line,
-                )
+def _contour(arguments: argparse.Namespace, follower: Follower) -> int:
     degrees = turn_degrees(10 if arguments.step is None else arguments.step)
-    found = follower_motion(SmoothContour.through(points), follower, np.radians(degrees))
+    motion = follower_motion(
+        SmoothContour.through(_contour_points(Path(arguments.contour))), follower, np.radians(degrees)
+    )
     scale = 180 / math.pi if follower.swings else 1.0
-    rows = np.stack([degrees, *(one * scale for one in found)], axis=1).tolist()
+    rows = np.stack([degrees, *(values * scale for values in motion)], axis=1).tolist()
     if arguments.json:
         keys = ("cam_deg", "follower", "velocity", "acceleration")
         print_json({"motion": records(keys, rows)})
     else:
         unit = "°" if follower.swings else ""
-        print_turn(words["contour"], rows, ("{:g}°", f"{{:.6f}}{unit}", "{:.6f}", "{:.6f}"))
+        print_turn(_CONTOUR, rows, (("zg", "°"), ("z.6f", unit), ("z.6f", ""), ("z.6f", "")), arguments.lang)
     return 0
+
+
+def _contour_points(path: Path) -> list[tuple[float, float]]:
+    """The points of a file with two numbers a line; `#` begins a comment."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        problem = getattr(error, "strerror", None) or error
+        raise GrueblerError("{path}: cannot be read: {problem}", path=path, problem=problem) from None
+    points = []
+    for line_number, line in enumerate(lines, 1):
+        cells = line.partition("#")[0].replace(",", " ").replace(";", " ").split()
+        if not cells:
+            continue
+        try:
+            x, y = (float(cell) for cell in cells)
+        except ValueError:
+            raise GrueblerError(
+                "{path}, line {line_number}: expected two numbers, x and y, not {line!r}",
+                path=path,
+                line_number=line_number,
+                line=line,
+            ) from None
+        points.append((x, y))
+    return points
 
 
 def _parts(cam: Cam) -> list[tuple[LiftSegment, float, float]]:
@@ -237,51 +215,68 @@ def _table(cam: Cam, degrees: NDArray[np.float64]) -> list[list[float]]:
     return rows
 
 
-def _print(cam: Cam, table: list[list[float]] | None, words: dict[str, Any]) -> None:
+def _print(cam: Cam, table: list[list[float]] | None, lang: str) -> None:
     unit, scale = ("°", 180 / math.pi) if cam.follower.swings else ("", 1.0)
     rows = []
-    for one, start, change in _parts(cam):
-        span = (f"{math.degrees(start):.6g}°", f"{math.degrees(start + one.angle):.6g}°")
-        named = words["motion" if one.law else "dwell"]
-        rows.append((named, *span, f"{change:+.6g}{unit}" if one.law else "", one.law.name if one.law else ""))
-    print_table(words["parts"], rows, numbers=(1, 2, 3))
+    for segment, start, change in _parts(cam):
+        span = (_degrees(start, lang), _degrees(start + segment.angle, lang))
+        lift = number(change, lang, "+.6g") + unit if segment.law else ""
+        kind = message("motion") if segment.law else message("dwell")
+        rows.append((kind, *span, lift, segment.law.name if segment.law else ""))
+    print_table(_PARTS, rows, numbers=(1, 2, 3), lang=lang)
     for jump in cam.lift.jumps():
-        what, square, effect = words["orders"][jump.order]
-        size = f"{jump.size * scale:+.6g}{unit}"
-        print(words["jump"].format(at=_degrees(jump.at), what=what, size=size, square=square, effect=effect))
+        text = _JUMPS[jump.order].filled(angle=math.degrees(jump.at), size=jump.size * scale, unit=unit)
+        print(text.in_language(lang))
     print()
     report = cam.findings()
-    lines: list[tuple[str, CamExtremum | None, bool]] = [
-        ("pressure_least", report.pressure[0], True),
-        ("pressure_greatest", report.pressure[1], True),
-        ("convex", report.convex, False),
-        ("hollow", report.hollow, False),
+    figures: list[tuple[Message, CamExtremum | None, bool]] = [
+        (message("least pressure angle"), report.pressure[0], True),
+        (message("greatest pressure angle"), report.pressure[1], True),
+        (message("least convex radius of curvature"), report.convex, False),
+        (message("least concave radius of curvature"), report.hollow, False),
     ]
     if isinstance(cam.follower, Flat):
-        lines += [("face_least", report.face[0], False), ("face_greatest", report.face[1], False)]
-    cells = [(words[key], _said(one.value, angle), f"{_degrees(one.at)}°") for key, one, angle in lines if one]
-    print_table(words["finding"], cells, numbers=(1, 2))
-    roller = words["smaller"] if isinstance(cam.follower, Roller) and cam.follower.radius else ""
-    print(words["undercut"].format(at=_degrees(report.room.at), roller=roller) if report.undercut else words["fine"])
+        figures += [
+            (message("face needed, one side"), report.face[0], False),
+            (message("face needed, other side"), report.face[1], False),
+        ]
+    cells = [
+        (name, _degrees(figure.value, lang) if angle else number(figure.value + 0.0, lang), _degrees(figure.at, lang))
+        for name, figure, angle in figures
+        if figure
+    ]
+    print_table(_FIGURES, cells, numbers=(1, 2), lang=lang)
+    print(_undercut_text(cam, report).in_language(lang))
     if table is not None:
         print()
-        marks = ("°", unit, "", "", "°", "", "", "")
-        print_turn(words["table"], table, [f"{{:.6g}}{mark}" for mark in marks])
+        units = ("°", unit, "", "", "°", "", "", "")
+        print_turn(_TABLE, table, [("z.6g", each) for each in units], lang)
 
 
-def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.6g}"
+def _undercut_text(cam: Cam, report: CamReport) -> Message:
+    if not report.undercut:
+        return message("No undercut.")
+    angle = math.degrees(report.room.at)
+    if isinstance(cam.follower, Roller) and cam.follower.radius:
+        return message(
+            "Undercut: the profile crosses itself near {angle:.6g}°. A larger base circle or a smaller roller helps.",
+            angle=angle,
+        )
+    return message("Undercut: the profile crosses itself near {angle:.6g}°. A larger base circle helps.", angle=angle)
 
 
-def _said(value: float, angle: bool) -> str:
-    return f"{math.degrees(value) + 0.0:.6g}°" if angle else f"{value + 0.0:.6g}"
+def _degrees(angle: float, lang: str) -> str:
+    return number(math.degrees(angle) + 0.0, lang) + "°"
 
 
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
 
-    def told(one: CamExtremum | None, angle: bool = False) -> dict[str, float] | None:
-        return one and {"value": math.degrees(one.value) if angle else one.value, "at_deg": math.degrees(one.at)}
+    def item(found: CamExtremum | None, angle: bool = False) -> dict[str, float] | None:
+        return found and {
+            "value": math.degrees(found.value) if angle else found.value,
+            "at_deg": math.degrees(found.at),
+        }
 
     document: dict[str, Any] = {
         "parts": [_part(segment, start, change) for segment, start, change in _parts(cam)],
@@ -289,10 +284,10 @@ def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
             {"at_deg": math.degrees(jump.at), "order": jump.order, "size": jump.size} for jump in cam.lift.jumps()
         ],
         "start": math.degrees(cam.start) if cam.follower.swings else cam.start,
-        "pressure_angle_deg": [told(extremum, angle=True) for extremum in report.pressure],
-        "convex_radius": told(report.convex),
-        "hollow_radius": told(report.hollow),
-        "face": [told(one) for one in report.face] if isinstance(cam.follower, Flat) else None,
+        "pressure_angle_deg": [item(extremum, angle=True) for extremum in report.pressure],
+        "convex_radius": item(report.convex),
+        "hollow_radius": item(report.hollow),
+        "face": [item(side) for side in report.face] if isinstance(cam.follower, Flat) else None,
         "undercut": report.undercut,
     }
     if table is not None:

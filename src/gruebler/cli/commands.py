@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import shlex
 import textwrap
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib import import_module
 from shutil import get_terminal_size
 from typing import Any, NamedTuple
@@ -36,57 +37,56 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
     (
         message("Structure"),
         (
-            Command("check", message("count the freedoms of chains and check the count")),
-            Command("freedoms", message("mobility with dimensions: counted, generic, at a pose, and finite")),
-            Command("enumerate", message("every chain of so many links, each once")),
-            Command("assortments", message("how many binary, ternary, ... links a chain can have")),
-            Command("inversions", message("the mechanisms that a chain gives with another frame or drive")),
-            Command("variants", message("every typed chain or mechanism that answers requirements")),
-            Command("assur", message("take a mechanism apart into Assur groups, or list all groups")),
-            Command("derive", message("how a chain grows from a closed loop by dyads, or why not")),
-            Command("extend", message("all different chains that one more dyad or coupler gives")),
+            Command("check", message("mobility of chains and linkages: counted, checked, and explained")),
+            Command("enumerate", message("all chains with a given number of links, listed or counted")),
+            Command(
+                "inversions",
+                message("the mechanisms of a chain: each frame, drive and output link that makes a difference"),
+            ),
+            Command("variants", message("all chains and mechanisms with given kinds of joints, drives and outputs")),
+            Command("assur", message("decompose a mechanism into Assur groups, or list all groups")),
+            Command("extend", message("add a dyad or coupler to a chain, or show how the chain is built from dyads")),
         ),
     ),
     (
         message("Dimensions and motion"),
         (
-            Command("analyse", message("what a linkage does: dead centres, times, transmission angle, poses, rates")),
-            Command("synthesise", message("linkages for a wanted motion: positions, a function, points, dead centres")),
-            Command("realise", message("find dimensions with which a mechanism moves")),
-            Command("grashof", message("the type of a four-bar, which links turn fully, and for which lengths")),
-            Command("statics", message("drive torque and joint forces of a linkage under loads")),
-            Command("curve", message("the path of a point: length, area, cusps, inflections, double points")),
-            Command("cognates", message("the other linkages that trace the same coupler curve (Roberts, Chebyshev)")),
+            Command("analyse", message("analyse a motion: dead centres, times, transmission angle, poses, velocities")),
+            Command("synthesise", message("design linkages for given positions, functions, paths or dead centres")),
+            Command("realise", message("find dimensions with which a mechanism can move")),
             Command(
-                "straight", message("how straight a coupler curve is: relative deviation, longest piece in a band")
+                "grashof", message("type and rotatability of a four-bar or slider-crank, and the limits of its lengths")
             ),
-            Command("guidance", message("straight-line linkages by name, and their size for a task")),
+            Command("statics", message("drive torque and joint forces under loads")),
+            Command("curve", message("the path of a point and its special points, straight parts, cognates")),
         ),
     ),
     (
         message("Wheels and cams"),
         (
             Command("gears", message("speeds, ratios, torques and power of a gear train")),
-            Command("cam", message("a cam for a lift: profile, pressure angle, curvature, undercut")),
-            Command("geneva", message("a Geneva drive: dwell, ratio, acceleration")),
+            Command("cam", message("a cam for a given lift: profile, pressure angle, curvature, undercutting")),
+            Command("geneva", message("a Geneva drive: dwell, transmission ratio, acceleration")),
         ),
     ),
     (
         message("Pictures"),
         (
-            Command("draw", message("draw a chain, a mechanism, or a linkage to scale")),
-            Command("animate", message("a linkage that moves: SVG, an HTML page with a slider, GIF, WebP, APNG")),
-            Command("plot", message("transfer functions, transmission angle, hodograph, coupler curves")),
-            Command("gallery", message("draw all chains or mechanisms of a request on one page")),
+            Command("draw", message("draw a chain, a mechanism or a linkage to scale")),
+            Command("animate", message("animate a linkage: SVG, HTML page with a slider, GIF, WebP, APNG")),
+            Command("plot", message("plot transfer functions, transmission angle, hodographs, coupler curves")),
+            Command("gallery", message("draw many chains, mechanisms or machines on one page")),
         ),
     ),
     (
         message("Teaching"),
         (
-            Command("exercise", message("exercises and fresh tasks: listed, solved step by step, answers marked")),
-            Command("sheet", message("collection sheets: a mechanism on one page")),
-            Command("table", message("teaching tables: joints, links, inversions, Grashof's types")),
-            Command("coverage", message("which command does each concept and machine of the teaching documents")),
+            Command("exercise", message("exercises and generated tasks: list, solve step by step, mark answers")),
+            Command("sheet", message("data sheets of a collection: a mechanism on one page")),
+            Command("table", message("teaching tables: joints, links, inversions, Grashof types")),
+            Command(
+                "coverage", message("the command or function for each concept and machine of the teaching documents")
+            ),
         ),
     ),
     (
@@ -97,6 +97,16 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
         ),
     ),
 )
+
+FORMER = {
+    "freedoms": "check {words}",
+    "derive": "extend {words} --derivation",
+    "assortments": "enumerate --links {words} --assortments",
+    "straight": "curve {words} --straight",
+    "cognates": "curve {words} --cognates",
+    "guidance": "curve --guidance {words}",
+}
+"""Former commands, and what to write instead."""
 
 
 def _commands() -> Iterator[Command]:
@@ -109,11 +119,19 @@ def command_names() -> list[str]:
     return [each.name for each in _commands()]
 
 
-def command(name: str) -> Command:
-    """The command of a name; `GrueblerError` with the nearest one if there is none."""
+def command(name: str, words: Sequence[str] = ()) -> Command:
+    """The command of a name; `GrueblerError` with the nearest one, or the present spelling, if there is none.
+
+    Args:
+        name: The command.
+        words: What follows it; repeated where the command is called otherwise today.
+    """
     for each in _commands():
         if each.name == name:
             return each
+    if name in FORMER:
+        old, new = shlex.join([name, *words]), FORMER[name].format(words=shlex.join(words) if words else "...")
+        raise GrueblerError("`gruebler {old}` is now `gruebler {new}`", old=old, new=new)
     raise GrueblerError(
         "there is no command {name!r}{suggestion} (see gruebler --help)",
         name=name,
@@ -130,7 +148,7 @@ def overview(lang: str = "en") -> str:
         "",
         *textwrap.wrap(
             translate(
-                "Structural synthesis of mechanisms: enumerate and check kinematic chains; move, draw and design "
+                "Structural synthesis of mechanisms: enumerate and check kinematic chains; analyse, draw and design "
                 "linkages.",
                 lang,
             ),
@@ -142,5 +160,5 @@ def overview(lang: str = "en") -> str:
         for each in commands:
             first, *more = textwrap.wrap(each.summary.in_language(lang), width - indent) or [""]
             lines += [f"  {each.name:{indent - 2}}{first}", *(" " * indent + line for line in more)]
-    lines += ["", translate("gruebler help COMMAND explains a command; --lang de answers in German.", lang)]
+    lines += ["", translate("gruebler help COMMAND explains a command; --lang de switches to German.", lang)]
     return "\n".join(lines)

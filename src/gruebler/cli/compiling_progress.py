@@ -1,4 +1,4 @@
-"""What is said on a terminal while kernels are compiled: a bar on standard error that goes away."""
+"""A progress bar on a terminal while kernels are compiled."""
 
 from __future__ import annotations
 
@@ -8,16 +8,12 @@ from typing import TYPE_CHECKING
 
 from gruebler._numeric.compiling import on_compiling, wanted_tier
 from gruebler.errors import GrueblerError
+from gruebler.text import translate
 
 if TYPE_CHECKING:
     from rich.progress import Progress, TaskID
 
 __all__ = ["show_compiling"]
-
-_WORDS = {
-    "en": "Compiling, kept for later runs",
-    "de": "Wird übersetzt und für spätere Läufe aufgehoben",
-}
 
 
 def show_compiling(lang: str = "en") -> None:
@@ -30,7 +26,8 @@ def show_compiling(lang: str = "en") -> None:
         wanted_tier()
     except ValueError as error:
         raise GrueblerError("{reason}", reason=str(error)) from None
-    on_compiling(_ProgressBar(_WORDS[lang]).draw if sys.stderr.isatty() else None)
+    words = translate("Compiling (once; kept for later runs)", lang)
+    on_compiling(_ProgressBar(words).draw if sys.stderr.isatty() else None)
 
 
 class _ProgressBar:

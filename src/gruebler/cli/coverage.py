@@ -1,4 +1,4 @@
-"""`gruebler coverage`: what does each concept and each machine of the seeds, and whether it does."""
+"""`gruebler coverage`: the command or function for each concept and machine of the teaching documents."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError
-from gruebler.text import Message, message
+from gruebler.text import Message, message, translate
 
 __all__ = ["Outcome", "Row", "add", "coverage_rows", "execute", "find_function", "run"]
 
 
 class Concept(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A concept of the seeds, and what does it."""
+    """A concept of the teaching documents, and what covers it."""
 
     where: str
     de: str
@@ -40,7 +40,7 @@ class Concept(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=T
 
 
 class Machine(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A machine of the catalog, and what does it."""
+    """A machine of the catalog, and what covers it."""
 
     id: str
     commands: tuple[str, ...] = ()
@@ -141,39 +141,18 @@ def execute(command: str, wanted: int = 0) -> Outcome:
 
 # --- the command -----------------------------------------------------------------------------------
 
-_HEADERS = {
-    "en": ("where", "what", "does it"),
-    "de": ("wo", "was", "leistet es"),
-}
-_WORDS = {
-    "en": {
-        "nothing": "NOTHING DOES IT",
-        "absent": "not there",
-        "ended": "status {status} instead of {wanted}",
-        "sum": "{rows} rows, {commands} commands, {functions} functions; {missing} rows without one.",
-        "ran": "{good} of {commands} commands ended as they are to, {there} of {functions} functions are there.",
-    },
-    "de": {
-        "nothing": "NICHTS LEISTET ES",
-        "absent": "fehlt",
-        "ended": "Status {status} statt {wanted}",
-        "sum": "{rows} Zeilen, {commands} Befehle, {functions} Funktionen; {missing} Zeilen ohne.",
-        "ran": "{good} von {commands} Befehlen endeten wie gewollt, {there} von {functions} Funktionen sind da.",
-    },
-}
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="A table of all concepts and machines of the seeds with the commands and functions that do them. "
-        "With --run every command is executed, every function looked up.",
-        epilog="Exit status: 0 nothing is missing, 1 a row has nothing that does it, a command fails or a function is "
-        "not there.",
+        description="List all concepts and machines of the teaching documents with the commands and functions that "
+        "cover them. With --run, run every command and look up every function.",
+        epilog="Exit status: 0 success, 1 a row has no command and no function, a command fails, or a function is "
+        "missing.",
     )
-    parser.add_argument("words", nargs="*", metavar="WORD", help="only rows with these words or ids")
-    parser.add_argument("--run", dest="execute", action="store_true", help="execute every command, say how it ended")
-    parser.add_argument("--json", action="store_true", help="a list of objects")
+    parser.add_argument("words", nargs="*", metavar="WORD", help="list only rows with these words or ids")
+    parser.add_argument("--run", dest="execute", action="store_true", help="run every command and report how it ended")
+    parser.add_printed(help="print a list of objects")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -187,9 +166,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json([_document(row, outcomes, absent) for row in chosen])
     else:
-        _tell(chosen, outcomes, absent, arguments)
+        _print(chosen, outcomes, absent, arguments)
     missing = any(not row.commands and not row.functions for row in chosen)
-    return int(missing or bool(absent) or not all(one.good for one in outcomes.values()))
+    return int(missing or bool(absent) or not all(outcome.good for outcome in outcomes.values()))
 
 
 def _has(row: Row, word: str) -> bool:
@@ -210,37 +189,66 @@ def _executed(wanted: dict[str, int]) -> Iterator[Outcome]:
 def _document(row: Row, outcomes: dict[str, Outcome], absent: set[str]) -> dict[str, Any]:
     commands: list[dict[str, Any]] = []
     for command, wanted in row.commands:
-        one: dict[str, Any] = {"command": f"gruebler {command}", "wanted": wanted}
+        entry: dict[str, Any] = {"command": f"gruebler {command}", "wanted": wanted}
         if (outcome := outcomes.get(command)) is not None:
-            one |= {"status": outcome.status, "seconds": round(outcome.seconds, 3), "said": outcome.said}
-        commands.append(one)
+            entry |= {"status": outcome.status, "seconds": round(outcome.seconds, 3), "said": outcome.said}
+        commands.append(entry)
     functions = [{"function": name} | ({"there": name not in absent} if outcomes else {}) for name in row.functions]
     return {"where": row.where, "en": row.en, "de": row.de, "commands": commands, "functions": functions}
 
 
-def _tell(chosen: Sequence[Row], outcomes: dict[str, Outcome], absent: set[str], arguments: argparse.Namespace) -> None:
-    words = _WORDS[arguments.lang]
+def _print(
+    chosen: Sequence[Row], outcomes: dict[str, Outcome], absent: set[str], arguments: argparse.Namespace
+) -> None:
+    lang = arguments.lang
     lines = []
     for row in chosen:
-        done = [_command_said(command, outcomes.get(command), words) for command, _ in row.commands]
-        done += [f"{name}  ({words['absent']})" if name in absent else name for name in row.functions]
-        name = row.de if arguments.lang == "de" else row.en
-        for k, what in enumerate(done or [words["nothing"]]):
-            lines.append((row.where, name, what) if k == 0 else ("", "", what))
-    print_table(_HEADERS[arguments.lang], lines)
+        covered = [_command_text(command, outcomes.get(command), lang) for command, _ in row.commands]
+        covered += [
+            translate("{function}  (missing)", lang, function=name) if name in absent else name
+            for name in row.functions
+        ]
+        name = row.de if lang == "de" else row.en
+        for k, text in enumerate(covered or [translate("NOT COVERED", lang)]):
+            lines.append((row.where, name, text) if k == 0 else ("", "", text))
+    print_table([translate("section", lang), translate("concept", lang), translate("covered by", lang)], lines)
     commands = {command for row in chosen for command, _ in row.commands}
     functions = {name for row in chosen for name in row.functions}
     missing = sum(not row.commands and not row.functions for row in chosen)
     print()
-    print(words["sum"].format(rows=len(chosen), commands=len(commands), functions=len(functions), missing=missing))
+    print(
+        translate(
+            "{rows} rows, {commands} commands, {functions} functions; not covered: {missing} rows.",
+            lang,
+            rows=len(chosen),
+            commands=len(commands),
+            functions=len(functions),
+            missing=missing,
+        )
+    )
     if arguments.execute:
         good = sum(outcome.good for outcome in outcomes.values())
         there = len(functions) - len(absent)
-        print(words["ran"].format(good=good, commands=len(commands), there=there, functions=len(functions)))
+        print(
+            translate(
+                "{good} of {commands} commands ended as expected, {there} of {functions} functions exist.",
+                lang,
+                good=good,
+                commands=len(commands),
+                there=there,
+                functions=len(functions),
+            )
+        )
 
 
-def _command_said(command: str, outcome: Outcome | None, words: dict[str, str]) -> str:
-    text = f"gruebler {command}"
+def _command_text(command: str, outcome: Outcome | None, lang: str) -> str:
     if outcome is None or outcome.good:
-        return text
-    return f"{text}  ({words['ended'].format(status=outcome.status, wanted=outcome.wanted)}: {outcome.said})"
+        return f"gruebler {command}"
+    return translate(
+        "gruebler {command}  (status {status} instead of {wanted}: {output})",
+        lang,
+        command=command,
+        status=outcome.status,
+        wanted=outcome.wanted,
+        output=outcome.said,
+    )

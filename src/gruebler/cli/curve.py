@@ -1,241 +1,333 @@
-"""`gruebler curve`: the path of a point, with all that is on it."""
+"""`gruebler curve`: the path of a point, how straight it is, its cognates; straight-line linkages by name."""
 
 from __future__ import annotations
 
 import argparse
 import math
-from pathlib import Path
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from gruebler.analysis.drive_cycle import PathCycle
 from gruebler.arrays import Reals
-from gruebler.cli.analysis_table import Column, as_csv, check_csv
-from gruebler.cli.drive_rows import driven_path
-from gruebler.cli.linkage_inputs import linkage_of
+from gruebler.cli import curve_cognates, curve_guidance, curve_straight
+from gruebler.cli.drive_rows import add_range, driven_path
+from gruebler.cli.linkage_inputs import add_branch, linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
-from gruebler.cli.tables import print_table
+from gruebler.cli.printed_file import is_csv
+from gruebler.cli.tables import Cell, print_table
+from gruebler.columns import Column, as_csv
 from gruebler.errors import GrueblerError
 from gruebler.geometry import CouplerCurve, TangentContact, coupler_curve
+from gruebler.text import Message, joined_by_or, message, number, translate
 
 __all__ = ["add", "run"]
 
-
-_WORDS = {
-    "en": {
-        "closed": "The path is closed: length {length:.9g} {unit}, area {area:.9g} {unit}².",
-        "open": "The path goes from {low} to {high}: length {length:.9g} {unit}.",
-        "retraced": "The point goes back on its own way.",
-        "contact": "At {drive} the tangent touches with {points} points: y = {coefficient:.9g} x^{points}.",
-        "straight": "At {drive} the path does not leave its tangent up to the order 10.",
-        "what": "what",
-        "drive": "drive",
-        "note": "",
-        "none": "Nothing is on it.",
-        "cusp": "cusp",
-        "inflection": "inflection",
-        "flat": "flat point",
-        "vertex": "vertex",
-        "double": "double point",
-        "touch": "touches itself",
-        "turn": "extreme along {direction:g}°",
-        "tangent": "tangent {direction:.6g}°",
-        "radius": "radius {radius:.6g} {unit}",
-        "angle": "angle {angle:.6g}°",
-    },
-    "de": {
-        "closed": "Die Bahn ist geschlossen: Länge {length:.9g} {unit}, Fläche {area:.9g} {unit}².",
-        "open": "Die Bahn reicht von {low} bis {high}: Länge {length:.9g} {unit}.",
-        "retraced": "Der Punkt läuft auf seiner eigenen Bahn zurück.",
-        "contact": "Bei {drive} berührt die Tangente {points}punktig: y = {coefficient:.9g} x^{points}.",
-        "straight": "Bei {drive} verlässt die Bahn ihre Tangente bis zur Ordnung 10 nicht.",
-        "what": "was",
-        "drive": "Antrieb",
-        "note": "",
-        "none": "Es liegt nichts darauf.",
-        "cusp": "Spitze",
-        "inflection": "Wendepunkt",
-        "flat": "Flachpunkt",
-        "vertex": "Scheitel",
-        "double": "Doppelpunkt",
-        "touch": "berührt sich selbst",
-        "turn": "Umkehrpunkt längs {direction:g}°",
-        "tangent": "Tangente {direction:.6g}°",
-        "radius": "Radius {radius:.6g} {unit}",
-        "angle": "Winkel {angle:.6g}°",
-    },
+_MODES: Mapping[str, Callable[[argparse.Namespace], int]] = {
+    "straight": curve_straight.run,
+    "cognates": curve_cognates.run,
+    "guidance": curve_guidance.run,
 }
+_PATH = ""
+_GIVEN_WITH: Mapping[str, tuple[str, ...]] = {
+    "range": (_PATH,),
+    "contact": (_PATH,),
+    "tolerance": (_PATH,),
+    "direction": (_PATH, "straight"),
+    "branch": (_PATH, "straight", "cognates"),
+    "band": ("straight", "guidance"),
+    "window": ("straight",),
+    "ratio": ("straight",),
+    "centre": ("straight",),
+    "at": ("cognates",),
+    "length": ("guidance",),
+    "lambda": ("guidance",),
+    "phi0": ("guidance",),
+    "kappa": ("guidance",),
+    "diameter": ("guidance",),
+}
+"""Options, and what they go with: the path itself, or one of the questions about it."""
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="The path of a point over a whole turn of the drive, or its whole range, with all that is on it; "
-        "drive values, places, radii.",
-        epilog="Example: gruebler curve four-bar:25,70,40,70 coupler:45,40; gruebler curve lambda C --contact 180. "
-        "A point whose link has another name is written LINK:X,Y in the coordinates of its link.",
+        description="The path of a point over the whole motion of a linkage: length, area, cusps, inflections, "
+        "vertices, double points. --straight: the straight part of the path. --cognates: the other linkages that trace "
+        "the same path. --guidance: straight-line linkages by name, without LINKAGE and POINT.",
+        epilog="Examples: gruebler curve four-bar:25,70,40,70 coupler:45,40; gruebler curve lambda C --contact 180; "
+        "gruebler curve 20,50,50,40 coupler:100,0 --straight --band 0.2; gruebler curve 25,70,40,70 45,40 --cognates; "
+        "gruebler curve --guidance lambda --length 15cm --band 0.75mm. Exit status: 0 success, 1 no part is straight "
+        "enough, 2 wrong usage or unreadable input.",
     )
     parser.add_argument(
-        "linkage", metavar="FILE|ID|LENGTHS", help="a file, a catalog entry, or lengths such as four-bar:25,70,40,70"
+        "linkage",
+        nargs="?",
+        metavar="LINKAGE",
+        help="a .toml or .json file, a catalog entry with dimensions, or "
+        "lengths: four-bar:A,B,C,D, slider-crank:A,B[,E], inverted-slider-crank:A,D[,E], A,B,C,D",
     )
-    parser.add_argument("point", metavar="POINT|LINK:X,Y", help="a named point, a joint, or a point of a link")
     parser.add_argument(
-        "--drive",
+        "point",
+        nargs="?",
+        metavar="POINT",
+        help="a named point, a joint, or LINK:X,Y in the coordinates of the link; X,Y alone: on the coupler",
+    )
+    question = parser.add_mutually_exclusive_group()
+    question.add_argument(
+        "--straight",
+        action="store_true",
+        help="the part of the path with a relative deviation Q_G = deviation/length (--ratio), in a band (--band) or "
+        "between two drive values (--window)",
+    )
+    question.add_argument(
+        "--cognates", action="store_true", help="the cognates of a four-bar or slider-crank (Roberts, Chebyshev)"
+    )
+    question.add_argument(
+        "--guidance", nargs="?", const="", metavar="NAME", help="a straight-line linkage such as watt; alone: all"
+    )
+    add_range(parser)
+    add_branch(parser)
+    parser.add_argument(
+        "--direction",
+        type=float,
+        metavar="DEG",
+        help="turning points in this direction (default: x and y); with --straight: the direction of the line "
+        "(default: the tangent, or the best line)",
+    )
+    parser.add_argument(
+        "--contact",
+        type=float,
         action="append",
         default=[],
-        metavar="FROM:TO:STEP",
-        help="a straight path of the drives, in degrees or the unit, for several drives once each with as many steps; "
-        "one number holds a drive still (default: the whole motion of one drive)",
+        metavar="VALUE",
+        help="the order of contact with the tangent at this drive value; repeatable",
     )
-    parser.add_argument("--branch", metavar="B", help="the assembly mode, such as + or +-; write --branch=- for minus")
-    parser.add_argument("--direction", type=float, metavar="DEG", help="turning points along this, not along x and y")
     parser.add_argument(
-        "--contact", type=float, action="append", default=[], metavar="VALUE", help="how the tangent touches there"
+        "--tolerance", type=float, metavar="LENGTH", help="error of the polygon (default: 1e-4 of the size)"
     )
-    parser.add_argument("--tolerance", type=float, metavar="LENGTH", help="of the polygon (default: 1e-4 of the reach)")
-    parser.add_argument("--json", action="store_true", help="as JSON")
-    parser.add_argument("-o", dest="csv", type=Path, metavar="FILE", help="the polygon as CSV: drive, x, y, way")
+    straight = parser.add_argument_group(title="with --straight")
+    straight.add_argument("--ratio", type=float, metavar="Q", help="the window about --centre with this Q_G")
+    straight.add_argument(
+        "--band", metavar="WIDTH", help="the longest part in a band of this width; with --guidance: 0.75mm"
+    )
+    straight.add_argument(
+        "--window", type=float, nargs=2, metavar=("FROM", "TO"), help="the part between two drive values"
+    )
+    straight.add_argument("--centre", type=float, metavar="DEG", help="the middle of the window (default: 180)")
+    cognates = parser.add_argument_group(title="with --cognates")
+    cognates.add_argument("--at", type=float, metavar="DEG", help="crank angle of the pose shown")
+    guidance = parser.add_argument_group(title="with --guidance")
+    guidance.add_argument(
+        "--length", metavar="L", help="length of the straight line, with or without unit: 15cm; needs --band"
+    )
+    guidance.add_argument(
+        "--lambda",
+        type=float,
+        metavar="X",
+        help="construct Meyer zur Capellen's double rocker: distance of the coupler from the tangent by the diameter, "
+        "0.5 to 1.5",
+    )
+    guidance.add_argument(
+        "--phi0", type=float, metavar="DEG", help="with --lambda: an angle other than that of six-point contact"
+    )
+    guidance.add_argument(
+        "--kappa", type=float, metavar="DEG", help="construct it for this angle between line and frame (two solutions)"
+    )
+    guidance.add_argument(
+        "--diameter", type=float, metavar="D", help="with --lambda or --kappa: of the inflection circle (default: 1)"
+    )
+    parser.add_printed(help="print an object; with --guidance and no name, a list", table=True)
+    parser.replaced("--tolerance", "--band", like=r"[-+.\de]+\s?[a-z]+")
 
 
 def run(arguments: argparse.Namespace) -> int:
+    """The path of a point, or what is asked about it; status 1 if no part of it is straight enough."""
+    question = next((name for name in _MODES if getattr(arguments, name) not in (None, False)), _PATH)
+    _check(arguments, question)
+    if question and is_csv(arguments.out):
+        raise GrueblerError("-o {path}: only the path of a point is written as .csv", path=arguments.out)
+    return _MODES[question](arguments) if question else _path(arguments)
+
+
+def _check(arguments: argparse.Namespace, question: str) -> None:
+    """An option that does not go with the question is an error, not ignored."""
+    for option, questions in _GIVEN_WITH.items():
+        if question not in questions and getattr(arguments, option) not in (None, []):
+            given_with = [f"--{name}" if name else message("the path of a point") for name in questions]
+            raise GrueblerError("--{option} goes with {questions}", option=option, questions=joined_by_or(given_with))
+    if question == "guidance":
+        if arguments.linkage is not None:
+            raise GrueblerError("--guidance takes one name and no linkage, but found {word!r}", word=arguments.linkage)
+    elif arguments.point is None:
+        raise GrueblerError("expected a linkage and a point, such as four-bar:25,70,40,70 coupler:45,40")
+
+
+def _path(arguments: argparse.Namespace) -> int:
     """Length, area, contact, then a table of what is on the path."""
-    check_csv(arguments.csv)
     linkage, _ = linkage_of(arguments.linkage)
-    path = driven_path(arguments.drive, linkage)
+    path = driven_path(arguments.range, linkage)
     if path is not None and arguments.contact:
-        raise GrueblerError("--contact is for the whole motion of one drive: leave --drive away")
-    found = coupler_curve(
+        raise GrueblerError("--contact needs the whole motion of one drive: leave --range out")
+    curve = coupler_curve(
         linkage, point_of(arguments.point), branch=arguments.branch, tolerance=arguments.tolerance, drives=path
     )
-    turning = found.point_path.cycle.turning_drive
+    turning = curve.point_path.cycle.turning_drive
     drives = [math.radians(value) if turning else value for value in arguments.contact]
-    contacts = [found.contact(drive) for drive in drives]
+    contacts = [curve.contact(drive) for drive in drives]
     directions = (0.0, 90.0) if arguments.direction is None else (arguments.direction,)
-    if arguments.csv is not None:
-        write_file(arguments.csv, as_csv(_polygon(found)).encode("utf-8"), arguments.lang)
+    if is_csv(arguments.out):
+        write_file(arguments.out, as_csv(_polygon(curve)).encode("utf-8"), arguments.lang)
     if arguments.json:
-        print_json(_document(found, contacts, directions))
-    else:
-        _say(found, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
+        print_json(_document(curve, contacts, directions))
+    elif not is_csv(arguments.out):
+        _print(curve, list(zip(drives, contacts, strict=True)), directions, arguments.lang)
     return 0
 
 
-def _polygon(found: CouplerCurve) -> list[Column]:
-    linkage, z = found.point_path.cycle.linkage, found.points
-    values = _values(found, found.drives)
+def _polygon(curve: CouplerCurve) -> list[Column]:
+    linkage, z = curve.point_path.cycle.linkage, curve.points
+    values = _values(curve, curve.drives)
     units = ["°" if drive.turning else linkage.unit for drive in linkage.mechanism.drives]
     return [
         *(map(Column, linkage.mechanism.drive_names(), units, values.T)),
         Column("x", linkage.unit, z.real),
         Column("y", linkage.unit, z.imag),
-        Column("s", linkage.unit, found.arcs),
+        Column("s", linkage.unit, curve.arcs),
     ]
 
 
-def _values(found: CouplerCurve, at: Reals) -> Reals:
+def _values(curve: CouplerCurve, at: Reals) -> Reals:
     """The values of all drives, turning ones in degrees; (n, drives)."""
-    course = found.point_path.cycle
-    values = course.values(at) if isinstance(course, PathCycle) else np.asarray(at)[:, None]
-    turning = [drive.turning for drive in course.linkage.mechanism.drives]
+    cycle = curve.point_path.cycle
+    values = cycle.values(at) if isinstance(cycle, PathCycle) else np.asarray(at)[:, None]
+    turning = [drive.turning for drive in cycle.linkage.mechanism.drives]
     return np.where(turning, np.degrees(values), values)
 
 
-# --- what is said ----------------------------------------------------------------------------------
+# --- output ----------------------------------------------------------------------------------------
 
 
-def _say(
-    found: CouplerCurve, contacts: list[tuple[float, TangentContact]], directions: tuple[float, ...], lang: str
+def _print(
+    curve: CouplerCurve, contacts: list[tuple[float, TangentContact]], directions: tuple[float, ...], lang: str
 ) -> None:
-    words, unit = _WORDS[lang], found.point_path.cycle.linkage.unit
-    if found.area is not None:
-        print(words["closed"].format(length=found.length, area=round(found.area, 9) + 0.0, unit=unit))
+    unit = curve.point_path.cycle.linkage.unit
+    if curve.area is not None:
+        print(
+            translate(
+                "The path is closed: length {length:.9g} {unit}, area {area:.9g} {unit}².",
+                lang,
+                length=curve.length,
+                area=round(curve.area, 9) + 0.0,
+                unit=unit,
+            )
+        )
     else:
-        low, high = (_drive(found, value) for value in found.point_path.cycle.span[:2])
-        print(words["open"].format(low=low, high=high, length=found.length, unit=unit))
-    if found.retraced:
-        print(words["retraced"])
+        low, high = (_drive(curve, value, lang) for value in curve.point_path.cycle.span[:2])
+        print(
+            translate(
+                "The path goes from {low} to {high}: length {length:.9g} {unit}.",
+                lang,
+                low=low,
+                high=high,
+                length=curve.length,
+                unit=unit,
+            )
+        )
+    if curve.retraced:
+        print(translate("The point returns on the same path.", lang))
     for drive, contact in contacts:
-        key = "straight" if contact.points is None else "contact"
-        print(words[key].format(drive=_drive(found, drive), points=contact.points, coefficient=contact.coefficient))
-    rows = _rows(found, directions, words)
+        print(_contact_text(_drive(curve, drive, lang), contact).in_language(lang))
+    rows = _rows(curve, directions, lang)
     print()
     if rows:
-        print_table([words["what"], words["drive"], "x", "y", words["note"]], rows, numbers=[1, 2, 3])
+        headers = (message("feature"), message("drive"), "x", "y", "")
+        print_table(headers, rows, numbers=[1, 2, 3], lang=lang)
     else:
-        print(words["none"])
+        print(translate("The path has no special points.", lang))
 
 
-def _rows(found: CouplerCurve, directions: tuple[float, ...], words: dict[str, str]) -> list[list[str]]:
-    unit = found.point_path.cycle.linkage.unit
-    rows = []
+def _contact_text(drive: str, contact: TangentContact) -> Message:
+    if contact.points is None:
+        return message("At {drive} the path agrees with its tangent up to order 10.", drive=drive)
+    return message(
+        "At {drive} path and tangent have {points} points in common: y = {coefficient:.9g} x^{points}.",
+        drive=drive,
+        points=contact.points,
+        coefficient=contact.coefficient,
+    )
 
-    def add(what: str, drives: tuple[float, ...], at: complex, note: str) -> None:
-        noise = 1e-9 * found.point_path.size
-        places = [f"{value if abs(value) > noise else 0.0:.6g}" for value in (at.real, at.imag)]
-        rows.append([what, ", ".join(_drive(found, drive) for drive in drives), *places, note])
 
-    for cusp in found.cusps:
-        add(words["cusp"], (cusp.drive,), cusp.at, words["tangent"].format(direction=_axis(cusp.direction)))
-    for inflection in found.inflections:
-        what = words["flat" if inflection.flat else "inflection"]
-        add(what, (inflection.drive,), inflection.at, words["tangent"].format(direction=_axis(inflection.direction)))
-    for top in found.vertices:
-        straight = abs(top.curvature) * found.point_path.size < 1e-9
-        radius = math.inf if straight else 1 / top.curvature
-        add(words["vertex"], (top.drive,), top.at, words["radius"].format(radius=radius, unit=unit).replace("inf", "∞"))
-    for double in found.double_points:
-        what = words["touch" if double.touching else "double"]
-        add(what, double.drives, double.at, words["angle"].format(angle=math.degrees(double.angle)))
+def _rows(curve: CouplerCurve, directions: tuple[float, ...], lang: str) -> list[list[Cell]]:
+    unit, size = curve.point_path.cycle.linkage.unit, curve.point_path.size
+    rows: list[list[Cell]] = []
+
+    def add(feature: Message, drives: tuple[float, ...], at: complex, note: Cell) -> None:
+        places = [number(value if abs(value) > 1e-9 * size else 0.0, lang) for value in (at.real, at.imag)]
+        rows.append([feature, ", ".join(_drive(curve, drive, lang) for drive in drives), *places, note])
+
+    for cusp in curve.cusps:
+        add(message("cusp"), (cusp.drive,), cusp.at, _tangent(cusp.direction))
+    for inflection in curve.inflections:
+        feature = message("flat point") if inflection.flat else message("inflection")
+        add(feature, (inflection.drive,), inflection.at, _tangent(inflection.direction))
+    for vertex in curve.vertices:
+        straight = abs(vertex.curvature) * size < 1e-9
+        radius = "∞" if straight else number(1 / vertex.curvature, lang)
+        add(message("vertex"), (vertex.drive,), vertex.at, message("radius {radius} {unit}", radius=radius, unit=unit))
+    for double in curve.double_points:
+        feature = message("self-contact") if double.touching else message("double point")
+        add(feature, double.drives, double.at, message("angle {angle:.6g}°", angle=math.degrees(double.angle)))
     for direction in directions:
-        for turn in found.turning_points(math.radians(direction)):
-            add(words["turn"].format(direction=direction), (turn.drive,), turn.at, turn.kind[:3])
+        for turn in curve.turning_points(math.radians(direction)):
+            feature = message("extreme along {direction:g}°", direction=direction)
+            add(feature, (turn.drive,), turn.at, message("min") if turn.kind.startswith("min") else message("max"))
     return rows
 
 
-def _axis(angle: float) -> float:
-    """The angle of a line in degrees, 0 up to 180."""
-    return round(math.degrees(angle), 9) % 180
+def _tangent(direction: float) -> Message:
+    """The direction of a line in degrees, 0 up to 180."""
+    return message("tangent {direction:.6g}°", direction=round(math.degrees(direction), 9) % 180)
 
 
-def _drive(found: CouplerCurve, value: float) -> str:
-    linkage = found.point_path.cycle.linkage
-    said = []
-    for drive, one in zip(linkage.mechanism.drives, _values(found, np.array([value]))[0], strict=True):
-        turning = drive.turning
-        said.append(f"{round(one, 9) + 0.0:.6f}°" if turning else f"{one:.9g} {linkage.unit}")
-    return " / ".join(said)
+def _drive(curve: CouplerCurve, value: float, lang: str) -> str:
+    linkage = curve.point_path.cycle.linkage
+    texts = []
+    for drive, at in zip(linkage.mechanism.drives, _values(curve, np.array([value]))[0], strict=True):
+        texts.append(number(at, lang, "z.6f") + "°" if drive.turning else f"{number(at, lang, '.9g')} {linkage.unit}")
+    return " / ".join(texts)
 
 
-def _document(found: CouplerCurve, contacts: list[TangentContact], directions: tuple[float, ...]) -> dict[str, Any]:
-    path = isinstance(found.point_path.cycle, PathCycle)
+def _document(curve: CouplerCurve, contacts: list[TangentContact], directions: tuple[float, ...]) -> dict[str, Any]:
+    path = isinstance(curve.point_path.cycle, PathCycle)
 
-    def told(one: Any) -> dict[str, Any]:
+    def item(event: Any) -> dict[str, Any]:
         """An event as its fields, drives in degrees."""
-        fields = {key: value for key, value in one._asdict().items() if key != "parameter"}
+        fields = {key: value for key, value in event._asdict().items() if key != "parameter"}
         for key in ("drive", "drives"):
             if key in fields:
-                values = _values(found, np.atleast_1d(fields[key]))
+                values = _values(curve, np.atleast_1d(fields[key]))
                 rows = values.tolist() if path else values[:, 0].tolist()
                 fields[key] = rows if key == "drives" else rows[0]
         for key in ("direction", "angle"):
             if key in fields:
                 fields[f"{key}_deg"] = math.degrees(fields.pop(key))
-        return fields | {"at": [one.at.real, one.at.imag]}
+        return fields | {"at": [event.at.real, event.at.imag]}
 
     return {
-        "closed": found.closed,
-        "length": found.length,
-        "area": found.area,
-        "retraced": found.retraced,
-        "cusps": [told(cusp) for cusp in found.cusps],
-        "inflections": [told(inflection) for inflection in found.inflections],
-        "vertices": [told(vertex) for vertex in found.vertices],
-        "double_points": [told(double_point) for double_point in found.double_points],
+        "closed": curve.closed,
+        "length": curve.length,
+        "area": curve.area,
+        "retraced": curve.retraced,
+        "cusps": [item(cusp) for cusp in curve.cusps],
+        "inflections": [item(inflection) for inflection in curve.inflections],
+        "vertices": [item(vertex) for vertex in curve.vertices],
+        "double_points": [item(double_point) for double_point in curve.double_points],
         "turning_points": {
-            f"{direction:g}": [told(turning_point) for turning_point in found.turning_points(math.radians(direction))]
+            f"{direction:g}": [item(turning_point) for turning_point in curve.turning_points(math.radians(direction))]
             for direction in directions
         },
         "contacts": [{"points": contact.points, "coefficient": contact.coefficient} for contact in contacts],

@@ -1,4 +1,4 @@
-"""`gruebler enumerate`: every chain of so many links, listed or counted."""
+"""`gruebler enumerate`: all chains with a given number of links, listed or counted."""
 
 from __future__ import annotations
 
@@ -13,10 +13,12 @@ from pathlib import Path
 from typing import BinaryIO
 
 from gruebler.atomic_files import atomic_file
+from gruebler.cli.assortments import assortments
 from gruebler.cli.inputs import assortment_of
 from gruebler.cli.long_work import time_text
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
+from gruebler.cli.printed_file import printed_to_file
 from gruebler.cli.tables import print_table
 from gruebler.enumeration.estimates import Estimate, estimate
 from gruebler.enumeration.request import Request, RequestCount
@@ -24,82 +26,73 @@ from gruebler.enumeration.run_request import run_count, run_list
 from gruebler.enumeration.work_units import PieceListing
 from gruebler.enumeration.worker_pool import ProcessPools, Progress
 from gruebler.errors import GrueblerError, RunError
+from gruebler.text import joined, message, plural, translate
 
 __all__ = ["add", "run"]
 
-_LONG = 900.0  # seconds; what takes longer, or fills more than the following, is told and asked for again
+_LONG = 900.0  # seconds; what takes longer, or more bytes than the following, needs --yes
 _LARGE = 8 * 10**9
 _ENDINGS = {".txt": "text", ".g6": "graph6", ".json": "json"}
 
-_WORDS = {
-    "en": {
-        "none": "not fractionated",
-        "link": "fractionated at a link",
-        "joint": "fractionated at a joint",
-        "assortment": "binary, ternary, ...",
-        "chains": "chains",
-        "inversions": "inversions (frame)",
-        "drives": "driven mechanisms (frame, drive at the frame)",
-        "joint_orbits": "joint orbits",
-        "found": ", {n} chains",
-        "progress": "{pieces} pieces  {chains:,} chains  {rate:,.0f}/s  {left}",
-        "left": "about {time} left",
-        "size": "{about}{chains:,} chains",
-        "bytes": ", {size} of output",
-        "time": ", about {time}",
-        "refused": "{what}; say --yes to begin it nevertheless",
-    },
-    "de": {
-        "none": "nicht zerlegbar",
-        "link": "an einem Glied zerlegbar",
-        "joint": "an einem Gelenk zerlegbar",
-        "assortment": "binär, ternär, ...",
-        "chains": "Ketten",
-        "inversions": "Inversionen (Gestell)",
-        "drives": "angetriebene Getriebe (Gestell, Antrieb am Gestell)",
-        "joint_orbits": "Gelenkklassen (Symmetrie)",
-        "found": ", {n} Ketten",
-        "progress": "{pieces} Teile  {chains:,} Ketten  {rate:,.0f}/s  {left}",
-        "left": "noch etwa {time}",
-        "size": "{about}{chains:,} Ketten",
-        "bytes": ", {size} Ausgabe",
-        "time": ", etwa {time}",
-        "refused": "{what}; mit --yes wird trotzdem begonnen",
-    },
+_FRACTIONATED = {
+    "none": message("not fractionated"),
+    "link": message("fractionated at a link"),
+    "joint": message("fractionated at a joint"),
+}
+_COUNTS = {
+    "chains": message("chains"),
+    "inversions": message("inversions (frame)"),
+    "drives": message("driven mechanisms (frame, drive at the frame)"),
+    "joint_orbits": message("joint orbits"),
 }
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Planar chains of revolute joints without any rigid part, each once, listed or counted.",
-        epilog="Example: gruebler enumerate --links 8 --count --orbits. Killed at any moment, a run with --checkpoint "
-        "goes on when the same command is given again.",
+        description="List or count all planar chains of revolute joints that have no rigid part, each once. With "
+        "--assortments, list the numbers of binary, ternary, ... links that such chains can have.",
+        epilog="Examples: gruebler enumerate --links 8 --count --orbits; gruebler enumerate --links 8 --assortments. A "
+        "run with --checkpoint can be stopped at any time; the same command continues it.",
     )
     parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
     parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
     parser.add_argument(
         "--fractionated",
         choices=("none", "link", "joint", "all"),
+        nargs="?",
+        const="all",
         default="none",
-        help="chains that do not fall apart (default), that do at a link only, at some joint, or all of them",
+        help="chains that are not fractionated (default), fractionated at a link, at a joint, or all of them",
     )
     parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
     parser.add_argument(
-        "--multiple-joints", default="0", metavar="K|any", help="exactly K, K to M (K-M), or any number (default: 0)"
+        "--multiple-joints",
+        nargs="?",
+        const="any",
+        default="0",
+        metavar="K|any",
+        help="number of joints of three or more links: K, K-M or any (default: 0)",
     )
-    parser.add_argument("--count", action="store_true", help="only how many, by assortment")
-    parser.add_argument("--orbits", action="store_true", help="with --count: inversions and driven mechanisms too")
-    parser.add_argument("--format", choices=("text", "graph6", "json"), help="of a list (default: text)")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="it appears whole or not at all")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes (default: 1)")
-    parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="where finished pieces are kept")
-    parser.add_argument("--yes", action="store_true", help="begin even if it will be long or large")
-    parser.add_argument("--json", action="store_true", help="the count, or the list, as JSON")
+    parser.add_argument("--count", action="store_true", help="print only the numbers, by assortment")
+    parser.add_argument(
+        "--orbits", action="store_true", help="with --count: also count inversions and driven mechanisms"
+    )
+    parser.add_argument("--assortments", action="store_true", help="list only the link assortments")
+    parser.add_argument("--format", choices=("text", "graph6", "json"), help="format of the list (default: text)")
+    parser.add_out(help="write into a file instead: .txt, .g6 or .json")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="number of processes (default: 1)")
+    parser.add_argument("--checkpoint", type=Path, metavar="DIR", help="folder for finished parts of the work")
+    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
+    parser.add_argument("--json", action="store_true", help="print JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count what the arguments ask for."""
+    if arguments.assortments:
+        arguments.written = ()
+        with printed_to_file(arguments):
+            return assortments(arguments)
     request = Request(
         arguments.links,
         arguments.mobility,
@@ -109,23 +102,19 @@ def run(arguments: argparse.Namespace) -> int:
     )
     form = None if arguments.count else _format(arguments, request)
     if arguments.orbits and form is not None:
-        raise GrueblerError("--orbits goes with --count: it adds the numbers of mechanisms to the number of chains")
+        raise GrueblerError("--orbits needs --count")
     if form is None and arguments.format not in (None, "json"):
         raise GrueblerError(
-            "--format {format} goes with a list: a count is a table, or JSON with --json", format=arguments.format
+            "--format {form} is for lists; a count is a table, or JSON with --json", form=arguments.format
         )
     if form is None and arguments.format == "json":
         arguments.json = True
-    if form is None and _form_of_ending(arguments.output) not in (None, "json"):
-        raise GrueblerError("{output}: a count is written as JSON; end the name with .json", output=arguments.output)
-    if arguments.output is not None and not arguments.output.name:
-        raise RunError("--output {output!r} names no file", output=str(arguments.output))
-    if arguments.output is not None and not arguments.output.parent.is_dir():
-        raise RunError(
-            "{output} cannot be written: there is no directory {parent}",
-            output=arguments.output,
-            parent=arguments.output.parent,
-        )
+    if form is None and _form_of_ending(arguments.out) not in (None, "json"):
+        raise GrueblerError("-o {path}: a count is written as JSON; end the name with .json", path=arguments.out)
+    if arguments.out is not None and not arguments.out.name:
+        raise RunError("-o {path!r} names no file", path=str(arguments.out))
+    if arguments.out is not None and not arguments.out.parent.is_dir():
+        raise RunError("-o {path}: there is no directory {parent}", path=arguments.out, parent=arguments.out.parent)
     executor = None if arguments.jobs == 1 else ProcessPools(min(arguments.jobs, 4 * (os.cpu_count() or 1)))
     size = estimate(request, form)
     _check_size(size, arguments)
@@ -135,17 +124,17 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _format(arguments: argparse.Namespace, request: Request) -> str:
-    form = arguments.format or ("json" if arguments.json else _form_of_ending(arguments.output) or "text")
+    form = arguments.format or ("json" if arguments.json else _form_of_ending(arguments.out) or "text")
     if arguments.json and form != "json":
-        raise GrueblerError("--json is the same as --format json and does not go with --format {form}", form=form)
+        raise GrueblerError("--json means --format json and does not go with --format {form}", form=form)
     if form == "graph6" and not request.only_simple:
-        raise GrueblerError("graph6 describes chains with simple joints only: take --format text or json here")
-    if _form_of_ending(arguments.output) not in (None, form):
+        raise GrueblerError("graph6 describes chains with simple joints only; use --format text or json")
+    if _form_of_ending(arguments.out) not in (None, form):
         raise GrueblerError(
-            "{output}: --format {form} and the ending {suffix} do not agree",
-            output=arguments.output,
+            "-o {path}: --format {form} and the ending {suffix} do not agree",
+            path=arguments.out,
             form=form,
-            suffix=arguments.output.suffix,
+            suffix=arguments.out.suffix,
         )
     return str(form)
 
@@ -157,7 +146,9 @@ def _form_of_ending(path: Path | None) -> str | None:
     form = _ENDINGS.get(path.suffix.lower())
     if form is None:
         raise GrueblerError(
-            "{path}: chains are written as .txt, .g6 or .json, not as {suffix}", path=path, suffix=path.suffix
+            "-o {path}: expected a name that ends with .txt, .g6 or .json, not with {suffix}",
+            path=path,
+            suffix=path.suffix,
         )
     return form
 
@@ -167,14 +158,17 @@ def _check_size(size: Estimate, arguments: argparse.Namespace) -> None:
     seconds = size.seconds / arguments.jobs
     if seconds <= _LONG and size.bytes <= _LARGE:
         return
-    words = _WORDS[arguments.lang]
-    what = words["size"].format(about="" if size.exact else "~ ", chains=size.chains)
+    extent = [
+        message("{chains:,} chains", chains=size.chains)
+        if size.exact
+        else message("about {chains:,} chains", chains=size.chains)
+    ]
     if size.bytes:
-        what += words["bytes"].format(size=_bytes(size.bytes))
-    what += words["time"].format(time=time_text(seconds))
+        extent.append(message("{size} of output", size=_bytes(size.bytes)))
+    extent.append(message("about {time}", time=time_text(seconds)))
     if not arguments.yes:
-        raise GrueblerError(words["refused"].format(what=what))
-    print(f"gruebler enumerate: {what}", file=sys.stderr)
+        raise GrueblerError("{extent}; use --yes to run it anyway", extent=joined(extent))
+    print(f"gruebler enumerate: {joined(extent).in_language(arguments.lang)}", file=sys.stderr)
 
 
 def _bytes(number: float) -> str:
@@ -203,8 +197,8 @@ def _count(
     document = count.to_json()
     if request.fractionated == "all":
         document["by_fractionation"] = count.by_fractionation
-    if arguments.output is not None:
-        write_file(arguments.output, (json.dumps(document, indent=2) + "\n").encode(), arguments.lang)
+    if arguments.out is not None:
+        write_file(arguments.out, (json.dumps(document, indent=2) + "\n").encode(), arguments.lang)
     elif arguments.json:
         print_json(document)
     else:
@@ -212,19 +206,18 @@ def _count(
     return 0
 
 
-def _print_count(found: RequestCount, request: Request, lang: str) -> None:
-    words = _WORDS[lang]
-    if found.by_assortment:
-        rows = [(",".join(map(str, numbers)), str(n)) for numbers, n in found.by_assortment.items()]
-        print_table([words["assortment"], words["chains"]], rows, numbers=(1,))
+def _print_count(count: RequestCount, request: Request, lang: str) -> None:
+    if count.by_assortment:
+        rows = [(",".join(map(str, numbers)), str(n)) for numbers, n in count.by_assortment.items()]
+        print_table([translate("binary, ternary, ...", lang), translate("chains", lang)], rows, numbers=(1,))
         print()
     if request.fractionated == "all":
-        for kind, number in found.by_fractionation.items():
-            print(f"{words[kind]}: {number}")
-    for name in ("chains", "inversions", "drives", "joint_orbits"):
-        number = getattr(found, name)
+        for kind, number in count.by_fractionation.items():
+            print(f"{_FRACTIONATED[kind].in_language(lang)}: {number}")
+    for name, title in _COUNTS.items():
+        number = getattr(count, name)
         if number is not None:
-            print(f"{words[name]}: {number}")
+            print(f"{title.in_language(lang)}: {number}")
 
 
 def _list(
@@ -247,13 +240,13 @@ def _list(
             )
         ) as listings,
     ):
-        if arguments.output is None:
+        if arguments.out is None:
             sys.stdout.flush()  # what follows goes past its buffer
             _write(listings, form, request, sys.stdout.buffer)
             return 0
-        with atomic_file(arguments.output) as file:
+        with atomic_file(arguments.out) as file:
             number = _write(listings, form, request, file)
-    say_written(arguments.output, arguments.lang, _WORDS[arguments.lang]["found"].format(n=number))
+    say_written(arguments.out, arguments.lang, ", " + plural("{count} chain", "{count} chains", number, arguments.lang))
     return 0
 
 
@@ -288,7 +281,6 @@ def _drawn(lang: str) -> Iterator[Callable[[Progress], None] | None]:
     from rich.live import Live
     from rich.text import Text
 
-    words = _WORDS[lang]
     # Without a thread of its own, so that worker processes can be forked.
     with Live(console=Console(stderr=True), auto_refresh=False, transient=True) as live:
         shown = 0.0
@@ -299,9 +291,14 @@ def _drawn(lang: str) -> Iterator[Callable[[Progress], None] | None]:
                 return
             shown = progress.seconds
             seconds = progress.seconds_left
-            left = "" if seconds is None else words["left"].format(time=time_text(seconds))
-            line = words["progress"].format(
-                pieces=progress.pieces, chains=progress.chains, rate=progress.rate, left=left
+            left = "" if seconds is None else message("about {time} left", time=time_text(seconds))
+            line = translate(
+                "{parts} parts  {chains:,} chains  {rate:,.0f}/s  {left}",
+                lang,
+                parts=progress.pieces,
+                chains=progress.chains,
+                rate=progress.rate,
+                left=left,
             )
             live.update(Text(line), refresh=True)
 

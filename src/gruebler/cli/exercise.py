@@ -1,4 +1,4 @@
-"""`gruebler exercise`: tasks listed, shown, solved, made and marked."""
+"""`gruebler exercise`: list, show, solve and generate tasks, and mark answers."""
 
 from __future__ import annotations
 
@@ -31,7 +31,6 @@ from gruebler.text import message, translate
 
 __all__ = ["add", "run"]
 
-_HEADERS = (message("id"), message("name"), message("source"))
 _MARKS = {
     Mark.RIGHT: message("right"),
     Mark.NEAR: message("nearly right"),
@@ -46,30 +45,32 @@ _KINDS = ("mobility", "grashof", "dead-centre", "transmission-angle", "dyad", "v
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Exercises and worked examples, solved step by step and compared with what is printed; fresh "
-        "tasks from the enumeration and random dimensions.",
-        epilog="Example: gruebler exercise solve 15 --lang de; gruebler exercise new --kind mobility --level 2 "
-        "--seed 7; gruebler exercise check mobility-2-7 n=8 F=1. Exit status: 0 all well, 1 an answer is wrong, 2 "
+        description="Exercises and worked examples, solved step by step and compared with the printed answers; "
+        "generated tasks with structures of the enumeration and random dimensions.",
+        epilog="Examples: gruebler exercise solve 15 --lang de; gruebler exercise new --kind mobility --level 2 "
+        "--seed 7; gruebler exercise check mobility-2-7 n=8 F=1. Exit status: 0 success, 1 an answer is wrong, 2 "
         "wrong usage.",
     )
-    listing = parser.add_command("list", help="all exercises and worked examples")
-    show = parser.add_command("show", help="the task alone")
-    solve = parser.add_command("solve", help="the way to the answer, step by step, with a check by a second way")
+    listing = parser.add_command("list", help="list all exercises and worked examples")
+    show = parser.add_command("show", help="show a task without its solution")
+    solve = parser.add_command("solve", help="solve a task step by step and check the result by a second method")
     for action in (show, solve):
         action.add_argument(
-            "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a fresh task)"
+            "ids", nargs="+", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)"
         )
-    new = parser.add_command("new", help="fresh tasks; the same seed gives the same task")
-    new.add_argument("--kind", choices=_KINDS, required=True, help="the theory")
-    new.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="1 easy to 3 (default: 1)")
-    new.add_argument("--seed", type=int, default=0, metavar="S", help="of the first task (default: 0)")
-    new.add_argument("--count", type=int, default=1, metavar="K", help="so many, with seeds S, S + 1, ... (default: 1)")
-    new.add_argument("--solutions", action="store_true", help="with their solutions")
-    check = parser.add_command("check", help="mark answers, with a hint on the likely mistake")
-    check.add_argument("id", metavar="ID")
-    check.add_argument("answers", nargs="+", metavar="KEY=ANSWER", help="such as H=40 phi_max=189,4 turns=yes")
+    new = parser.add_command("new", help="generate tasks; the same seed gives the same task")
+    new.add_argument("--kind", choices=_KINDS, required=True, help="topic of the task")
+    new.add_argument("--level", type=int, choices=(1, 2, 3), default=1, help="from 1 (easy) to 3 (default: 1)")
+    new.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the first task (default: 0)")
+    new.add_argument(
+        "--count", type=int, default=1, metavar="K", help="number of tasks, with seeds S, S + 1, ... (default: 1)"
+    )
+    new.add_argument("--solutions", action="store_true", help="with solutions")
+    check = parser.add_command("check", help="mark answers, with hints at likely mistakes")
+    check.add_argument("id", metavar="ID", help="such as 15, exercise-15 or grashof-1-7 (a generated task)")
+    check.add_argument("answers", nargs="+", metavar="KEY=ANSWER", help="such as H=40 phi_max=189.4 turns=yes")
     for action in (listing, show, solve, new, check):
-        action.add_argument("--json", action="store_true", help="as JSON, both languages")
+        action.add_printed(help="print JSON, with texts in both languages")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -78,9 +79,9 @@ def run(arguments: argparse.Namespace) -> int:
         case "list":
             _list(arguments)
         case "show":
-            _tell([exercise(id) for id in arguments.ids], arguments, solved=False)
+            _print([exercise(id) for id in arguments.ids], arguments, solved=False)
         case "solve":
-            _tell([exercise(id) for id in arguments.ids], arguments, solved=True)
+            _print([exercise(id) for id in arguments.ids], arguments, solved=True)
         case "new":
             if not 1 <= arguments.count <= _MOST:
                 raise GrueblerError(
@@ -88,31 +89,29 @@ def run(arguments: argparse.Namespace) -> int:
                 )
             seeds = range(arguments.seed, arguments.seed + arguments.count)
             exercises = [generate(arguments.kind, seed, arguments.level) for seed in seeds]
-            _tell(exercises, arguments, solved=arguments.solutions)
+            _print(exercises, arguments, solved=arguments.solutions)
         case "check":
             return _mark(exercise(arguments.id), arguments)
     return 0
 
 
 def _list(arguments: argparse.Namespace) -> None:
-    found = all_exercises().values()
+    tasks = all_exercises().values()
     if arguments.json:
-        print_json([task_as_dict(one) for one in found])
+        print_json([task_as_dict(task) for task in tasks])
         return
     lang = arguments.lang
-    print_table(
-        [header.in_language(lang) for header in _HEADERS],
-        [(one.id, one.name.in_language(lang), source_text(one.source, lang)) for one in found],
-    )
+    headers = [translate("id", lang), translate("name", lang), translate("source", lang)]
+    print_table(headers, [(task.id, task.name.in_language(lang), source_text(task.source, lang)) for task in tasks])
 
 
-def _tell(found: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
+def _print(tasks: list[Exercise], arguments: argparse.Namespace, *, solved: bool) -> None:
     if arguments.json:
-        print_json([solution_as_dict(one, solve(one)) if solved else task_as_dict(one) for one in found])
+        print_json([solution_as_dict(task, solve(task)) if solved else task_as_dict(task) for task in tasks])
         return
     texts = [
-        solution_text(one, solve(one), arguments.lang) if solved else task_text(one, arguments.lang, solve(one))
-        for one in found
+        solution_text(task, solve(task), arguments.lang) if solved else task_text(task, arguments.lang, solve(task))
+        for task in tasks
     ]
     print("\n\n".join(texts))
 
@@ -122,29 +121,29 @@ def _mark(task: Exercise, arguments: argparse.Namespace) -> int:
     for word in arguments.answers:
         key, equals, answer = word.partition("=")
         if not equals or not key.strip() or not answer.strip():
-            raise GrueblerError("an answer is written KEY=ANSWER, such as H=40, not {word!r}", word=word)
+            raise GrueblerError("expected an answer KEY=ANSWER such as H=40, but found {word!r}", word=word)
         if key.strip() in answers:
-            raise GrueblerError("{word} is answered twice: give one answer for each", word=key.strip())
+            raise GrueblerError("{key} is answered twice; give one answer for each key", key=key.strip())
         answers[key.strip()] = answer
     marks = grade(task, answers)
-    right = all(one.mark is Mark.RIGHT for one in marks)
+    right = all(each.mark is Mark.RIGHT for each in marks)
     if arguments.json:
         print_json({"id": task.id, "right": right, "answers": grades_as_list(marks)})
     else:
-        _say(task, marks, arguments.lang)
+        _print_marks(task, marks, arguments.lang)
     return 0 if right else 1
 
 
-def _say(task: Exercise, marks: list[Grade], lang: str) -> None:
-    for one in marks:
-        line = f"{ascii_key(one.key)} = {one.answer}: {_MARKS[one.mark].in_language(lang)}"
-        if one.mark is Mark.RIGHT:
-            line += f" ({value_text(one.result.value, one.result.unit, lang)})"
-        print(line + (f". {one.hint.in_language(lang)}" if one.hint else ""))
-    answered = {one.key for one in marks}
+def _print_marks(task: Exercise, marks: list[Grade], lang: str) -> None:
+    for each in marks:
+        line = f"{ascii_key(each.key)} = {each.answer}: {_MARKS[each.mark].in_language(lang)}"
+        if each.mark is Mark.RIGHT:
+            line += f" ({value_text(each.result.value, each.result.unit, lang)})"
+        print(line + (f". {each.hint.in_language(lang)}" if each.hint else ""))
+    answered = {each.key for each in marks}
     results = solve(task).results
     missing = [plain_name(results[asked.key]) for asked in task.asked if asked.key not in answered]
     if missing:
-        print(translate("Not answered: {results}", lang, results=", ".join(missing)))
-    right = sum(one.mark is Mark.RIGHT for one in marks)
-    print(translate("{right} of {all} answers right.", lang, right=right, all=len(marks)))
+        print(translate("Not answered: {keys}", lang, keys=", ".join(missing)))
+    right = sum(each.mark is Mark.RIGHT for each in marks)
+    print(translate("{right} of {count} answers right.", lang, right=right, count=len(marks)))

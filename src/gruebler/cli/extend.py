@@ -1,4 +1,4 @@
-"""`gruebler extend`: all different chains that one more dyad or coupler gives."""
+"""`gruebler extend`: all different chains that one more dyad or coupler gives, and how a chain is built from dyads."""
 
 from __future__ import annotations
 
@@ -6,38 +6,50 @@ import argparse
 from typing import Any
 
 from gruebler.chain import Chain
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import print_table, print_text
+from gruebler.isomorphism import code
 from gruebler.mobility import mobility_report
-from gruebler.transformations import Attachment, Extension, extend
+from gruebler.text import translate
+from gruebler.transformations import Attachment, Extension, derive, extend
 
 __all__ = ["add", "run"]
-
-_HEADERS = {
-    "en": ("chain", "F counted", "generic", "places", "joints that cannot move"),
-    "de": ("Kette", "F gezählt", "generisch", "Stellen", "unbewegliche Gelenke"),
-}
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Each structure once, with the places that give it.",
+        description="Add a dyad or a coupler to a chain: every different structure once, with the places where it "
+        "can be added. With --derivation: how the chain is built from a closed loop by adding dyads, or the core "
+        "that remains when no dyad can be removed.",
+        epilog="Examples: gruebler extend 'R(0-1) R(1-2) R(2-3) R(3-0)' --dyad; gruebler extend planetary "
+        "--derivation.",
     )
-    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    parser.add_argument(
+        "chain",
+        metavar="CHAIN",
+        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry",
+    )
     kind = parser.add_mutually_exclusive_group(required=True)
     kind.add_argument("--dyad", nargs="?", const="RRR", metavar="FORM", help="RRR (default), RRP, RPR, PRP or RPP")
-    kind.add_argument("--coupler", nargs="?", const="RR", metavar="PAIRS", help="its two joints (default: RR)")
-    parser.add_argument("--at-joints", action="store_true", help="new links may join joints that are there")
-    parser.add_argument("--count", action="store_true", help="only how many")
-    parser.add_argument("--json", action="store_true", help="an object with count and items")
+    kind.add_argument(
+        "--coupler", nargs="?", const="RR", metavar="PAIRS", help="a link with these two joints (default: RR)"
+    )
+    kind.add_argument("--derivation", action="store_true", help="show how the chain is built from dyads")
+    parser.add_argument("--at-joints", action="store_true", help="also attach new links to existing joints")
+    parser.add_argument("--count", action="store_true", help="print only the number")
+    parser.add_printed(help="print an object with count and items")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """List or count the extensions."""
+    """List or count the extensions, or explain how the chain is built."""
     chain = chain_from_word(arguments.chain)
+    if arguments.derivation:
+        _derive(chain, arguments)
+        return 0
     extensions = extend(chain, dyad=arguments.dyad, coupler=arguments.coupler, at_joints=arguments.at_joints)
     if arguments.json:
         document: dict[str, Any] = {"count": len(extensions)}
@@ -47,36 +59,65 @@ def run(arguments: argparse.Namespace) -> int:
     elif arguments.count:
         print(len(extensions))
     else:
-        print_table(_HEADERS[arguments.lang], [_row(chain, one, arguments.lang) for one in extensions], numbers=(1, 2))
+        lang = arguments.lang
+        headers = [
+            translate("chain", lang),
+            translate("F counted", lang),
+            translate("generic", lang),
+            translate("places", lang),
+            translate("joints that cannot move", lang),
+        ]
+        print_table(headers, [_row(chain, extension, lang) for extension in extensions], numbers=(1, 2))
     return 0
 
 
-def _item(chain: Chain, one: Extension) -> dict[str, Any]:
-    report = mobility_report(one.chain)
-    names = one.chain.joint_names()
+def _derive(chain: Chain, arguments: argparse.Namespace) -> None:
+    growth = derive(chain)
+    if not arguments.json:
+        print_text(growth.explain(arguments.lang))
+        return
+    core, steps = growth.core, growth.derivation.steps
+    document = {
+        "from_loop": growth.from_loop,
+        "exact": growth.exact,
+        "core": {"code": code(core), "text": str(core), "links": list(core.links)},
+        "count": len(steps),
+        "items": [
+            {"code": code(step.chain), "text": str(step.chain), "step": step.explain(arguments.lang)} for step in steps
+        ],
+        "derivation": growth.derivation.to_json(),
+    }
+    print_json(document)
+
+
+def _item(chain: Chain, extension: Extension) -> dict[str, Any]:
+    report = mobility_report(extension.chain)
+    names = extension.chain.joint_names()
     return {
-        "code": one.code,
-        "text": str(one.chain),
+        "code": extension.code,
+        "text": str(extension.chain),
         "counted": report.counted,
         "generic": report.generic,
         "immobile_joints": [names[k] for k in report.immobile_joints],
-        "places": [_places(chain, pair) for pair in one.places],
+        "places": [_places(chain, pair) for pair in extension.places],
     }
 
 
-def _row(chain: Chain, one: Extension, lang: str) -> tuple[str, str, str, str, str]:
-    report = mobility_report(one.chain)
-    alphabet = "german" if lang == "de" else "international"
-    names = one.chain.joint_names(alphabet)
+def _row(chain: Chain, extension: Extension, lang: str) -> tuple[str, str, str, str, str]:
+    report = mobility_report(extension.chain)
+    alphabet = Alphabet.of_language(lang)
+    names = extension.chain.joint_names(alphabet)
     return (
-        one.chain.text(alphabet),
+        extension.chain.text(alphabet),
         str(report.counted),
         str(report.generic),
-        ", ".join("/".join(_places(chain, pair, alphabet)) for pair in one.places),
+        ", ".join("/".join(_places(chain, pair, alphabet)) for pair in extension.places),
         ", ".join(names[k] for k in report.immobile_joints),
     )
 
 
-def _places(chain: Chain, pair: tuple[Attachment, Attachment], alphabet: str = "international") -> list[str]:
+def _places(
+    chain: Chain, pair: tuple[Attachment, Attachment], alphabet: Alphabet = Alphabet.INTERNATIONAL
+) -> list[str]:
     names = chain.joint_names(alphabet)
     return [place if isinstance(place, str) else names[place] for place in pair]

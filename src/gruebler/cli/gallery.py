@@ -12,7 +12,7 @@ from typing import Any
 from gruebler.catalog import entries, entry
 from gruebler.chain import Chain
 from gruebler.cli.draw import german, subject
-from gruebler.cli.inputs import assortment_of, is_text, outputs_of
+from gruebler.cli.inputs import assortment_of, outputs_of
 from gruebler.cli.output import write_file
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Item, Section, gallery_html
@@ -22,45 +22,20 @@ from gruebler.drawing.structure.messages import chain_name
 from gruebler.enumeration import Request, chains
 from gruebler.enumeration.estimates import estimate
 from gruebler.errors import GrueblerError
+from gruebler.formats.structures import is_structure_text
 from gruebler.isomorphism import code
 from gruebler.mechanism.inversion import family, inversions
+from gruebler.text import Message, message, plural, translate
 
 __all__ = ["add", "run"]
 
 _MOST = 3000  # chains on a page; a browser still scrolls through them
 
-_WORDS = {
-    "en": {
-        "title": "Kinematic chains with {n} links, F = {f}",
-        "inversions": "Mechanisms with {n} links, F = {f}",
-        "catalog": "Machines of the catalog",
-        "lines": "Chains and mechanisms",
-        "output": "output {link}",
-        "note": "{chains} chains, {pictures} pictures.",
-        "machines": "{pictures} pictures.",
-        "section": "Links binary, ternary, ...: {assortment} ({number})",
-        "of": "{pictures} of {chains} chains",
-        "joints": "; multiple joints: {k}",
-    },
-    "de": {
-        "title": "Kinematische Ketten mit {n} Gliedern, F = {f}",
-        "inversions": "Getriebe mit {n} Gliedern, F = {f}",
-        "catalog": "Maschinen des Katalogs",
-        "lines": "Ketten und Getriebe",
-        "output": "Abtrieb {link}",
-        "note": "{chains} Ketten, {pictures} Bilder.",
-        "machines": "{pictures} Bilder.",
-        "section": "Glieder binär, ternär, ...: {assortment} ({number})",
-        "of": "{pictures} aus {chains} Ketten",
-        "joints": "; Mehrfachgelenke: {k}",
-    },
-}
-
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="All chains of a request, or machines of the catalog, on one page.",
+        description="Draw all chains or mechanisms with given numbers, or the given ones, on one page.",
         epilog="Examples: gruebler gallery --links 8 -o eight.html; gruebler variants --links 6 --prismatic 1 | "
         "gruebler gallery - -o sliders.html. PDF needs matplotlib: pip install 'gruebler[plot]'.",
     )
@@ -68,43 +43,44 @@ def add(parser: Parser) -> None:
         "ids",
         nargs="*",
         metavar="ID|CHAIN|FILE|-",
-        help="instead of a request: entries of the catalog, texts of chains and mechanisms, files with one a line, or "
-        "- for lines on standard input",
+        help="instead of --links: catalog entries, texts of chains and mechanisms, files with one per line, or - for "
+        "lines on standard input",
     )
     parser.add_argument("--links", type=int, metavar="N", help="number of links")
     parser.add_argument("--mobility", type=int, metavar="F", help="mobility (default: 1)")
     parser.add_argument(
-        "--fractionated", choices=("none", "link", "joint", "all"), help="as for enumerate (default: none)"
+        "--fractionated", choices=("none", "link", "joint", "all"), help="as for gruebler enumerate (default: none)"
     )
     parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
-    parser.add_argument("--multiple-joints", metavar="K|any", help="as for enumerate (default: 0)")
-    parser.add_argument("--inversions", action="store_true", help="each chain with every frame that matters")
-    parser.add_argument("--labels", action="store_true", help="name the links")
-    parser.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="a file .html or .pdf")
+    parser.add_argument("--multiple-joints", metavar="K|any", help="as for gruebler enumerate (default: 0)")
+    parser.add_argument("--inversions", action="store_true", help="each chain with every frame that makes a difference")
+    parser.add_argument("--labels", action="store_true", help="label the links")
+    parser.add_out(help="the page: .html or .pdf", required=True)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the page."""
-    suffix = suffix_of(arguments.output, ("html", "pdf"))
-    words = _WORDS[arguments.lang]
+    suffix = suffix_of(arguments.out, ("html", "pdf"))
+    lang = arguments.lang
     if arguments.ids:
         _check(arguments)
-        named = [one for word in arguments.ids for one in _lines(word)]
+        named = [line for word in arguments.ids for line in _lines(word)]
         _fits(len(named))
-        title = words["catalog" if not any(map(is_text, named)) else "lines"]
+        written_out = any(map(is_structure_text, named))
+        title = translate("Chains and mechanisms" if written_out else "Machines of the catalog", lang)
         sections = [Section("", tuple(_line(word, number, arguments) for number, word in enumerate(named, 1)))]
-        note = words["machines"].format(pictures=len(named))
+        note = plural("{count} picture.", "{count} pictures.", len(named), lang)
     elif arguments.links is not None:
         title, note, sections = _request(arguments)
     else:
-        raise GrueblerError("say what to show: --links N, or ids of the catalog")
+        raise GrueblerError("give --links N, or the chains, mechanisms or catalog entries to draw")
     if suffix == "html":
-        content = gallery_html(title, sections, lang=arguments.lang, note=note).encode("utf-8")
+        content = gallery_html(title, sections, lang=lang, note=note).encode("utf-8")
     else:
         from gruebler.drawing.canvas.matplotlib_files import gallery_pdf
 
         content = gallery_pdf(title, sections, note=note)
-    write_file(arguments.output, content, arguments.lang)
+    write_file(arguments.out, content, lang)
     return 0
 
 
@@ -113,12 +89,12 @@ _USUAL = {"mobility": 1, "fractionated": "none", "multiple_joints": "0"}
 
 
 def _check(arguments: argparse.Namespace) -> None:
-    """Machines are shown as they are: an option of requests beside them is an error, not ignored."""
+    """Options that only go with --links are refused beside given items."""
     for key in _OF_REQUESTS:
         if getattr(arguments, key) not in (None, False):
             option = f"--{key.replace('_', '-')}"
             raise GrueblerError(
-                "a gallery shows machines of the catalog or the chains of --links, not both: {option} is for chains",
+                "a gallery shows either the given items or the chains of --links; {option} goes only with --links",
                 option=option,
             )
 
@@ -126,29 +102,29 @@ def _check(arguments: argparse.Namespace) -> None:
 def _lines(word: str) -> list[str]:
     """The chains, mechanisms and ids of a file, a line each, or of standard input (``-``); else the word itself."""
     path = Path(word)
-    if word != "-" and (is_text(word) or word in entries() or path.suffix.lower() in (".toml", ".json")):
+    if word != "-" and (is_structure_text(word) or word in entries() or path.suffix.lower() in (".toml", ".json")):
         return [word]
     if word != "-" and not path.is_file() and not path.suffix and len(path.parts) == 1:
-        return [word]  # an id that the catalog does not have: it says so
+        return [word]  # an id that the catalog does not have: the caller's error names the nearest ones
     try:
         text = sys.stdin.read() if word == "-" else path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise GrueblerError("{word}: cannot be read ({value})", word=word, value=error.strerror or error) from None
+        raise GrueblerError("{path}: cannot be read ({reason})", path=word, reason=error.strerror or error) from None
     except UnicodeDecodeError:
-        raise GrueblerError("{word}: is not UTF-8 text", word=word) from None
-    found = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+        raise GrueblerError("{path}: is not UTF-8 text", path=word) from None
+    lines = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
     if path.suffix == ".g6":
-        found = [f"g6:{line}" for line in found]
-    if not found:
-        raise GrueblerError("{word}: no chain in it; expected one a line", word=word)
-    return found
+        lines = [f"g6:{line}" for line in lines]
+    if not lines:
+        raise GrueblerError("{source}: no chain in it; expected one per line", source=word)
+    return lines
 
 
 def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
     """The picture of a chain or mechanism that is written out, or of a machine of the catalog."""
-    if not is_text(word) and word in entries():
+    if not is_structure_text(word) and word in entries():
         return _machine(word, arguments)
-    if not is_text(word) and not Path(word).is_file():
+    if not is_structure_text(word) and not Path(word).is_file():
         entry(word)  # raises with the nearest ids
     try:
         shown = subject(word, None, None, [])
@@ -156,14 +132,14 @@ def _line(word: str, number: int, arguments: argparse.Namespace) -> Item:
     except GrueblerError as error:
         raise GrueblerError("number {number}, {word!r}: {error}", number=number, word=word[:40], error=error) from None
     name = chain_name(shown, arguments.lang) if isinstance(shown, Chain) else family(shown, arguments.lang)
-    words = [str(number), name or "", *(_WORDS[arguments.lang]["output"].format(link=link) for link in outputs)]
+    words = [str(number), name or "", *(translate("output {link}", arguments.lang, link=link) for link in outputs)]
     figure = draw(shown, labels=arguments.labels, lang=arguments.lang, name=name or "")
     return Item(figure, "  ".join(filter(None, words)), code(shown) if isinstance(shown, Chain) else shown.code())
 
 
 def _fits(number: int) -> None:
     if number > _MOST:
-        raise GrueblerError("{number:,} chains do not fit on a page of {most:,}", number=number, most=_MOST)
+        raise GrueblerError("{number:,} chains are too many for one page (at most {most:,})", number=number, most=_MOST)
 
 
 def _machine(id: str, arguments: argparse.Namespace) -> Item:
@@ -175,7 +151,7 @@ def _machine(id: str, arguments: argparse.Namespace) -> Item:
 
 
 def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
-    words = _WORDS[arguments.lang]
+    lang = arguments.lang
     given = {key: getattr(arguments, key) for key in _USUAL}
     usual: dict[str, Any] = _USUAL | {key: value for key, value in given.items() if value is not None}
     mobility = usual.pop("mobility")
@@ -184,34 +160,54 @@ def _request(arguments: argparse.Namespace) -> tuple[str, str, list[Section]]:
         size = estimate(Request(arguments.links, mobility, **options), "text").chains
         if size > _MOST:
             raise GrueblerError(
-                "{size:,} chains do not fit on a page of {most:,}; choose some with --assortment", size=size, most=_MOST
+                "{number:,} chains are too many for one page (at most {most:,}); choose some with --assortment",
+                number=size,
+                most=_MOST,
             )
     found = list(islice(chains(arguments.links, mobility, **options), _MOST + 1))
     if len(found) > _MOST:
         raise GrueblerError(
-            "more than {most:,} chains have the assortment {assortment}: they do not fit on a page",
+            "more than {most:,} chains have the assortment {assortment}: too many for one page",
             most=_MOST,
             assortment=arguments.assortment,
         )
     if not found:
         raise GrueblerError(
-            "there are no such chains with {links} links and F = {mobility}: nothing to be drawn",
+            "there are no such chains with {links} links and F = {mobility}",
             links=arguments.links,
             mobility=mobility,
         )
     sections = []
     pictures = 0
-    numbered = sorted(enumerate(found, 1), key=lambda one: (len(one[1].multiple_joints), _large_first(one[1])))
-    for (joints, _), group in groupby(numbered, key=lambda one: (len(one[1].multiple_joints), _large_first(one[1]))):
-        some = list(group)
-        assortment = ", ".join(map(str, some[0][1].assortment))
-        items = tuple(item for number, chain in some for item in _items(number, chain, arguments))
-        number = words["of"].format(pictures=len(items), chains=len(some)) if arguments.inversions else len(some)
-        heading = words["section"].format(assortment=assortment, number=number)
-        sections.append(Section(heading + (words["joints"].format(k=joints) if joints else ""), items))
+    for (joints, _), group in groupby(sorted(enumerate(found, 1), key=_section_key), key=_section_key):
+        numbered = list(group)
+        assortment = ", ".join(map(str, numbered[0][1].assortment))
+        items = tuple(item for number, chain in numbered for item in _items(number, chain, arguments))
+        extent: Message | int = len(numbered)
+        if arguments.inversions:
+            extent = message("{pictures} from {chains} chains", pictures=len(items), chains=len(numbered))
+        heading = translate(
+            "Links binary, ternary, ...: {assortment} ({extent})", lang, assortment=assortment, extent=extent
+        )
+        if joints:
+            heading += "; " + translate("multiple joints: {count}", lang, count=joints)
+        sections.append(Section(heading, items))
         pictures += len(items)
-    title = words["inversions" if arguments.inversions else "title"].format(n=arguments.links, f=mobility)
-    return title, words["note"].format(chains=len(found), pictures=pictures), sections
+    title = translate(
+        "Mechanisms with {links} links, F = {mobility}"
+        if arguments.inversions
+        else "Kinematic chains with {links} links, F = {mobility}",
+        lang,
+        links=arguments.links,
+        mobility=mobility,
+    )
+    note = translate("{chains} chains, {pictures} pictures.", lang, chains=len(found), pictures=pictures)
+    return title, note, sections
+
+
+def _section_key(numbered: tuple[int, Chain]) -> tuple[int, tuple[int, ...]]:
+    chain = numbered[1]
+    return len(chain.multiple_joints), _large_first(chain)
 
 
 def _large_first(chain: Chain) -> tuple[int, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 from gruebler.cli.machine_pictures import add_picture_options, is_few, write_picture
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table, print_text
+from gruebler.cli.tables import Cell, print_table, print_text
 from gruebler.errors import GrueblerError
 from gruebler.gears import (
     Balance,
@@ -26,42 +26,33 @@ from gruebler.gears import (
 )
 from gruebler.gears.assembly import axes
 from gruebler.gears.messages import fraction_text, writable
+from gruebler.text import message
 
 __all__ = ["add", "run"]
 
-_HEADERS = {
-    "en": ("link", "speed", "per turn of {drive}", "torque or force", "power"),
-    "de": ("Glied", "Drehzahl", "je Umdrehung von {drive}", "Moment oder Kraft", "Leistung"),
-}
 _UNITS = {
-    "en": {
-        Unit.TURNING: "",
-        Unit.PER_RADIAN: " (length, speeds per radian)",
-        Unit.PER_TURN: " (length, speeds per turn)",
-    },
-    "de": {
-        Unit.TURNING: "",
-        Unit.PER_RADIAN: " (Länge, Drehung in rad)",
-        Unit.PER_TURN: " (Länge, Drehung in Umdrehungen)",
-    },
+    Unit.TURNING: message("{link}"),
+    Unit.PER_RADIAN: message("{link} (length, speeds per radian)"),
+    Unit.PER_TURN: message("{link} (length, speeds per turn)"),
 }
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Speeds of all links of a gear train from one linear system (Willis), exact; torques by virtual "
-        "work. A wheel is LINK:TEETH (or a radius), minus for internal toothing; wheels in a row mesh in turn; "
-        "'on ARM' names the carrier of their axes. Other kinds: belt, chain, crossed, friction, bevel, rack, screw, "
-        "winch. Then drive LINK=SPEED, hold LINK, load LINK=TORQUE; planets=N asks whether so many can be put in.",
+        description="Exact speeds of all links of a gear train from one linear system (Willis), torques by virtual "
+        "work. A wheel is LINK:TEETH (or a radius), negative for internal teeth; wheels in a row mesh in turn; 'on "
+        "ARM' names the carrier of their axes. Other kinds: belt, chain, crossed, friction, bevel, rack, screw, "
+        "winch. Then drive LINK=SPEED, hold LINK, load LINK=TORQUE; planets=N asks whether N planets can be "
+        "assembled.",
         epilog="Example: gruebler gears 'sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=1000; "
         "load arm=-50'; with -o train.html --animate --teeth it moves. Exit status: 0 determined (or nothing driven), "
-        "1 undetermined, contradicted or not to be assembled, 2 wrong usage or unreadable input.",
+        "1 undetermined, contradictory or impossible to assemble, 2 wrong usage or unreadable input.",
     )
     parser.add_argument("train", metavar="TRAIN|FILE", help="a text, a file of statements (.txt) or a table (.toml)")
-    parser.add_argument("--json", action="store_true", help="an object; numbers as exact fractions and decimals")
+    parser.add_printed(help="print an object; numbers as exact fractions and decimals", pictures=True)
     parser.add_argument("--teeth", action="store_true", help="with -o: involute teeth instead of pitch circles")
-    add_picture_options(parser, "a turn of the fastest link")
+    add_picture_options(parser, help="with --animate: seconds for a turn of the fastest link (default: 4)")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -104,7 +95,7 @@ def _read(word: str) -> TrainReading:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise GrueblerError(
-            "{word}: cannot be read: {value}", word=word, value=getattr(error, "strerror", None) or error
+            "{path}: cannot be read: {problem}", path=path, problem=getattr(error, "strerror", None) or error
         ) from None
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 
@@ -117,17 +108,21 @@ def _driver(reading: TrainReading) -> str | None:
 
 def _print_speeds(reading: TrainReading, found: Speeds, forces: Balance | None, lang: str) -> None:
     driver = _driver(reading)
-    columns = [True, True, driver is not None, forces is not None, forces is not None]
     units = reading.train.units()
+    torques, powers = (forces.torques, forces.powers) if forces else ({}, {})
     rows = []
     for link, speed in found.values.items():
-        cells = [link + _UNITS[lang][units[link]], "?" if speed is None else fraction_text(speed)]
-        cells.append(fraction_text(speed / reading.drives[driver]) if driver and speed is not None else "")
-        torques = (forces.torques, forces.powers) if forces else ({}, {})
-        cells += [fraction_text(one[link]) if link in one else "" for one in torques]
-        rows.append([cell for cell, shown in zip(cells, columns, strict=True) if shown])
-    headers = [head.format(drive=driver) for head, shown in zip(_HEADERS[lang], columns, strict=True) if shown]
-    print_table(headers, rows, numbers=range(1, len(headers)))
+        ratio = speed / reading.drives[driver] if driver and speed is not None else None
+        speed_text = "?" if speed is None else fraction_text(speed, lang)
+        cells: list[Cell] = [_UNITS[units[link]].filled(link=link), speed_text]
+        values = (ratio, torques.get(link), powers.get(link))
+        cells += ["" if value is None else fraction_text(value, lang) for value in values]
+        rows.append(cells)
+    headers: list[Cell] = [message("link"), message("speed"), message("per turn of {drive}", drive=driver)]
+    headers += [message("torque or force"), message("power")]
+    shown = [k for k, wanted in enumerate((True, True, driver, forces, forces)) if wanted]
+    chosen = [[row[k] for k in shown] for row in (headers, *rows)]
+    print_table(chosen[0], chosen[1:], numbers=range(1, len(shown)), lang=lang)
 
 
 def _document(reading: TrainReading, found: Speeds, forces: Balance | None) -> dict[str, Any]:

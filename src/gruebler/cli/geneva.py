@@ -15,60 +15,64 @@ from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
 from gruebler.geneva import Geneva
+from gruebler.text import Message, message, number
 
 __all__ = ["add", "run"]
 
-# key: (English, German, unit)
 _ROWS = {
-    "crank_ratio": ("crank by distance of centres", "Kurbel durch Achsabstand", ""),
-    "most_pins": ("pins that have room", "mögliche Treiberzahl", ""),
-    "step_deg": ("step of the wheel", "Schrittwinkel des Rades", "°"),
-    "engaged_deg": ("driver's angle for a step", "Treiberwinkel je Schritt", "°"),
-    "motion_fraction": ("part of a turn in motion", "Bewegungsanteil einer Umdrehung", ""),
-    "dwell_fraction": ("part of a turn in dwell", "Rastanteil einer Umdrehung", ""),
-    "dwell_begin_deg": ("dwell from the driver's angle", "Rast vom Treiberwinkel", "°"),
-    "dwell_end_deg": ("... to", "... bis", "°"),
-    "greatest_ratio": ("greatest speed by driver's speed", "größte Drehzahl durch Antriebsdrehzahl", ""),
-    "greatest_acceleration": ("greatest acceleration by speed²", "größte Beschleunigung durch Drehzahl²", ""),
-    "greatest_acceleration_at_deg": ("... at the driver's angle ±", "... beim Treiberwinkel ±", "°"),
-    "entry_acceleration": (
-        "jump of acceleration at start and stop, by speed²",
-        "Beschleunigungssprung bei Anfang und Ende, durch Drehzahl²",
-        "",
-    ),
-    "crank": ("crank", "Kurbel", ""),
-    "wheel": ("radius of the wheel at the slot's mouth", "Radradius am Schlitzanfang", ""),
-    "slot_end": ("pin from the wheel's axis on the line of centres", "Zapfen von der Radachse auf der Mittenlinie", ""),
-    "locking_arc_deg": ("locking arc of the driver", "Sperrbogen des Treibers", "°"),
-    "greatest_speed": ("greatest speed of the wheel", "größte Drehzahl des Rades", ""),
-    "greatest_acceleration_rad_s2": ("greatest acceleration", "größte Beschleunigung", " rad/s²"),
-    "entry_acceleration_rad_s2": ("jump at start and stop", "Sprung bei Anfang und Ende", " rad/s²"),
-    "dwell_s": ("time of a dwell", "Rastzeit", " s"),
-    "step_s": ("time of a step", "Schrittzeit", " s"),
+    "crank_ratio": (message("crank radius / centre distance"), ""),
+    "most_pins": (message("largest number of pins"), ""),
+    "step_deg": (message("step angle of the wheel"), "°"),
+    "engaged_deg": (message("driver angle per step"), "°"),
+    "moving_deg": (message("driver angle in motion per turn"), "°"),
+    "motion_fraction": (message("motion as a fraction of a turn"), ""),
+    "dwell_fraction": (message("dwell as a fraction of a turn"), ""),
+    "motion_ratio": (message("motion time / dwell time"), ""),
+    "dwell_begin_deg": (message("dwell from driver angle"), "°"),
+    "dwell_end_deg": (message("dwell to driver angle"), "°"),
+    "greatest_ratio": (message("greatest wheel speed / driver speed"), ""),
+    "greatest_acceleration": (message("greatest acceleration / speed²"), ""),
+    "greatest_acceleration_at_deg": (message("greatest acceleration at driver angle ±"), "°"),
+    "entry_acceleration": (message("jump of the acceleration at start and stop / speed²"), ""),
+    "crank": (message("crank radius"), ""),
+    "wheel": (message("wheel radius at the slot's mouth"), ""),
+    "slot_end": (message("least distance of the pin from the wheel's axis"), ""),
+    "locking_arc_deg": (message("locking arc of the driver"), "°"),
+    "greatest_speed": (message("greatest wheel speed"), ""),
+    "greatest_acceleration_rad_s2": (message("greatest acceleration"), " rad/s²"),
+    "entry_acceleration_rad_s2": (message("jump of the acceleration at start and stop"), " rad/s²"),
+    "dwell_s": (message("dwell time"), " s"),
+    "step_s": (message("step time"), " s"),
 }
-_TABLE = {
-    "en": ("driver", "wheel", "ratio", "acceleration", "jerk", "dwell"),
-    "de": ("Treiber", "Rad", "Übersetzung", "Beschleunigung", "Ruck", "Rast"),
-}
+_KEYS = ("driver_deg", "wheel_deg", "ratio", "acceleration", "jerk", "dwell")
+_DWELL = message("dwell")
+_TABLE = (
+    message("driver"),
+    message("wheel"),
+    message("ratio"),
+    message("acceleration"),
+    message("jerk"),
+    _DWELL,
+)
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="A Geneva drive with radial slots that the pins enter without a blow.",
+        description="A Geneva drive with radial slots that the pins enter without impact.",
         epilog="Examples: gruebler geneva 4 --distance 100 --speed 60 --step 15; gruebler geneva 6 --pins 2 --animate "
         "-o geneva.html. PNG, PDF, GIF and WebP need matplotlib: pip install 'gruebler[plot]'.",
     )
     parser.add_argument("slots", type=int, metavar="N", help="number of slots, at least 3")
     parser.add_argument("--internal", action="store_true", help="the driver turns inside the wheel")
-    parser.add_argument("--pins", type=int, default=1, metavar="K", help="pins on the driver (default: 1)")
-    parser.add_argument("--distance", type=float, metavar="D", help="distance of the axes: lengths are told")
-    parser.add_argument("--speed", type=float, metavar="RPM", help="of the driver, turns a minute: times are told")
-    parser.add_argument("--step", type=float, metavar="DEG", help="a table of the driver's turn in such steps")
-    parser.add_argument("--json", action="store_true", help="as JSON")
-    parser.add_argument("--at", type=float, metavar="DEG", help="with -o: the driver's angle (default: 0)")
-    parser.add_argument("--plot", action="store_true", help="with -o: angle, ratio and acceleration beneath")
-    add_picture_options(parser, "a turn")
+    parser.add_argument("--pins", type=int, default=1, metavar="K", help="number of pins on the driver (default: 1)")
+    parser.add_argument("--distance", type=float, metavar="D", help="distance of the axes: adds the lengths")
+    parser.add_argument("--speed", type=float, metavar="RPM", help="driver speed in turns per minute: adds the times")
+    parser.add_argument("--step", type=float, metavar="DEG", help="also a table over the driver's turn with this step")
+    parser.add_printed(help="print an object with all figures", pictures=True)
+    parser.add_argument("--at", type=float, metavar="DEG", help="with -o: the driver angle shown (default: 0)")
+    parser.add_argument("--plot", action="store_true", help="with -o: add diagrams of angle, ratio and acceleration")
+    add_picture_options(parser, help="with --animate: seconds for a turn (default: 4)")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -80,18 +84,20 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         document: dict[str, Any] = {"slots": drive.slots, "internal": drive.internal, "pins": drive.pins, **figures}
         if table is not None:
-            keys = ("driver_deg", "wheel_deg", *_TABLE["en"][2:])
-            document["motion"] = records(keys, table)
+            document["motion"] = records(_KEYS, table)
         print_json(document)
         return 0
-    german = arguments.lang == "de"
-    rows = [(_ROWS[key][german], f"{value:.10g}{_ROWS[key][2]}") for key, value in figures.items()]
-    print_table(("Größe", "Wert") if german else ("quantity", "value"), rows, numbers=(1,))
+    rows = [
+        (_ROWS[key][0], number(value, arguments.lang, ".10g") + _ROWS[key][1])
+        for key, value in figures.items()
+        if value < math.inf
+    ]
+    print_table((message("quantity"), message("value")), rows, numbers=(1,), lang=arguments.lang)
     if table is not None:
         print()
-        rest = _TABLE[arguments.lang][-1]
-        shown = [[*row[:5], rest if row[5] else ""] for row in table]
-        print_turn(_TABLE[arguments.lang], shown, ("{:g}°", "{:.6f}°", "{:.6f}", "{:.6f}", "{:.6f}", "{}"))
+        shown = [[*row[:5], _DWELL if row[5] else Message("")] for row in table]
+        formats = (("zg", "°"), ("z.6f", "°"), ("z.6f", ""), ("z.6f", ""), ("z.6f", ""), ("", ""))
+        print_turn(_TABLE, shown, formats, arguments.lang)
     return 0
 
 
@@ -107,13 +113,15 @@ def _picture(arguments: argparse.Namespace, drive: Geneva) -> None:
 
 
 def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict[str, float]:
-    found: dict[str, float] = {
+    figures: dict[str, float] = {
         "crank_ratio": drive.crank_ratio,
         "most_pins": drive.most_pins,
         "step_deg": math.degrees(drive.step),
         "engaged_deg": math.degrees(2 * drive.engaged),
+        "moving_deg": math.degrees(drive.motion_fraction * math.tau),
         "motion_fraction": drive.motion_fraction,
         "dwell_fraction": drive.dwell_fraction,
+        "motion_ratio": drive.motion_ratio,
         "dwell_begin_deg": math.degrees(drive.engaged),
         "dwell_end_deg": math.degrees(math.tau / drive.pins - drive.engaged),
         "greatest_ratio": drive.greatest_ratio,
@@ -123,18 +131,18 @@ def _figures(drive: Geneva, distance: float | None, speed: float | None) -> dict
     }
     if distance is not None:
         sizes = drive.sizes(distance)
-        found |= {"crank": sizes.crank, "wheel": sizes.wheel, "slot_end": sizes.slot_end}
-        found["locking_arc_deg"] = math.degrees(sizes.locking_arc)
+        figures |= {"crank": sizes.crank, "wheel": sizes.wheel, "slot_end": sizes.slot_end}
+        figures["locking_arc_deg"] = math.degrees(sizes.locking_arc)
     if speed is not None:
         if not 0 < abs(speed) < math.inf:
-            raise GrueblerError("--speed: expected turns a minute that are not zero, not {speed:g}", speed=speed)
+            raise GrueblerError("--speed: expected turns per minute other than zero, but found {speed:g}", speed=speed)
         omega = abs(speed) * math.tau / 60
-        found["greatest_speed"] = speed * drive.greatest_ratio
-        found["greatest_acceleration_rad_s2"] = omega**2 * drive.greatest_acceleration
-        found["entry_acceleration_rad_s2"] = omega**2 * drive.entry_acceleration
-        found["dwell_s"] = drive.dwell_fraction * math.tau / omega / drive.pins
-        found["step_s"] = drive.motion_fraction * math.tau / omega / drive.pins
-    return found
+        figures["greatest_speed"] = speed * drive.greatest_ratio
+        figures["greatest_acceleration_rad_s2"] = omega**2 * drive.greatest_acceleration
+        figures["entry_acceleration_rad_s2"] = omega**2 * drive.entry_acceleration
+        figures["dwell_s"] = drive.dwell_fraction * math.tau / omega / drive.pins
+        figures["step_s"] = drive.motion_fraction * math.tau / omega / drive.pins
+    return figures
 
 
 def _table(drive: Geneva, step: float) -> list[list[Any]]:

@@ -1,4 +1,4 @@
-"""`gruebler grashof`: the type of a four-bar, which links turn fully, and for which values of one length."""
+"""`gruebler grashof`: the type of a four-bar or slider-crank, which links turn fully, for which lengths."""
 
 from __future__ import annotations
 
@@ -6,97 +6,91 @@ import argparse
 import math
 from collections.abc import Sequence
 
+from gruebler.cli.linkage_inputs import size_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.errors import GrueblerError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.fourbar.extremes import CrankRange
-from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.grashof import Grashof, LengthRange, turning_ranges, types_along
+from gruebler.text import Message, joined, joined_by_or, message, number, translate
 
 __all__ = ["add", "run"]
 
-_WORDS = {
-    "en": {
-        "limits": "crank angle",
-        "swing": "swing of the output",
-        "time_ratio": "time ratio",
-        "mu": "smallest transmission angle",
-        "full": "full turn",
-        "or": " or ",
-        "none": "No value of {free} lets {turns} turn fully.",
-        "some": "{turns} turns fully for",
-        "turns": "{0} turns fully: {1}",
-        "yes": "yes",
-        "no": "no",
-    },
-    "de": {
-        "limits": "Kurbelwinkel",
-        "swing": "Schwingwinkel des Abtriebs",
-        "time_ratio": "Zeitverhältnis",
-        "mu": "kleinster Übertragungswinkel",
-        "full": "volle Umdrehung",
-        "or": " oder ",
-        "none": "Für keinen Wert von {free} ist {turns} umlauffähig.",
-        "some": "{turns} ist umlauffähig für",
-        "turns": "{0} umlauffähig: {1}",
-        "yes": "ja",
-        "no": "nein",
-    },
-}
-
-_HEADERS = {"en": ("from", "to", "type", "below", "above"), "de": ("von", "bis", "Typ", "darunter", "darüber")}
+_HEADERS = (message("from"), message("to"), message("type"), message("below"), message("above"))
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Crank A, coupler B, rocker C, frame D: type, links that turn fully, limits, swing, transmission "
-        "angle. With --free: the types (with --turns: only where that link turns fully) along one length, the others "
-        "given in order.",
-        epilog="Exit status: 0 yes, 1 not assemblable, the link does not turn or no value lets it, 2 wrong usage. "
-        "Example: gruebler grashof 25 40 70 --free d --turns a",
+        description="Type, fully rotating links, limits, swing, transmission angle of a four-bar with crank A, coupler "
+        "B, rocker C, frame D, or of a slider-crank. With --free: the types of four-bars along one length, the others "
+        "given in order; with --turns too: only where that link turns fully.",
+        epilog="Exit status: 0 yes, 1 cannot be assembled, or the link does not turn fully, 2 wrong usage. "
+        "Examples: gruebler grashof 25 40 70 --free d --turns a; gruebler grashof slider-crank:25,70,10",
     )
     parser.add_argument(
-        "lengths", nargs="+", metavar="LENGTH", help="A B C D; with --free the other three, or all four"
+        "lengths",
+        nargs="+",
+        metavar="LENGTH",
+        help="A B C D; with --free the other three, or all four; or one word: four-bar:A,B,C,D, slider-crank:A,B[,E], "
+        "inverted-slider-crank:A,D[,E]",
     )
-    parser.add_argument("--free", choices=("a", "b", "c", "d"), help="go through the values of this length")
+    parser.add_argument("--free", choices=("a", "b", "c", "d"), help="vary this length")
     parser.add_argument(
-        "--turns", choices=("a", "b", "c"), metavar="LINK", help="a, b or c: does it turn fully against the frame"
+        "--turns", choices=("a", "b", "c", "guide"), metavar="LINK", help="a, b, c or guide: ask whether it turns fully"
     )
-    parser.add_argument("--json", action="store_true", help="one object; with --free its items")
+    parser.add_printed(help="print an object; with --free, its items")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Classify one four-bar, or go through the values of one length.
+    """Classify one linkage, or go through the values of one length.
 
-    Status 1: it cannot be assembled, the link asked about does not turn fully, or no value lets it turn.
+    Status 1: it cannot be assembled, or the link asked about does not turn fully.
     """
-    lengths = [_number(text) for text in arguments.lengths]
+    size = size_of(arguments.lengths[0]) if len(arguments.lengths) == 1 else None
     if arguments.free:
-        return _along(_three(lengths, arguments.free), arguments)
-    if len(lengths) != 4:
-        raise GrueblerError("four lengths A B C D are needed (three go with --free), not {count}", count=len(lengths))
-    four_bar = FourBar(*lengths)
+        given = [_number(text) for text in arguments.lengths] if size is None else _four_lengths(size)
+        return _along(_three(given, arguments.free), arguments)
+    if size is None:
+        lengths = [_number(text) for text in arguments.lengths]
+        if len(lengths) != 4:
+            raise GrueblerError(
+                "four lengths A B C D are needed (three go with --free), not {count}", count=len(lengths)
+            )
+        size = FourBar(*lengths)
     if arguments.json:
-        print_json(_document(four_bar))
+        print_json(_document(size))
     else:
-        _say(four_bar, arguments.lang)
-    grashof = four_bar.grashof
+        _print(size, arguments.lang)
     if arguments.turns is None:
-        return 0 if grashof.assemblable else 1
-    turning = arguments.turns in grashof.turning
+        assemblable = size.grashof.assemblable if isinstance(size, FourBar) else bool(size.limits)
+        return 0 if assemblable else 1
+    turning = arguments.turns in size.turning
     if not arguments.json:
-        words = _WORDS[arguments.lang]
-        print(words["turns"].format(arguments.turns, words["yes" if turning else "no"]))
+        print(
+            translate(
+                "{link} turns fully: {answer}",
+                arguments.lang,
+                link=arguments.turns,
+                answer=message("yes") if turning else message("no"),
+            )
+        )
     return 0 if turning else 1
+
+
+def _four_lengths(size: FourBar | SliderCrank | InvertedSliderCrank) -> list[float]:
+    if not isinstance(size, FourBar):
+        raise GrueblerError("--free goes with the lengths of a four-bar")
+    return [size.a, size.b, size.c, size.d]
 
 
 def _number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
-        raise GrueblerError("a length must be a number, not {text_!r}", text_=text) from None
+        raise GrueblerError("expected a length, but found {found!r}", found=text) from None
 
 
 def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
@@ -114,24 +108,24 @@ def _three(lengths: Sequence[float], free: str) -> dict[str, float]:
 
 
 def _along(given: dict[str, float], arguments: argparse.Namespace) -> int:
-    free, turns, words = arguments.free, arguments.turns, _WORDS[arguments.lang]
+    free, turns, lang = arguments.free, arguments.turns, arguments.lang
     length_ranges = turning_ranges(turns, **given) if turns else types_along(**given)
     if arguments.json:
         items = [_range_item(part) for part in length_ranges]
         print_json({**given, "free": free, "turns": turns, "items": items})
     elif not length_ranges:
-        print(words["none"].format(free=free, turns=turns))
+        print(translate("No value of {free} lets {link} turn fully.", lang, free=free, link=turns))
     else:
         if turns:
-            print(words["some"].format(turns=turns))
-        rows = [_range_row(part, free, arguments.lang) for part in length_ranges]
-        print_table(_HEADERS[arguments.lang], rows, numbers=(0, 1))
+            print(translate("{link} turns fully for", lang, link=turns))
+        rows = [_range_row(part, free, lang) for part in length_ranges]
+        print_table(_HEADERS, rows, numbers=(0, 1), lang=lang)
     return 0 if length_ranges else 1
 
 
 def _range_row(part: LengthRange, free: str, lang: str) -> tuple[str, ...]:
-    lower = f"{part.lower:.6g} {'<' if part.lower == 0 else '<='} {free}"
-    upper = "" if math.isinf(part.upper) else f"<= {part.upper:.6g}"
+    lower = f"{number(part.lower, lang)} {'<' if part.lower == 0 else '<='} {free}"
+    upper = "" if math.isinf(part.upper) else f"<= {number(part.upper, lang)}"
     beyond = ("" if kind is None else kind.name(lang) for kind in (part.below, part.above))
     return lower, upper, part.type.name(lang), *beyond
 
@@ -147,41 +141,49 @@ def _range_item(part: LengthRange) -> dict[str, object]:
     }
 
 
-def _say(four_bar: FourBar, lang: str) -> None:
-    words = _WORDS[lang]
-    print_text(four_bar.grashof.explain(lang))
-    if not four_bar.limits:
+def _print(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str) -> None:
+    if isinstance(size, FourBar):
+        print_text(size.grashof.explain(lang))
+    else:
+        kind, links = size.type.name(lang), joined(size.turning)
+        turning = translate("Turns fully against the frame: {links}.", lang, links=links) if size.turning else ""
+        print(f"{kind}. {turning}".rstrip())
+    if not size.limits:
         return
-    arcs = words["or"].join(_arc(arc, words["full"]) for arc in four_bar.limits)
-    rows = [("limits", arcs)]
-    if (centres := four_bar.dead_centres) is not None:
-        rows += [("swing", f"{math.degrees(centres.travel):.4f}°"), ("time_ratio", f"{centres.time_ratio:.6f}")]
-    rows.append(("mu", f"{math.degrees(four_bar.transmission_angle.smallest):.4f}°"))
-    for key, value in rows:
-        print(f"{words[key]}: {value}")
+    ranges = [_crank_range(arc) for arc in size.limits]
+    print(translate("crank angle: {ranges}", lang, ranges=joined_by_or(ranges)))
+    if (centres := size.dead_centres) is not None:
+        if isinstance(size, SliderCrank):
+            print(translate("stroke of the output: {length:.6g}", lang, length=centres.travel))
+        else:
+            print(translate("swing of the output: {angle:.4f}°", lang, angle=math.degrees(centres.travel)))
+        print(translate("time ratio: {ratio:.6f}", lang, ratio=centres.time_ratio))
+    smallest = math.degrees(size.transmission_angle.smallest)
+    print(translate("smallest transmission angle: {angle:.4f}°", lang, angle=smallest))
 
 
-def _arc(arc: CrankRange, full: str) -> str:
-    return full if arc.full else f"{math.degrees(arc.start):.4f}°..{math.degrees(arc.end):.4f}°"
+def _crank_range(arc: CrankRange) -> Message:
+    if arc.full:
+        return message("full turn")
+    return message("{start:.4f}°..{end:.4f}°", start=math.degrees(arc.start), end=math.degrees(arc.end))
 
 
-def _document(four_bar: FourBar) -> dict[str, object]:
-    grashof: Grashof = four_bar.grashof
-    centres = four_bar.dead_centres
+def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, object]:
     document: dict[str, object] = {
-        **grashof.lengths,
-        "type": grashof.type.key,
-        "english": grashof.type.name("en"),
-        "german": grashof.type.name("de"),
-        "condition": grashof.condition,
-        "excess": grashof.excess,
-        "shortest": list(grashof.shortest),
-        "turning": list(grashof.turning),
-        "limits_deg": [[math.degrees(end) for end in arc] for arc in four_bar.limits],
+        **{name: getattr(size, name) for name in "abcde" if hasattr(size, name)},
+        "type": size.type.key,
+        "english": size.type.name("en"),
+        "german": size.type.name("de"),
     }
-    if centres is not None:
-        document["swing_deg"] = math.degrees(centres.travel)
+    if isinstance(size, FourBar):
+        grashof: Grashof = size.grashof
+        document |= {"condition": grashof.condition, "excess": grashof.excess, "shortest": list(grashof.shortest)}
+    document["turning"] = list(size.turning)
+    document["limits_deg"] = [[math.degrees(end) for end in arc] for arc in size.limits]
+    if (centres := size.dead_centres) is not None:
+        slides = isinstance(size, SliderCrank)
+        document["stroke" if slides else "swing_deg"] = centres.travel if slides else math.degrees(centres.travel)
         document["time_ratio"] = centres.time_ratio
-    if four_bar.limits:
-        document["smallest_transmission_angle_deg"] = math.degrees(four_bar.transmission_angle.smallest)
+    if size.limits:
+        document["smallest_transmission_angle_deg"] = math.degrees(size.transmission_angle.smallest)
     return document

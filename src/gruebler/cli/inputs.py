@@ -2,33 +2,23 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
 from gruebler.catalog import entry
 from gruebler.chain import Chain
 from gruebler.errors import GrueblerError
-from gruebler.isomorphism import decode
+from gruebler.formats.structures import chain_of_text, is_code, is_structure_text
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 
-__all__ = ["assortment_of", "chain_from_word", "is_text", "mechanism_of", "outputs_of"]
-
-
-def is_text(word: str) -> bool:
-    """Whether the word describes a chain itself, rather than naming an entry or a file."""
-    return "(" in word or word.lstrip().lower().startswith("g6:") or _is_code(word)
-
-
-def _is_code(word: str) -> bool:
-    return re.match(r"\s*gr\d+:", word) is not None
+__all__ = ["assortment_of", "chain_from_word", "mechanism_of", "outputs_of"]
 
 
 def _of_file(word: str) -> Mechanism | None:
     """The mechanism of a file with the dimensions of a linkage or the screws of its joints, if the word is one."""
     path = Path(word)
-    if is_text(word) or not path.suffix or not path.is_file():
+    if is_structure_text(word) or not path.suffix or not path.is_file():
         return None
     if path.suffix.lower() not in (".toml", ".json"):
         raise GrueblerError(
@@ -43,22 +33,18 @@ def chain_from_word(word: str, space: str | None = None) -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
     if (mechanism := _of_file(word)) is not None:
         return mechanism.chain
-    if _is_code(word):
-        return decode(word.strip()).chain
-    if is_text(word) and ";" in word:
-        return Mechanism.parse(word).chain
-    return Chain.parse(word, space) if is_text(word) else entry(word).chain()
+    return chain_of_text(word, space) if is_structure_text(word) else entry(word).chain()
 
 
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechanism:
     """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
     if (drawn := _of_file(word)) is not None:
         mechanism = drawn
-    elif not is_text(word):
+    elif not is_structure_text(word):
         record = entry(word)
         chain = record.chain()
         mechanism = Mechanism(chain, record.frame or chain.links[0], record.drives)
-    elif "(" in word and not (_is_code(word) and ";frame=" not in word):
+    elif "(" in word and not (is_code(word) and ";frame=" not in word):
         mechanism = Mechanism.parse(word)
     else:
         chain = chain_from_word(word)
@@ -73,9 +59,9 @@ def outputs_of(word: str) -> tuple[str, ...]:
 
         linkage = read_any_linkage(Path(word))
         return linkage.outputs if isinstance(linkage, Linkage) else ()
-    if not is_text(word):
+    if not is_structure_text(word):
         return entry(word).outputs
-    if _is_code(word) or ";" not in word:
+    if is_code(word) or ";" not in word:
         return ()
     output = Mechanism.parse_with_output(word)[1]
     return () if output is None else (output,)
@@ -92,5 +78,6 @@ def assortment_of(text: str | None) -> tuple[int, ...] | None:
     try:
         return tuple(int(part) for part in text.split(","))
     except ValueError:
-        expected = "the numbers of binary, ternary, ... links such as 4,4"
-        raise GrueblerError("--assortment {text_!r}: expected {expected}", text_=text, expected=expected) from None
+        raise GrueblerError(
+            "--assortment {text!r}: expected the numbers of binary, ternary, ... links such as 4,4", text=text
+        ) from None

@@ -5,35 +5,49 @@ from __future__ import annotations
 import argparse
 from collections.abc import Sequence
 
+from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.errors import GrueblerError
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, family, inversions
+from gruebler.text import message
 
 __all__ = ["add", "item", "run"]
 
 _HEADERS = {
-    "en": {"frame": "frame", "drive": "drive", "output": "output", "family": "family"},
-    "de": {"frame": "Gestell", "drive": "Antrieb", "output": "Abtrieb", "family": "Familie"},
+    "frame": message("frame"),
+    "drive": message("drive"),
+    "output": message("output"),
+    "family": message("family"),
 }
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="One mechanism for each orbit of frames, or of frames and drives, under the chain's symmetry.",
+        description="List the mechanisms of a chain: one for each frame, or for each frame and drive. Choices that are "
+        "equal by the symmetry of the chain are listed once.",
+        epilog="Examples: gruebler inversions 'R(0-1) R(1-2) R(2-3) P(0-3)'; gruebler inversions wiper --drives "
+        "--with-output --text | gruebler check -.",
     )
-    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
-    parser.add_argument("--space", choices=("planar", "spherical", "spatial"), help="where a text lives")
-    parser.add_argument("--drives", action="store_true", help="driven mechanisms: frame and drive")
-    parser.add_argument("--anywhere", action="store_true", help="drives between moving links too")
-    parser.add_argument("--number", type=int, default=1, metavar="D", help="so many drives (default: 1)")
-    parser.add_argument("--output", action="store_true", help="choose an output link too")
-    parser.add_argument("--text", action="store_true", help="a mechanism a line, as other commands read it")
-    parser.add_argument("--count", action="store_true", help="only how many")
-    parser.add_argument("--json", action="store_true", help="an object with count and items")
+    parser.add_argument(
+        "chain",
+        metavar="CHAIN",
+        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry",
+    )
+    parser.add_argument(
+        "--space", choices=("planar", "spherical", "spatial"), help="space of the chain (default: planar)"
+    )
+    parser.add_argument("--drives", action="store_true", help="choose frame and drives")
+    parser.add_argument("--anywhere", action="store_true", help="also drives between moving links")
+    parser.add_argument("--number", type=int, default=1, metavar="D", help="number of drives (default: 1)")
+    parser.add_argument("--with-output", action="store_true", help="choose an output link as well")
+    parser.replaced("--output", "--with-output")
+    parser.add_argument("--text", action="store_true", help="one mechanism per line, as other commands read it")
+    parser.add_argument("--count", action="store_true", help="print only the number")
+    parser.add_printed(help="print an object with count and items")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -41,15 +55,17 @@ def run(arguments: argparse.Namespace) -> int:
     chain = chain_from_word(arguments.chain, arguments.space)
     if not arguments.drives:
         for option, given in (
-            ("--output", arguments.output),
+            ("--with-output", arguments.with_output),
             ("--anywhere", arguments.anywhere),
             ("--number", arguments.number != 1),
         ):
             if given:
-                raise GrueblerError("{option} goes with --drives: it is said of a driven mechanism", option=option)
+                raise GrueblerError("{option} needs --drives", option=option)
     if arguments.drives:
         drivens = list(
-            driven_mechanisms(chain, drives=arguments.number, at_frame=not arguments.anywhere, output=arguments.output)
+            driven_mechanisms(
+                chain, drives=arguments.number, at_frame=not arguments.anywhere, output=arguments.with_output
+            )
         )
     else:
         drivens = [DrivenMechanism(mechanism) for mechanism in inversions(chain)]
@@ -83,14 +99,14 @@ def _row(driven: DrivenMechanism, lang: str) -> dict[str, str]:
     mechanism = driven.mechanism
     return {
         "frame": mechanism.frame,
-        "drive": ", ".join(mechanism.drive_names()),
+        "drive": ", ".join(mechanism.drive_names(Alphabet.of_language(lang))),
         "output": driven.output or "",
         "family": family(mechanism, lang) or "",
     }
 
 
-def _print(found: Sequence[DrivenMechanism], lang: str) -> None:
+def _print(drivens: Sequence[DrivenMechanism], lang: str) -> None:
     """The table, without a column that is empty in every row."""
-    rows = [_row(driven, lang) for driven in found]
-    keys = [key for key in _HEADERS[lang] if key == "frame" or any(row[key] for row in rows)]
-    print_table([_HEADERS[lang][key] for key in keys], [[row[key] for key in keys] for row in rows])
+    rows = [_row(driven, lang) for driven in drivens]
+    keys = [key for key in _HEADERS if key == "frame" or any(row[key] for row in rows)]
+    print_table([_HEADERS[key].in_language(lang) for key in keys], [[row[key] for key in keys] for row in rows])

@@ -1,21 +1,79 @@
-"""What a word stands for: the file of a linkage, an entry of the catalog, or lengths such as four-bar:25,70,40,70."""
+"""What a word stands for: the file of a linkage, a catalog entry, or lengths such as four-bar:25,70,40,70."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Collection
 from pathlib import Path
 
+from gruebler.cli.parser import Parser
+from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.linkages import Linkage
+from gruebler.linkages import Linkage, LinkPoint
 
-__all__ = ["linkage_of"]
+__all__ = ["add_branch", "add_curves", "add_linkage", "is_lengths", "linkage_of", "size_of", "with_points"]
 
-_DOORS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
+_BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
+
+_KINDS: dict[str, tuple[str, int, Callable[..., FourBar | SliderCrank | InvertedSliderCrank]]] = {
     "four-bar": ("a,b,c,d", 4, FourBar),
     "slider-crank": ("a,b[,e]", 2, SliderCrank),
     "inverted-slider-crank": ("a,d[,e]", 2, InvertedSliderCrank),
 }
+
+
+def add_linkage(command: Parser) -> None:
+    """The argument for a linkage, which `linkage_of` reads."""
+    command.add_argument(
+        "linkage",
+        metavar="FILE|ID|LENGTHS",
+        help="a .toml or .json file, a catalog entry with dimensions, or lengths: four-bar:A,B,C,D, "
+        "slider-crank:A,B[,E], inverted-slider-crank:A,D[,E]",
+    )
+
+
+def add_branch(command: Parser) -> None:
+    """The option for an assembly mode."""
+    command.add_argument("--branch", metavar="LABELS", help="the assembly mode, such as +- (write --branch=-+)")
+
+
+def add_curves(command: Parser) -> None:
+    """The option for the paths of points in a picture."""
+    command.add_argument(
+        "--curve",
+        action="append",
+        default=[],
+        metavar="POINT",
+        help="the path of a named point, a joint, or LINK:X,Y (repeatable)",
+    )
+
+
+def with_points(linkage: Linkage, texts: Collection[str]) -> Linkage:
+    """The linkage with each LINK:X,Y among the texts as a point of that name; `LinkageError` for an unknown point."""
+    added = {text: (point.link, point.x, point.y) for text in texts if isinstance(point := point_of(text), LinkPoint)}
+    linkage = linkage.with_points(added) if added else linkage
+    for text in texts:
+        linkage.points_named(text)
+    return linkage
+
+
+def is_lengths(word: str) -> bool:
+    """Whether a word gives a kind of linkage and its lengths, or only the lengths of a four-bar."""
+    kind, colon, _ = word.partition(":")
+    return kind in _KINDS if colon else _BARE.fullmatch(word) is not None
+
+
+def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
+    """The linkage of a kind and its lengths, or of the four lengths of a four-bar; None for any other word.
+
+    >>> size_of("slider-crank:25,70"), size_of("25,70,40,70"), size_of("lambda")
+    (SliderCrank(a=25.0, b=70.0, e=0.0), FourBar(a=25.0, b=70.0, c=40.0, d=70.0), None)
+    """
+    if not is_lengths(word):
+        return None
+    kind, _, lengths = word.rpartition(":")
+    return _of_lengths(kind or "four-bar", lengths)
 
 
 def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
@@ -24,9 +82,9 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
     >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
-    kind, colon, lengths = word.partition(":")
-    if colon and kind in _DOORS:
-        return _door(kind, lengths), None
+    if (size := size_of(word)) is not None:
+        return size.linkage(), None
+    kind, colon, _ = word.partition(":")
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
         from gruebler.formats.linkages import read_linkage
@@ -41,39 +99,39 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
 
     if word not in entries() and colon:
         raise GrueblerError(
-            "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _DOORS)
+            "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _KINDS)
         )
     record = entry(word)
     if record.dimensions is None:
-        sized = ", ".join(one.id for one in entries().values() if one.dimensions is not None)
+        sized = ", ".join(each.id for each in entries().values() if each.dimensions is not None)
         if record.screws is None:
             raise GrueblerError(
                 "the catalog entry {word!r} has no dimensions; these have: {sized}", word=word, sized=sized
             )
         raise GrueblerError(
-            "the catalog entry {word!r} has the places of its joints in one position, not the sizes of its "
-            "links: `gruebler freedoms {word}` says how it moves; sizes have: {sized}",
+            "the catalog entry {word!r} has the screws of its joints in one position, not the dimensions of its "
+            "links: `gruebler check {word} --explain` says how it moves; these have dimensions: {sized}",
             word=word,
             sized=sized,
         )
     return record.linkage(), record.dimensions.range
 
 
-def _door(kind: str, text: str) -> Linkage:
-    names, least, make = _DOORS[kind]
+def _of_lengths(kind: str, text: str) -> FourBar | SliderCrank | InvertedSliderCrank:
+    names, least, make = _KINDS[kind]
     most = names.replace("[", "").replace("]", "").count(",") + 1
     try:
         lengths = [float(part) for part in text.split(",")]
     except ValueError:
         raise GrueblerError(
-            "{kind}: expected numbers {names}, but found {text_!r}", kind=kind, names=names, text_=text
+            "{kind}: expected numbers {names}, but found {text!r}", kind=kind, names=names, text=text
         ) from None
     if not least <= len(lengths) <= most:
         raise GrueblerError(
             "{kind}: expected {names}, but found {count} numbers", kind=kind, names=names, count=len(lengths)
         )
-    return make(*lengths).linkage()
+    return make(*lengths)
 
 
 def _forms() -> str:
-    return ", ".join(f"{kind}:{names}" for kind, (names, _, _) in _DOORS.items())
+    return ", ".join(f"{kind}:{names}" for kind, (names, _, _) in _KINDS.items())

@@ -1,4 +1,4 @@
-"""Work that takes long: refused before it is begun unless it is wanted, and counted on a terminal meanwhile."""
+"""Work that takes long: refused beforehand without --yes, and counted on a terminal meanwhile."""
 
 from __future__ import annotations
 
@@ -8,45 +8,52 @@ from time import monotonic
 from typing import TypeVar
 
 from gruebler.errors import GrueblerError
+from gruebler.text import Message, message
 
 __all__ = ["ask_before", "progress", "time_text"]
 
 T = TypeVar("T")
 
 _LONG = 60.0
+_UNITS = (
+    (365 * 86400, message("{count:,.0f} years")),
+    (86400, message("{count:,.0f} d")),
+    (3600, message("{count:,.0f} h")),
+    (60, message("{count:,.0f} min")),
+)
 
 
-def time_text(seconds: float) -> str:
+def time_text(seconds: float) -> Message:
     """A time in its largest unit.
 
-    >>> time_text(59), time_text(200), time_text(10**9)
-    ('59 s', '3 min', '32 years')
+    >>> [str(time_text(seconds)) for seconds in (59, 200, 10**9)]
+    ['59 s', '3 min', '32 years']
     """
-    for size, unit in ((365 * 86400, "years"), (86400, "d"), (3600, "h"), (60, "min")):
+    for size, unit in _UNITS:
         if seconds >= 2 * size:
-            return f"{seconds / size:,.0f} {unit}"
-    return f"{seconds:.0f} s"
+            return unit.filled(count=seconds / size)
+    return message("{count:.0f} s", count=seconds)
 
 
 def ask_before(seconds: float, yes: bool) -> None:
-    """Refuse what takes longer than a minute unless the caller said --yes."""
+    """Refuse what takes longer than a minute unless --yes was given."""
     if seconds > _LONG and not yes:
         raise GrueblerError(
-            "this takes about {time} (estimated to a factor of three); say --yes to begin it nevertheless",
+            "this takes about {time} (estimated to a factor of three); add --yes to start anyway",
             time=time_text(seconds),
         )
 
 
-def progress(found: Iterable[T], words: str) -> Iterator[T]:
-    """What is found, counted on a terminal with these words (``n``, ``seconds``); in silence without words."""
+def progress(items: Iterable[T], words: str) -> Iterator[T]:
+    """The items, counted on a terminal with these words (``n``, ``seconds``); in silence without words."""
     if not words or not sys.stderr.isatty():
-        yield from found
+        yield from items
         return
     begun = last = monotonic()
-    for number, one in enumerate(found, 1):
-        yield one
+    for count, item in enumerate(items, 1):
+        yield item
         if (now := monotonic()) - last > 0.2:
             last = now
-            print("\r\033[K" + words.format(n=number, seconds=now - begun), end="", file=sys.stderr, flush=True)
+            print("\r\033[K" + words.format(n=count, seconds=now - begun), end="", file=sys.stderr, flush=True)
     if last > begun:
         print("\r\033[K", end="", file=sys.stderr, flush=True)

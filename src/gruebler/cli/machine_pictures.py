@@ -22,20 +22,19 @@ _OPTIONS = ("at", "plot", "teeth", "animate", "seconds", "dark")
 _FEW = ("gif", "webp", "png")
 
 
-def add_picture_options(machine: Parser, time: str) -> None:
-    """Options for the picture of a machine, besides its table."""
-    machine.add_argument("-o", "--output", type=Path, metavar="FILE", help="also a picture: .svg, .png or .pdf")
-    machine.add_argument(
-        "--animate", action="store_true", help="with -o: moving, as .svg, .html, .gif, .webp or .png (APNG)"
-    )
-    machine.add_argument("--seconds", type=float, metavar="S", help=f"with --animate: for {time} (default: 4)")
-    machine.add_argument("--dark", action="store_true", help="with -o: pictures and PDF on dark ground")
+def add_picture_options(machine: Parser, *, help: str) -> None:
+    """Options for the picture of a machine and for what is printed; ``help`` explains ``--seconds``."""
+    machine.add_argument("--animate", action="store_true", help="with -o: a moving picture")
+    machine.add_argument("--seconds", type=float, metavar="S", help=help)
+    machine.add_argument("--dark", action="store_true", help="with -o: a dark background for PNG, GIF, WebP and PDF")
 
 
 def refuse_picture(arguments: argparse.Namespace, why: Message) -> None:
-    """`GrueblerError` if there is an option for pictures, with the reason ."""
-    for option in ("output", *_OPTIONS):
+    """`GrueblerError` with the reason if an option for pictures is given."""
+    for option in ("out", *_OPTIONS):
         value = getattr(arguments, option, None)
+        if option == "out" and not _is_picture(value):
+            continue
         if value is not None and value is not False:
             raise GrueblerError("--{option}: {why}", option=option, why=why)
 
@@ -48,25 +47,30 @@ def angle_of(arguments: argparse.Namespace) -> float | None:
 
 
 def is_few(arguments: argparse.Namespace) -> bool:
-    """Whether the file is of pictures one after another, of which there are not many."""
-    return arguments.output is not None and arguments.output.suffix.lower().removeprefix(".") in _FEW
+    """Whether the file holds single frames, which must not be too many."""
+    return arguments.out is not None and arguments.out.suffix.lower().removeprefix(".") in _FEW
+
+
+def _is_picture(path: Path | None) -> bool:
+    """Whether a file is named that does not hold what is printed."""
+    return path is not None and path.suffix.lower() not in (".txt", ".json")
 
 
 def write_picture(
     arguments: argparse.Namespace, still: Callable[[], Figure], moving: Callable[[float], MovingPicture]
 ) -> None:
-    """Write the picture if a file is named; ``moving`` is told the seconds."""
-    if arguments.output is None:
+    """Write the picture if a file is named; ``moving`` takes the seconds."""
+    if not _is_picture(arguments.out):
         refuse_picture(arguments, message("needs a file for the picture: -o FILE"))
         return
     if not arguments.animate:
         if arguments.seconds is not None:
             raise GrueblerError("--seconds goes with --animate")
-        suffix = suffix_of(arguments.output, SUFFIXES)
-        write_file(arguments.output, picture_bytes(still(), suffix, dark=arguments.dark), arguments.lang)
+        suffix = suffix_of(arguments.out, SUFFIXES)
+        write_file(arguments.out, picture_bytes(still(), suffix, dark=arguments.dark), arguments.lang)
         return
     if getattr(arguments, "at", None) is not None:
         raise GrueblerError("--at does not go with --animate, which shows all positions")
-    suffix = suffix_of(arguments.output, MOVING)
+    suffix = suffix_of(arguments.out, MOVING)
     shown = moving(4.0 if arguments.seconds is None else arguments.seconds)
-    write_file(arguments.output, moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang), arguments.lang)
+    write_file(arguments.out, moving_bytes(shown, suffix, dark=arguments.dark, lang=arguments.lang), arguments.lang)

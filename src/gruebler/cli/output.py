@@ -10,10 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from gruebler.atomic_files import atomic_file
+from gruebler.text import translate
 
 __all__ = ["print_json", "print_svg", "say_written", "write_file"]
-
-_WRITTEN = {"en": "Written: {path}{more}", "de": "Geschrieben: {path}{more}"}
 
 
 def print_json(document: Any, indent: int | None = 2) -> None:
@@ -56,4 +55,4 @@ def write_file(path: Path, content: bytes, lang: str) -> None:
 
 def say_written(path: Path, lang: str, more: str = "") -> None:
     """Say on standard error that a file was written."""
-    print(_WRITTEN[lang].format(path=path, more=more), file=sys.stderr)
+    print(translate("Written: {path}{more}", lang, path=path, more=more), file=sys.stderr)

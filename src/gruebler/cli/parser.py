@@ -5,16 +5,23 @@ from __future__ import annotations
 import argparse
 import gettext
 import os
+import re
+import textwrap
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from itertools import pairwise
+from pathlib import Path
 from typing import Any, NoReturn
 
 from gruebler.errors import GrueblerError, nearest, shortened
-from gruebler.text import LANGUAGES, LOCALE, translate
+from gruebler.text import LANGUAGES, LOCALE, joined_by_or, message, translate
 
 __all__ = ["Parser", "argparse_in_language", "wanted_language"]
+
+_PICTURES = (".svg", ".png", ".pdf", ".html", ".gif", ".webp")
+_FILE = r".+\.[A-Za-z]\w{1,4}"
+_KINDS = {int: message("a whole number"), float: message("a number")}
 
 
 class Parser(argparse.ArgumentParser):
@@ -27,7 +34,10 @@ class Parser(argparse.ArgumentParser):
         super().__init__(formatter_class=partial(_HelpFormatter, lang=lang), **settings)
         self.lang = lang
         self._commands: Any = None
-        self.add_argument("--lang", choices=LANGUAGES, default=lang, help="language of the output (default: en)")
+        self._replaced: dict[str, tuple[str, str]] = {}
+        self.add_argument(
+            "--lang", choices=LANGUAGES, default=lang, help="language of the output (default: GRUEBLER_LANG, else en)"
+        )
 
     def describe(self, *, description: str, epilog: str = "") -> None:
         """The texts before and after the list of options."""
@@ -40,6 +50,76 @@ class Parser(argparse.ArgumentParser):
             self._commands = self.add_subparsers(dest="action", metavar="ACTION", required=True, parser_class=kind)
         command: Parser = self._commands.add_parser(name, help=help, description=description or help, epilog=epilog)
         return command
+
+    def add_out(self, *, help: str, required: bool = False, endings: Sequence[str] = ()) -> None:
+        """`-o FILE`, the file to write, kept as `out`; its long form was `--output` before.
+
+        Args:
+            help: What is written.
+            required: Whether it must be given.
+            endings: The endings that the name may have, without the dot; others are refused. Empty: any.
+        """
+        kind = partial(_path_with_ending, endings=endings, lang=self.lang) if endings else Path
+        self.add_argument("-o", "--out", type=kind, metavar="FILE", required=required, help=help)
+        self._replaced.setdefault("--output", ("--out", _FILE))
+
+    def add_printed(self, *, help: str, table: bool = False, pictures: bool = False) -> None:
+        """`--json`, and `-o FILE` for what the command prints otherwise (`printed_file.printed_to_file`).
+
+        Args:
+            help: What is printed with `--json`.
+            table: Whether the command itself writes a table to a .csv file.
+            pictures: Whether it writes pictures, besides what it prints.
+        """
+        self.add_argument("--json", action="store_true", help=help)
+        if pictures:
+            self.add_out(
+                help="also a picture: .svg, .png or .pdf, with --animate .svg, .html, .gif, .webp or .png (APNG); or "
+                "write what is printed: .txt, or .json as with --json"
+            )
+        elif table:
+            self.add_out(help="write into a file instead: .txt, .json as with --json, or .csv with the columns")
+        else:
+            self.add_out(help="write into a file instead: .txt, or .json as with --json")
+        self.set_defaults(written=_PICTURES if pictures else (".csv",) if table else ())
+
+    def replaced(self, old: str, new: str, like: str = ".*") -> None:
+        """Answer an option that has another name now by the new name.
+
+        Args:
+            old: Its former name. If an option has this name today, only values of the former kind are answered.
+            new: What to write instead.
+            like: A regular expression for the former values.
+        """
+        self._replaced[old] = (new, like)
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """As argparse; a former spelling is answered by the present one."""
+        for word, following in pairwise([*(args or ()), ""]):
+            if word == "--":
+                break
+            option, equals, value = word.partition("=")
+            if option not in self._replaced:
+                continue
+            new, like = self._replaced[option]
+            value = value if equals else "" if following.startswith("--") else following
+            if option not in self._option_string_actions or re.fullmatch(like, value):
+                sign = "=" if equals else " " * bool(value)
+                self.error(
+                    translate("{old} is now {new}", self.lang, old=f"{option}{sign}{value}", new=f"{new}{sign}{value}")
+                )
+        return super().parse_known_args(args, namespace)
+
+    def _get_value(self, action: argparse.Action, arg_string: str) -> Any:
+        """As argparse; numbers are called so, not int and float."""
+        try:
+            return super()._get_value(action, arg_string)
+        except argparse.ArgumentError:
+            kind = _KINDS.get(action.type)  # type: ignore[call-overload]  # whatever the type is
+            if kind is None:
+                raise
+            text = translate("expected {kind}, but found {found!r}", self.lang, kind=kind, found=arg_string)
+            raise argparse.ArgumentError(action, text) from None
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
         """As argparse; an unknown option is answered by the nearest known one."""
@@ -63,7 +143,8 @@ class Parser(argparse.ArgumentParser):
             super()._check_value(action, value)
         except argparse.ArgumentError as error:
             suggestion = nearest(str(value)[:50], map(str, action.choices or ()))
-            raise argparse.ArgumentError(action, error.message + suggestion) from None
+            text = translate("{problem}{suggestion}", self.lang, problem=error.message, suggestion=suggestion)
+            raise argparse.ArgumentError(action, text) from None
 
     def error(self, message: str) -> NoReturn:
         """Say in one sentence what is wrong and where the help is, and exit with status 2."""
@@ -76,6 +157,18 @@ class Parser(argparse.ArgumentParser):
             yield from self._commands.choices.values()
 
 
+def _path_with_ending(text: str, endings: Sequence[str], lang: str) -> Path:
+    path = Path(text)
+    if path.suffix.lower().removeprefix(".") not in endings:
+        known = joined_by_or([f".{ending}" for ending in endings])
+        raise argparse.ArgumentTypeError(
+            translate(
+                "expected a file name that ends with {endings}, but found {found!r}", lang, endings=known, found=text
+            )
+        )
+    return path
+
+
 class _HelpFormatter(argparse.HelpFormatter):
     """argparse's formatter with translated texts."""
 
@@ -86,6 +179,17 @@ class _HelpFormatter(argparse.HelpFormatter):
     def add_text(self, text: str | None) -> None:
         """A paragraph."""
         super().add_text(text and translate(text, self._lang))
+
+    def start_section(self, heading: str | None) -> None:
+        """The title of a group of options."""
+        super().start_section(heading and translate(heading, self._lang))
+
+    def _fill_text(self, text: str, width: int, indent: str) -> str:
+        return "\n".join(indent + line for line in self._split_lines(text, width))
+
+    def _split_lines(self, text: str, width: int) -> list[str]:
+        """Lines that keep options and commands with hyphens in one piece."""
+        return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
 
     def _get_help_string(self, action: argparse.Action) -> str | None:
         return action.help and translate(action.help, self._lang)
@@ -116,7 +220,7 @@ def wanted_language(argv: Sequence[str]) -> str:
     default = os.environ.get("GRUEBLER_LANG") or LANGUAGES[0]
     if default not in LANGUAGES:
         raise GrueblerError(
-            "GRUEBLER_LANG: expected {languages}, but found {found!r}", languages=" or ".join(LANGUAGES), found=default
+            "GRUEBLER_LANG: expected {languages}, but found {found!r}", languages=joined_by_or(LANGUAGES), found=default
         )
     wanted = default
     for word, following in pairwise([*argv, ""]):

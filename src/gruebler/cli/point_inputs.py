@@ -1,35 +1,35 @@
-"""A point as a user writes it: its name, a joint, or LINK:X,Y."""
+"""A point as a user writes it: its name, a joint, LINK:X,Y, or X,Y on the coupler."""
 
 from __future__ import annotations
 
 import math
+import re
 
 from gruebler.errors import GrueblerError
 from gruebler.linkages import LinkPoint
 
-__all__ = ["point_name", "point_of"]
+__all__ = ["point_of"]
+
+_NUMBERS = re.compile(r"[-+.\deE]+,[-+.\deE]+")
 
 
 def point_of(text: str) -> str | LinkPoint:
-    """A name as it is, or a point of a link in its coordinates.
+    """A name as it is, or a point of a link in its coordinates; two numbers alone are a point of the link `coupler`.
 
-    >>> point_of("coupler:45,40"), point_of("R(0-1)")
-    (LinkPoint(link='coupler', x=45.0, y=40.0), 'R(0-1)')
+    >>> point_of("coupler:45,40"), point_of("45,40"), point_of("R(0-1)")
+    (LinkPoint(link='coupler', x=45.0, y=40.0), LinkPoint(link='coupler', x=45.0, y=40.0), 'R(0-1)')
     """
     link, colon, place = text.rpartition(":")
-    if not colon or "(" in place:
+    if _NUMBERS.fullmatch(text):
+        link, place = "coupler", text
+    elif not colon or "(" in place:
         return text
     try:
         x, y = (float(part) for part in place.split(","))
     except ValueError:
         raise GrueblerError(
-            "expected a point LINK:X,Y such as coupler:45,40, but found {text_!r}", text_=text
+            "expected a point LINK:X,Y such as coupler:45,40, but found {found!r}", found=text
         ) from None
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise GrueblerError("a point has finite coordinates, but found {text_!r}", text_=text)
+        raise GrueblerError("a point has finite coordinates, but found {found!r}", found=text)
     return LinkPoint(link, x, y)
-
-
-def point_name(point: str | LinkPoint) -> str:
-    """What a table calls it."""
-    return point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}"

@@ -5,12 +5,11 @@ from __future__ import annotations
 import argparse
 import math
 from dataclasses import replace
-from pathlib import Path
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
-from gruebler.formats.linkages import check_linkage_path, linkage_to_json, linkage_to_toml, write_linkage
+from gruebler.formats.linkages import linkage_to_json, linkage_to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
 __all__ = ["add", "run"]
@@ -19,35 +18,35 @@ __all__ = ["add", "run"]
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Dimensions with which the mechanism assembles and its drives turn fully, or move over a wide "
-        "range. Without a drive: turning joints at the frame if possible.",
-        epilog="Exit status: 0 found, 1 none found or nothing to be moved, 2 wrong usage or unreadable input.",
+        description="Find dimensions with which a mechanism can be assembled and its drives turn fully or move over a "
+        "wide range. Without --drive, revolute joints on the frame are driven if possible.",
+        epilog="Exit status: 0 found, 1 none found or nothing can move, 2 wrong usage or unreadable input.",
     )
     parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
-    parser.add_argument("--frame", metavar="LINK", help="the link that stands still (default: the first)")
+    parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
     parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
-    parser.add_argument("--seed", type=int, default=0, metavar="S", help="of the random numbers (default: 0)")
-    parser.add_argument("--tries", type=int, default=1500, metavar="N", help="drawings a search tries (default: 1500)")
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="a .toml or .json file for the linkage")
-    parser.add_argument("--json", action="store_true", help="an object with the linkage, ranges and quality")
+    parser.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the random numbers (default: 0)")
+    parser.add_argument(
+        "--tries", type=int, default=1500, metavar="N", help="number of layouts the search tries (default: 1500)"
+    )
+    parser.add_out(help="write the linkage to a file: .toml or .json", endings=("toml", "json"))
+    parser.add_argument("--json", action="store_true", help="print an object with the linkage, ranges and quality")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Find dimensions and print or write them. Status 1: none were found."""
     mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
-    if arguments.output is not None:
-        check_linkage_path(arguments.output)
     realisation = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
     if realisation.linkage is not None and (outputs := outputs_of(arguments.chain)):
         realisation = replace(realisation, linkage=realisation.linkage.with_outputs(outputs))
-    if realisation.linkage is not None and arguments.output is not None:
-        write_linkage(arguments.output, realisation.linkage)
-        say_written(arguments.output, arguments.lang)
+    if realisation.linkage is not None and arguments.out is not None:
+        write_linkage(arguments.out, realisation.linkage)
+        say_written(arguments.out, arguments.lang)
     if arguments.json:
         print_json(_document(realisation, arguments.lang))
         return 0 if realisation.found else 1
     print(realisation.message(arguments.lang))
-    if realisation.linkage is not None and arguments.output is None:
+    if realisation.linkage is not None and arguments.out is None:
         print("\n" + linkage_to_toml(realisation.linkage).rstrip())
     return 0 if realisation.found else 1
 

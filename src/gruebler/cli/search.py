@@ -1,4 +1,4 @@
-"""`gruebler catalog search`: machines, or every structure, with given access features."""
+"""`gruebler catalog search`: machines, or all structures, with given access features."""
 
 from __future__ import annotations
 
@@ -31,65 +31,52 @@ from gruebler.errors import GrueblerError
 from gruebler.formats import Entry
 from gruebler.mechanism.inversion import DrivenMechanism, family
 from gruebler.mobility import counted, mobility_report
+from gruebler.text import message, translate
 
 __all__ = ["add", "run"]
 
-_HEADERS = {
-    "en": ("id", "name", "n", "F", "moves", "drives (frame)", "outputs (frame)", "links", "joints"),
-    "de": ("Kennung", "Name", "n", "F", "beweglich", "Antriebe (Gestell)", "Abtriebe (Gestell)", "Glieder", "Gelenke"),
-}
-_WORDS = {
-    "en": {
-        "nothing": "No entry answers.",
-        "none": "No mechanism has these features.",
-        "found": "{n} found.",
-        "more": "{n} told; there are more.",
-        "output": "output",
-        "progress": "{n} mechanisms, {seconds:.0f} s",
-    },
-    "de": {
-        "nothing": "Kein Eintrag passt.",
-        "none": "Kein Getriebe hat diese Merkmale.",
-        "found": "{n} gefunden.",
-        "more": "{n} genannt; es gibt weitere.",
-        "output": "Abtrieb",
-        "progress": "{n} Getriebe, {seconds:.0f} s",
-    },
-}
+_PROGRESS = message("{n} mechanisms, {seconds:.0f} s")
 _NAMED = {"binary": 2, "ternary": 3, "quaternary": 4}
 
 
 def add(parser: Parser) -> None:
     """Add the arguments of `gruebler catalog search`."""
-    parser.add_argument("words", nargs="*", metavar="WORD", help="must occur in a name, remark, source or link")
-    parser.add_argument("--text", action="append", default=[], metavar="WORD", help="another such word; repeatable")
+    parser.add_argument("words", nargs="*", metavar="WORD", help="a word in a name, remark, source or link name")
+    parser.add_argument("--text", action="append", default=[], metavar="WORD", help="another such word (repeatable)")
     _add_features(parser)
-    parser.add_argument("--joints", type=int, metavar="G", help="number of joints, multiple ones counted k - 1 times")
-    parser.add_argument("--pair", action="append", default=[], metavar="P", help="symbol or name of a pair; repeatable")
-    parser.add_argument("--drive", metavar="P", help="symbol or name of a driven pair")
-    parser.add_argument("--claims", action="store_true", help="only where what really moves differs from the count")
-    parser.add_argument("--enumerate", action="store_true", help="every structure, not only the machines")
-    parser.add_argument("--yes", action="store_true", help="with --enumerate: begin even if it will be long")
-    parser.add_argument("--limit", type=int, metavar="N", help="with --enumerate: end after so many")
-    parser.add_argument("--count", action="store_true", help="only how many")
-    parser.add_argument("--json", action="store_true", help="as JSON")
+    parser.add_argument(
+        "--joints", type=int, metavar="G", help="number of joints; a joint of k links counts k - 1 times"
+    )
+    parser.add_argument(
+        "--pair", action="append", default=[], metavar="P", help="symbol or name of a joint type (repeatable)"
+    )
+    parser.add_argument("--drive-pair", metavar="P", help="symbol or name of the type of a driven joint")
+    parser.replaced("--drive", "--drive-pair")
+    parser.add_argument("--claims", action="store_true", help="only machines whose mobility differs from the count")
+    parser.add_argument("--enumerate", action="store_true", help="list all structures, not only those of the catalog")
+    parser.add_argument("--yes", action="store_true", help="run even if it takes long or needs much memory")
+    parser.add_argument("--limit", type=int, metavar="N", help="with --enumerate: stop after N structures")
+    parser.add_argument("--count", action="store_true", help="print only the number")
+    parser.add_printed(help="print JSON")
 
 
 def _add_features(parser: Parser) -> None:
     parser.add_argument("--links", type=int, metavar="N", help="number of links")
     parser.add_argument(
-        "--mobility", "--F", type=int, metavar="F", help="F by the count (with --enumerate 1 if left out)"
+        "--mobility", "--F", type=int, metavar="F", help="mobility by the count (with --enumerate default: 1)"
     )
     parser.add_argument("--drives", type=int, metavar="N", help="number of drive joints")
-    parser.add_argument("--drives-at-frame", type=int, metavar="N", help="so many of them at the frame")
+    parser.add_argument("--drives-at-frame", type=int, metavar="N", help="number of drive joints at the frame")
     parser.add_argument("--outputs", type=int, metavar="N", help="number of output links")
-    parser.add_argument("--output-links-at-frame", type=int, metavar="N", help="so many of them jointed to the frame")
-    parser.add_argument("--pairs", metavar="D:4,S:0", help="exactly so many joints of these kinds, in one alphabet")
+    parser.add_argument(
+        "--output-links-at-frame", type=int, metavar="N", help="number of output links jointed to the frame"
+    )
+    parser.add_argument("--pairs", metavar="D:4,S:0", help="numbers of joints by type, in one alphabet")
     parser.add_argument("--binary", type=int, metavar="N", help="number of binary links")
     parser.add_argument("--ternary", type=int, metavar="N", help="number of ternary links")
     parser.add_argument("--quaternary", type=int, metavar="N", help="number of quaternary links")
-    parser.add_argument("--link-kinds", metavar="N2,N3,...", help="numbers of binary, ternary, ... links, no others")
-    parser.add_argument("--multiple-joints", type=int, metavar="K", help="exactly so many joints of 3 and more links")
+    parser.add_argument("--link-kinds", metavar="N2,N3,...", help="numbers of all binary, ternary, ... links")
+    parser.add_argument("--multiple-joints", type=int, metavar="K", help="number of joints of three or more links")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -99,7 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         _enumerate(query, arguments)
     else:
         if arguments.limit is not None:
-            raise GrueblerError("--limit goes with --enumerate: the catalog is told in full")
+            raise GrueblerError("--limit needs --enumerate")
         _look_up(query, arguments)
     return 0
 
@@ -108,14 +95,16 @@ def _features(arguments: argparse.Namespace) -> FeatureQuery:
     kinds = {k: number for name, k in _NAMED.items() if (number := getattr(arguments, name)) is not None}
     if arguments.link_kinds is not None:
         if kinds:
-            raise GrueblerError("--link-kinds tells all kinds of links; it does not go with --binary, --ternary, ...")
+            raise GrueblerError(
+                "--link-kinds gives the numbers of all links; it does not go with --binary, --ternary and --quaternary"
+            )
         numbers = _numbers(arguments.link_kinds)
         kinds = dict(enumerate(numbers, 2))
         if arguments.links not in (None, sum(numbers)):
             raise GrueblerError(
-                "--link-kinds {link_kinds} are {sum} links, not {links}",
-                link_kinds=arguments.link_kinds,
-                sum=sum(numbers),
+                "--link-kinds {numbers} are {count} links, not {links}",
+                numbers=arguments.link_kinds,
+                count=sum(numbers),
                 links=arguments.links,
             )
     return FeatureQuery(
@@ -135,7 +124,7 @@ def _numbers(text: str) -> tuple[int, ...]:
     parts = text.split(",")
     if not all(part.strip().isdecimal() for part in parts):
         raise GrueblerError(
-            "--link-kinds {text_!r}: expected the numbers of binary, ternary, ... links such as 4,2", text_=text
+            "--link-kinds {text!r}: expected the numbers of binary, ternary, ... links such as 4,2", text=text
         )
     return tuple(int(part) for part in parts)
 
@@ -148,21 +137,35 @@ def _look_up(query: FeatureQuery, arguments: argparse.Namespace) -> None:
         words=(*arguments.words, *arguments.text),
         joints=arguments.joints,
         pairs=tuple(arguments.pair),
-        drive=arguments.drive,
+        drive=arguments.drive_pair,
     )
-    found = []
+    matches = []
     for entry in search(words):
         features = entry_features(entry)
         if query.fits(entry_mechanism(entry), features) and not (arguments.claims and _moves(entry) == _counted(entry)):
-            found.append((entry, features))
+            matches.append((entry, features))
     if arguments.count:
-        print(json.dumps({"count": len(found)}) if arguments.json else len(found))
+        print(json.dumps({"count": len(matches)}) if arguments.json else len(matches))
     elif arguments.json:
-        print_json([_document(*one) for one in found])
-    elif found:
-        print_table(_HEADERS[arguments.lang], [_row(*one, arguments.lang) for one in found], numbers=(2, 3, 4))
+        print_json([_document(*match) for match in matches])
+    elif matches:
+        print_table(_headers(arguments.lang), [_row(*match, arguments.lang) for match in matches], numbers=(2, 3, 4))
     else:
-        print(_WORDS[arguments.lang]["nothing"])
+        print(translate("No entry of the catalog matches.", arguments.lang))
+
+
+def _headers(lang: str) -> list[str]:
+    return [
+        translate("id", lang),
+        translate("name", lang),
+        "n",
+        "F",
+        translate("finite mobility", lang),
+        translate("drives (at the frame)", lang),
+        translate("outputs (at the frame)", lang),
+        translate("links", lang),
+        translate("joints", lang),
+    ]
 
 
 def _moves(entry: Entry) -> int:
@@ -176,7 +179,7 @@ def _counted(entry: Entry) -> int:
 
 
 def _row(entry: Entry, features: AccessFeatures, lang: str) -> tuple[str, ...]:
-    alphabet = Alphabet.GERMAN if lang == "de" else Alphabet.INTERNATIONAL
+    alphabet = Alphabet.of_language(lang)
     return (
         entry.id,
         entry.name.in_language(lang),
@@ -199,22 +202,20 @@ def _document(entry: Entry, features: AccessFeatures) -> dict[str, Any]:
 
 
 def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
-    for option in ("words", "text", "joints", "pair", "drive", "claims"):
-        if getattr(arguments, option):
-            raise GrueblerError(
-                "{option} belongs to the machines of the catalog and does not go with --enumerate", option=option
-            )
+    for key in ("words", "text", "joints", "pair", "drive_pair", "claims"):
+        if getattr(arguments, key):
+            option = "WORD" if key == "words" else f"--{key.replace('_', '-')}"
+            raise GrueblerError("{option} searches the catalog and does not go with --enumerate", option=option)
     if arguments.limit is not None and arguments.limit < 1:
-        raise GrueblerError("--limit is 1 or more, not {limit}", limit=arguments.limit)
-    words = _WORDS[arguments.lang]
+        raise GrueblerError("--limit: expected a number from 1, but found {limit}", limit=arguments.limit)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
     if arguments.limit is None:
         ask_before(structures_time(query), arguments.yes)
-    drivens = progress(structures(query), words["progress"] if quiet else "")
-    told = drivens if arguments.limit is None else islice(drivens, arguments.limit)
+    drivens = progress(structures(query), _PROGRESS.in_language(arguments.lang) if quiet else "")
+    listed = drivens if arguments.limit is None else islice(drivens, arguments.limit)
     items: list[dict[str, object]] = []
     number = 0
-    for number, driven in enumerate(told, 1):
+    for number, driven in enumerate(listed, 1):
         if arguments.json:
             items += [] if arguments.count else [item(driven)]
         elif not arguments.count:
@@ -225,13 +226,17 @@ def _enumerate(query: FeatureQuery, arguments: argparse.Namespace) -> None:
         print_json(document)
     elif arguments.count and not more:
         print(number)
+    elif more:
+        print(translate("{count} listed; there are more.", arguments.lang, count=number))
+    elif number:
+        print(translate("{count} found.", arguments.lang, count=number))
     else:
-        print(words["more" if more else "found"].format(n=number) if number else words["none"])
+        print(translate("No mechanism has these features.", arguments.lang))
 
 
 def _text(driven: DrivenMechanism, lang: str) -> str:
-    text = driven.mechanism.text("german" if lang == "de" else "international")
+    text = driven.mechanism.text(Alphabet.of_language(lang))
     if driven.output is not None:
-        text += f"; {_WORDS[lang]['output']} {driven.output}"
+        text += "; " + translate("output {link}", lang, link=driven.output)
     name = family(driven.mechanism, lang)
     return text if name is None else f"{text}  ({name})"

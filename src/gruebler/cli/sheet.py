@@ -1,74 +1,54 @@
-"""`gruebler sheet`: collection sheets, listed, told, drawn, sized."""
+"""`gruebler sheet`: collection sheets, listed, explained, drawn, sized."""
 
 from __future__ import annotations
 
 import argparse
 import math
-from pathlib import Path
 from typing import Any
 
-from gruebler.cli.measured import length_of, same_unit
 from gruebler.cli.output import print_json, print_svg, write_file
 from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError, LinkageError
+from gruebler.formats.measured_lengths import length_of, same_unit
 from gruebler.sheets import Sheet, SizedMechanism, StatedValue, sheet, sheets
 from gruebler.sheets.messages import explanation_paragraphs, typeset_number
+from gruebler.text import error_in_language, joined, message, number, translate
 
 __all__ = ["add", "run"]
 
-_WORDS: dict[str, dict[str, Any]] = {
-    "en": {
-        "list": ("id", "title", "source"),
-        "source": "Source",
-        "values": ("symbol", "meaning", "exact", "computed", "printed", ""),
-        "of": "length {of}",
-        "right": "as printed",
-        "wrong": "WRONG",
-        "size": "L = {length}{unit} within {tolerance}{unit}: Q_G = {ratio}, φ_G = {width}°, from φ_A = {start}° to "
-        "φ_E = {end}°, L/{scale} = {factor}.",
-        "printed": "Printed: {text}.",
-    },
-    "de": {
-        "list": ("Kennung", "Titel", "Quelle"),
-        "source": "Quelle",
-        "values": ("Zeichen", "Bedeutung", "exakt", "berechnet", "gedruckt", ""),
-        "of": "Länge {of}",
-        "right": "wie gedruckt",
-        "wrong": "FALSCH",
-        "size": "L = {length}{unit} innerhalb von {tolerance}{unit}: Q_G = {ratio}, φ_G = {width}°, von φ_A = {start}° "
-        "bis φ_E = {end}°, L/{scale} = {factor}.",
-        "printed": "Gedruckt: {text}.",
-    },
-}
+_LIST = (message("id"), message("title"), message("source"))
+_VALUES = (message("symbol"), message("meaning"), message("exact"), message("computed"), message("printed"), "")
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="A collection sheet tells one mechanism: task, structure, access features, dimensions, how "
-        "straight a point runs. Everything but the words is derived from the model.",
+        description="A collection sheet describes one mechanism: task, structure, access features, dimensions, how "
+        "straight a point moves. All values are derived from the model.",
         epilog="Example: gruebler sheet draw mzc -o sheet.pdf --lang de; gruebler sheet size mzc --length 15cm "
-        "--ratio 0.005. Exit status: 0 all well, 1 a printed value differs (show) or no piece is so straight (size), "
-        "2 wrong usage or unreadable input.",
+        "--ratio 0.005. Exit status: 0 success, 1 a printed value differs (show) or no part of the path is straight "
+        "enough (size), 2 wrong usage or unreadable input.",
     )
-    listing = parser.add_command("list", help="all sheets")
-    show = parser.add_command("show", help="one sheet in words: features, dimensions, what is printed and what is so")
-    show.add_argument("id", metavar="ID", help="of a sheet")
-    draw = parser.add_command("draw", help="one sheet as a page to be printed on A4")
-    draw.add_argument("id", metavar="ID", help="of a sheet")
-    draw.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="a file .svg, .html, .pdf or .png (default: SVG to output)"
+    listing = parser.add_command("list", help="list all sheets")
+    show = parser.add_command("show", help="explain a sheet: features, dimensions, printed and computed values")
+    show.add_argument("id", metavar="ID", help="id of a sheet")
+    draw = parser.add_command("draw", help="draw a sheet as a page of A4")
+    draw.add_argument("id", metavar="ID", help="id of a sheet")
+    draw.add_out(
+        help="a file: .svg, .html, .pdf or .png (default: SVG to standard output)",
+        endings=("svg", "html", "pdf", "png"),
     )
-    size = parser.add_command("size", help="all lengths for a straight line of a length within a tolerance")
-    size.add_argument("id", metavar="ID", help="of a sheet")
-    size.add_argument("--length", required=True, metavar="L", help="with or without unit: 15cm")
+    size = parser.add_command("size", help="all lengths for a straight line of a length within a band")
+    size.add_argument("id", metavar="ID", help="id of a sheet")
+    size.add_argument("--length", required=True, metavar="L", help="length of the line, with or without unit: 15cm")
     wanted = size.add_mutually_exclusive_group(required=True)
-    wanted.add_argument("--ratio", type=float, metavar="Q", help="relative deviation Q_G: tolerance/length")
-    wanted.add_argument("--tolerance", metavar="DY", help="the band allowed across the line: 0.75mm")
-
-    for action in (listing, show, size):
-        action.add_argument("--json", action="store_true", help="as JSON")
+    wanted.add_argument("--ratio", type=float, metavar="Q", help="relative deviation Q_G = band/length")
+    wanted.add_argument("--band", metavar="WIDTH", help="allowed deviation across the line: 0.75mm")
+    size.replaced("--tolerance", "--band")
+    listing.add_printed(help="print a list of objects")
+    show.add_printed(help="print an object with all values")
+    size.add_printed(help="print an object with all lengths")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -86,48 +66,50 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _list(arguments: argparse.Namespace) -> None:
-    if arguments.json:
-        items = [
-            {
-                "id": one.id,
-                "title": {lang: one.record.title.in_language(lang) for lang in ("en", "de")},
-                "source": one.record.source.in_language("en"),
-            }
-            for one in sheets().values()
-        ]
-        print_json(items)
-        return
-    rows = [
-        (one.id, one.record.title.in_language(arguments.lang), one.record.source.in_language(arguments.lang))
-        for one in sheets().values()
+    records = [each.record for each in sheets().values()]
+    items = [
+        {
+            "id": record.id,
+            "title": {lang: record.title.in_language(lang) for lang in ("en", "de")},
+            "source": record.source.in_language("en"),
+        }
+        for record in records
     ]
-    print_table(_WORDS[arguments.lang]["list"], rows)
+    lang = arguments.lang
+    rows = [(record.id, record.title.in_language(lang), record.source.in_language(lang)) for record in records]
+    if arguments.json:
+        print_json(items)
+    else:
+        print_table(_LIST, rows, lang=lang)
 
 
 def _draw(one: Sheet, arguments: argparse.Namespace) -> None:
-    from gruebler.drawing.canvas.files import suffix_of
     from gruebler.sheets.layout import page
-    from gruebler.sheets.page import SUFFIXES
 
-    suffix = "svg" if arguments.output is None else suffix_of(arguments.output, SUFFIXES)
-    made = page(one, arguments.lang)
-    if arguments.output is None:
-        print_svg(made.svg())
+    sheet_page = page(one, arguments.lang)
+    if arguments.out is None:
+        print_svg(sheet_page.svg())
     else:
-        write_file(arguments.output, made.written(suffix), arguments.lang)
+        suffix = arguments.out.suffix.lower().removeprefix(".")
+        write_file(arguments.out, sheet_page.written(suffix), arguments.lang)
 
 
 # --- show -------------------------------------------------------------------------------------------
 
 
 def _show(one: Sheet, arguments: argparse.Namespace) -> int:
-    """The sheet in words; status 1 if a value does not hold."""
+    """Explain the sheet; status 1 if a value does not hold."""
     if arguments.json:
         print_json(_item(one, arguments.lang))
-        return int(bool(one.wrong))
-    lang, words = arguments.lang, _WORDS[arguments.lang]
+    else:
+        _print(one, arguments.lang)
+    return int(bool(one.wrong))
+
+
+def _print(one: Sheet, lang: str) -> None:
     title = f"{one.record.title.in_language(lang)} ({one.id})"
-    print(title, "-" * len(title), f"{words['source']}: {one.record.source.in_language(lang)}", sep="\n")
+    print(title, "-" * len(title), sep="\n")
+    print(translate("Source: {source}", lang, source=one.record.source.in_language(lang)))
     for task in one.record.tasks:
         print(f"- {task.in_language(lang)}")
     print()
@@ -135,32 +117,34 @@ def _show(one: Sheet, arguments: argparse.Namespace) -> int:
         print(f"{label}: {value}")
     print()
     values = [*one.dimensions, *one.quantities, *one.example_values]
-    print_table(words["values"], [_row(value, lang) for value in values], numbers=(3,))
+    print_table(_VALUES, [_row(value, lang) for value in values], numbers=(3,), lang=lang)
     for text in explanation_paragraphs(one, lang):
         print(f"\n{text}")
     print()
-    _say_size(one, one.example, one.record.guide.unit, lang)
-    return int(bool(one.wrong))
+    _print_size(one, one.example, one.record.guide.unit, lang)
 
 
-def _row(value: StatedValue, lang: str) -> tuple[str, ...]:
-    words = _WORDS[lang]
-    meaning = value.name.in_language(lang) if value.name else words["of"].format(of="".join(value.of))
-    remark = "" if value.printed is None or value.of else words["right"]
-    if value.reason is not None:
-        remark = value.reason.in_language(lang)
-    elif value.remark is not None:
-        remark += f"; {value.remark.in_language(lang)}"
+def _row(value: StatedValue, lang: str) -> tuple[Cell, ...]:
+    name = value.name.in_language(lang) if value.name else translate("length {points}", lang, points="".join(value.of))
     whole = value.exact is not None and value.exact.text.isdigit()
     printed = value.printed.typeset if value.printed and not value.of else ""
     return (
         value.symbol,
-        meaning,
+        name,
         value.exact.typeset if value.exact else "",
         typeset_number(value.derived, lang, "g" if whole else ".6f") + value.unit,
         printed.replace(".", ",") if lang == "de" else printed,
-        remark if value.holds else words["wrong"],
+        _remark(value, lang),
     )
+
+
+def _remark(value: StatedValue, lang: str) -> Cell:
+    if not value.holds:
+        return message("WRONG")
+    if value.reason is not None:
+        return value.reason.in_language(lang)
+    as_printed = "" if value.printed is None or value.of else message("as printed")
+    return joined(filter(None, [as_printed, value.remark.in_language(lang)]), "; ") if value.remark else as_printed
 
 
 def _item(one: Sheet, lang: str) -> dict[str, Any]:
@@ -182,7 +166,7 @@ def _item(one: Sheet, lang: str) -> dict[str, Any]:
             "joints_by_symbol": dict(features.by_symbol("german" if lang == "de" else "international")),
         },
         "dimensions": [_value(value) for value in one.dimensions],
-        "quantities": [_value(told) for told in (*one.quantities, *one.example_values)],
+        "quantities": [_value(value) for value in (*one.quantities, *one.example_values)],
         "explanation": explanation_paragraphs(one, lang),
         "diagram": {
             "phi_G_deg": [math.degrees(angle) for angle in one.curve.widths],
@@ -210,47 +194,48 @@ def _value(value: StatedValue) -> dict[str, Any]:
 
 def _size(one: Sheet, arguments: argparse.Namespace) -> int:
     """All lengths for a task; status 1 if no piece of the path is so straight."""
-    length, unit = length_of("length", arguments.length)
+    length, unit = length_of("--length", arguments.length)
     if arguments.ratio is None:
-        tolerance = same_unit(*length_of("tolerance", arguments.tolerance), unit)
+        tolerance = same_unit(*length_of("--band", arguments.band), unit)
     elif math.isfinite(arguments.ratio) and 0 < arguments.ratio < 1:
         tolerance = arguments.ratio * length
     else:
         raise GrueblerError("--ratio: expected a number between 0 and 1, but found {ratio!r}", ratio=arguments.ratio)
     try:
-        sized_mechanism = one.sized(length, tolerance)
+        sized = one.sized(length, tolerance)
     except LinkageError as error:
-        print(error)
+        print(error_in_language(error, arguments.lang))
         return 1
     if arguments.json:
-        print_json(_sized_item(sized_mechanism, unit))
+        print_json(_sized_item(sized, unit))
     else:
-        _say_size(one, sized_mechanism, unit, arguments.lang)
+        _print_size(one, sized, unit, arguments.lang)
     return 0
 
 
-def _say_size(one: Sheet, found: SizedMechanism, unit: str, lang: str) -> None:
-    start, end = (math.degrees(angle) for angle in found.sizing.piece[:2])
-    behind = f" {unit}" if unit else ""
-
-    def said(value: float, form: str) -> str:
-        return typeset_number(value, lang, form)
-
-    text = _WORDS[lang]["size"].format(
-        length=said(found.length, "g"),
-        tolerance=said(found.tolerance, "g"),
-        unit=behind,
-        ratio=said(found.tolerance / found.length, "g"),
-        width=said(end - start, ".4f"),
-        start=said(start, ".4f"),
-        end=said(end, ".4f"),
-        scale=found.lengths[0][0],
-        factor=said(found.ratio, ".6f"),
+def _print_size(one: Sheet, sized: SizedMechanism, unit: str, lang: str) -> None:
+    start, end = (math.degrees(angle) for angle in sized.sizing.piece[:2])
+    unit, scale = f" {unit}" if unit else "", sized.lengths[0][0]
+    print(
+        translate(
+            "L = {length:g}{unit} within {band:g}{unit}: Q_G = {ratio:g}, φ_G = {width:.4f}°, from φ_A = {start:.4f}° "
+            "to φ_E = {end:.4f}°, L/{scale} = {factor:.6f}.",
+            lang,
+            length=sized.length,
+            band=sized.tolerance,
+            unit=unit,
+            ratio=sized.tolerance / sized.length,
+            width=end - start,
+            start=start,
+            end=end,
+            scale=scale,
+            factor=sized.ratio,
+        )
     )
-    print(text)
-    for (symbol, value), told in zip(found.lengths, one.dimensions, strict=True):
-        exact = "" if told.exact is None or told.exact.text == "1" else f"{told.exact.typeset}·{found.lengths[0][0]} = "
-        print(f"{symbol} = {exact}{said(value, '.4f')}{behind}")
+    for (symbol, length), stated in zip(sized.lengths, one.dimensions, strict=True):
+        exact = stated.exact
+        product = "" if exact is None or exact.text == "1" else f"{exact.typeset}·{scale} = "
+        print(f"{symbol} = {product}{number(length, lang, '.4f')}{unit}")
 
 
 def _sized_item(found: SizedMechanism, unit: str) -> dict[str, Any]:

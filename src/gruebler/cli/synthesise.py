@@ -8,13 +8,12 @@ import sys
 from collections.abc import Callable
 from math import degrees, isnan, radians
 from pathlib import Path
-from typing import Any
 
 from gruebler.cli.output import print_json, say_written, write_file
 from gruebler.cli.parser import Parser
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import SynthesisError
-from gruebler.formats.linkages import check_linkage_path, write_linkage
+from gruebler.formats.linkages import write_linkage
 from gruebler.synthesis import (
     DeadCentreTask,
     Demands,
@@ -32,40 +31,15 @@ from gruebler.synthesis import (
     synthesise_positions,
 )
 from gruebler.synthesis.functions import Coordination, Minimax
+from gruebler.text import message, number, numbers, translate
 
 __all__ = ["add", "run"]
 
-_WORDS: dict[str, dict[str, Any]] = {
-    "en": {
-        "count": "Solutions: {theorem} by theorem ({what}), {found} found, {real} real.",
-        "infinite": "infinitely many",
-        "designs": "Designs: {accepted} accepted, {rejected} rejected.",
-        "columns": ("design", "drive", "full turn", "transmission", "pin distances, link by link", "error"),
-        "rejected": ("rejected", "reason"),
-        "none": "None of the designs examined meets the task.",
-        "yes": "yes",
-        "no": "no",
-        "unwritten": "{path} is not written: no design was accepted.",
-        "paths": "paths",
-        "minimax": "Minimax optimum: largest error {error} (from {start}); lengths {lengths}; input from {phi}, "
-        "output from {psi}.",
-    },
-    "de": {
-        "count": "Lösungen: {theorem} nach dem Satz ({what}), {found} gefunden, {real} reell.",
-        "infinite": "unendlich viele",
-        "designs": "Entwürfe: {accepted} angenommen, {rejected} verworfen.",
-        "columns": ("Entwurf", "Antrieb", "umlaufend", "Übertragungswinkel", "Gelenkabstände je Glied", "Fehler"),
-        "rejected": ("verworfen", "Grund"),
-        "none": "Keiner der untersuchten Entwürfe erfüllt die Aufgabe.",
-        "yes": "ja",
-        "no": "nein",
-        "unwritten": "{path} wird nicht geschrieben: Kein Entwurf wurde angenommen.",
-        "paths": "Pfade",
-        "minimax": "Minimax-Optimum: größter Fehler {error} (vorher {start}); Längen {lengths}; Antrieb ab {phi}, "
-        "Abtrieb ab {psi}.",
-    },
-}
-
+_COLUMNS = (
+    *(message("design"), message("drive"), message("full turn"), message("transmission")),
+    message("pin distances, link by link"),
+    message("error"),
+)
 _TASKS: dict[str, type[Task]] = {
     "positions": PositionTask,
     "function": FunctionTask,
@@ -77,40 +51,42 @@ _TASKS: dict[str, type[Task]] = {
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="All linkages for a task, each with its verdict: one circuit, one branch, the order of the task, "
-        "full turn of the drive, minimum transmission angle.",
+        description="Find all linkages for a task and judge each by its motion: one circuit, one branch, the order of "
+        "the task, full turn of the drive, minimum transmission angle.",
         epilog="Example: gruebler synthesise positions five.csv -o best.toml --draw designs.html. Exit status: 0 there "
         "is a design, 1 there is none, 2 wrong usage or unreadable input.",
     )
     positions = parser.add_command(
         "positions",
-        help="a body carried through positions",
-        description="Four-bars, slider-cranks and inverted slider-cranks that carry a body through positions x, y, "
-        "angle: five and fewer exactly, more by least squares.",
+        help="guide a body through positions",
+        description="Four-bars, slider-cranks and inverted slider-cranks that guide a body through positions x, y, "
+        "angle: up to five exactly, more by least squares.",
     )
     positions.add_argument("task", metavar="TASK", help="a .toml, .json or .csv file; CSV columns x,y,angle")
     function = parser.add_command(
         "function",
-        help="input and output coordinated",
+        help="coordinate input and output",
         description="Linkages whose output is a function of the crank angle: pairs of a table, or an expression.",
         epilog="Example: gruebler synthesise function 'log10(x)' --interval 1 2 --swings 60 60 --points 5 --minimax",
     )
     function.add_argument(
         "task",
         metavar="TASK|EXPRESSION",
-        help="a .toml, .json or .csv file (CSV input,output), or an expression such as 'log10(x)'",
+        help="a .toml, .json or .csv file (CSV columns input,output), or an expression such as 'log10(x)'",
     )
-    function.add_argument("--interval", type=float, nargs=2, metavar=("FROM", "TO"), help="of x, for an expression")
+    function.add_argument("--interval", type=float, nargs=2, metavar=("FROM", "TO"), help="interval of x")
     function.add_argument(
-        "--swings", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="how far they turn, in degrees (or travel)"
+        "--swings", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="ranges in degrees (or the unit of a slider)"
     )
-    function.add_argument("--starts", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="fixed starts (free)")
-    function.add_argument("--points", type=int, default=5, metavar="N", help="precision points (default: 5)")
+    function.add_argument(
+        "--starts", type=float, nargs=2, metavar=("INPUT", "OUTPUT"), help="fixed start values (default: free)"
+    )
+    function.add_argument("--points", type=int, default=5, metavar="N", help="number of precision points (default: 5)")
     function.add_argument("--travel", action="store_true", help="the output is a slider")
-    function.add_argument("--minimax", action="store_true", help="make the largest error as small as possible")
+    function.add_argument("--minimax", action="store_true", help="minimise the largest error")
     path = parser.add_command(
         "path",
-        help="a coupler point through points, or along a curve",
+        help="guide a coupler point through points or along a curve",
         description="Four-bars whose coupler point passes through points: nine points, five points and both fixed "
         "pivots, five points with crank angles, mixed tasks, each with all solutions; whole curves by least squares.",
     )
@@ -123,32 +99,33 @@ def add(parser: Parser) -> None:
     dead = parser.add_command(
         "dead-centres",
         help="crank-rockers and slider-cranks with given dead centres",
-        description="Crank-rockers of a swing, or slider-cranks of a stroke, whose dead centres lie a crank angle "
-        "apart; the one with the best transmission angle first.",
+        description="Crank-rockers of a given swing, or slider-cranks of a given stroke, with a given crank angle "
+        "between the dead centres; the one with the best transmission angle first.",
         epilog="Example: gruebler synthesise dead-centres --swing 60 --time-ratio 1.2",
     )
-    dead.add_argument("task", nargs="?", metavar="TASK", help="a .toml, .json or .csv file, or options instead")
-    dead.add_argument("--swing", type=float, metavar="DEG", help="of the rocker")
-    dead.add_argument("--stroke", type=float, metavar="H", help="of the slider")
-    dead.add_argument("--crank-angle", type=float, metavar="DEG", help="between the dead centres")
-    dead.add_argument("--time-ratio", type=float, metavar="K", help="slow to quick travel")
+    dead.add_argument("task", nargs="?", metavar="TASK", help="a .toml, .json or .csv file (or the options below)")
+    dead.add_argument("--swing", type=float, metavar="DEG", help="swing of the rocker")
+    dead.add_argument("--stroke", type=float, metavar="H", help="stroke of the slider")
+    dead.add_argument("--crank-angle", type=float, metavar="DEG", help="crank angle between the dead centres")
+    dead.add_argument("--time-ratio", type=float, metavar="K", help="time ratio of slow to quick travel")
     for kind in (positions, function, path, dead):
-        kind.add_argument("--region", type=float, nargs=4, metavar=("X1", "Y1", "X2", "Y2"), help="for fixed pivots")
-        kind.add_argument("--crank", action="store_true", help="only with a drive that turns fully")
+        kind.add_argument(
+            "--region", type=float, nargs=4, metavar=("X1", "Y1", "X2", "Y2"), help="region for the fixed pivots"
+        )
+        kind.add_argument("--crank", action="store_true", help="only designs whose drive turns fully")
         kind.add_argument("--transmission", type=float, default=0.0, metavar="DEG", help="minimum transmission angle")
-        kind.add_argument("--size-ratio", type=float, default=1e4, metavar="R", help="longest by shortest length")
-        kind.add_argument("--number", type=int, metavar="N", help="dyads or designs taken of infinitely many")
-        kind.add_argument("--rejected", action="store_true", help="also print the rejected designs with their reasons")
-        kind.add_argument("--json", action="store_true", help="as JSON, with all linkages")
-        kind.add_argument("-o", "--output", type=Path, metavar="FILE", help="the best linkage as .toml or .json")
-        kind.add_argument("--draw", type=Path, metavar="FILE", help="the designs: .html a page, .svg the best one")
+        kind.add_argument(
+            "--size-ratio", type=float, default=1e4, metavar="R", help="limit of longest to shortest length"
+        )
+        kind.add_argument("--number", type=int, metavar="N", help="number of dyads or designs, if infinitely many")
+        kind.add_argument("--rejected", action="store_true", help="also list the rejected designs with their reasons")
+        kind.add_argument("--json", action="store_true", help="print an object with all linkages")
+        kind.add_out(help="write the best linkage to a file: .toml or .json", endings=("toml", "json"))
+        kind.add_argument("--draw", type=Path, metavar="FILE", help="draw the designs: .html all, .svg the best one")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Solve the task, print designs, write and draw the best. Status 1: no design was accepted."""
-    words = _WORDS[arguments.lang]
-    if arguments.output is not None:
-        check_linkage_path(arguments.output)
     if arguments.draw is not None:
         _check_picture(arguments.draw)
     demands = _demands(arguments)
@@ -156,9 +133,9 @@ def run(arguments: argparse.Namespace) -> int:
     result = _solved(arguments, task, demands)
     best = result.designs[0] if result.designs else None
     optimum = _minimax(arguments, result) if arguments.action == "function" and arguments.minimax else None
-    if best is not None and arguments.output is not None:
-        write_linkage(arguments.output, best.linkage)
-        say_written(arguments.output, arguments.lang)
+    if best is not None and arguments.out is not None:
+        write_linkage(arguments.out, best.linkage)
+        say_written(arguments.out, arguments.lang)
     if result.designs and arguments.draw is not None:
         _draw(arguments.draw, result, arguments.lang)
     if arguments.json:
@@ -167,12 +144,12 @@ def run(arguments: argparse.Namespace) -> int:
             document["minimax"] = _optimum_document(optimum)
         print_json(document)
     else:
-        _print(result, words, arguments.rejected)
+        _print(result, arguments.rejected, arguments.lang)
         if optimum is not None:
-            _print_optimum(optimum, words)
-        for path in (arguments.output, arguments.draw):
+            _print_optimum(optimum, arguments.lang)
+        for path in (arguments.out, arguments.draw):
             if path is not None and best is None:
-                print(str(words["unwritten"]).format(path=path))
+                print(translate("{path} is not written: no design was accepted.", arguments.lang, path=path))
     return 0 if result.designs else 1
 
 
@@ -224,7 +201,6 @@ def _function_task(arguments: argparse.Namespace) -> FunctionTask:
 
 
 def _law(arguments: argparse.Namespace) -> FunctionLaw:
-
     for option in ("interval", "swings"):
         if getattr(arguments, option) is None:
             raise SynthesisError(
@@ -254,7 +230,7 @@ def _solved(arguments: argparse.Namespace, task: Task, demands: Demands) -> Synt
         case PathTask():
             if arguments.structure is not None:
                 return _fitted(arguments, task, demands)
-            return synthesise_path(task, demands, progress=_progress(_WORDS[arguments.lang]["paths"]), **more)
+            return synthesise_path(task, demands, progress=_progress(arguments.lang), **more)
     raise AssertionError(task)
 
 
@@ -269,53 +245,69 @@ def _fitted(arguments: argparse.Namespace, task: PathTask, demands: Demands) -> 
     return synthesise_structures(task, [driven], demands, starts=arguments.number, link=arguments.link)
 
 
-def _progress(word: str) -> Callable[[int, int], None] | None:
+def _progress(lang: str) -> Callable[[int, int], None] | None:
     """A line on a terminal that counts paths; None elsewhere."""
     if not sys.stderr.isatty():
         return None
 
     def show(done: int, count: int) -> None:
-        end = "\n" if done >= count else ""
-        print(f"\r{done:,} / {count:,} {word}", end=end, file=sys.stderr, flush=True)
+        line = translate("{done:,} / {count:,} paths", lang, done=done, count=count)
+        print(f"\r{line}", end="\n" if done >= count else "", file=sys.stderr, flush=True)
 
     return show
 
 
-def _print(found: SynthesisResult, words: dict[str, Any], rejected: bool) -> None:
-    count = found.count
+def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
+    count = result.count
     if count.theorem != 0:  # 0: nothing exact is to be had, the notes say so
-        theorem = words["infinite"] if count.theorem is None else count.theorem
-        print(words["count"].format(theorem=theorem, what=count.what, found=count.found, real=count.real))
-    for note in found.notes:
+        print(
+            translate(
+                "Solutions: {theorem} by theorem ({kind}), {found} found, {real} real.",
+                lang,
+                theorem=message("infinitely many") if count.theorem is None else count.theorem,
+                kind=count.what,
+                found=count.found,
+                real=count.real,
+            )
+        )
+    for note in result.notes:
         print(note)
-    print(str(words["designs"]).format(accepted=len(found.designs), rejected=len(found.rejected)))
-    if found.designs:
-        rows = [_row(k + 1, design, words) for k, design in enumerate(found.designs)]
-        print_table(words["columns"], rows)
+    accepted = len(result.designs)
+    print(
+        translate(
+            "Designs: {accepted} accepted, {rejected} rejected.", lang, accepted=accepted, rejected=len(result.rejected)
+        )
+    )
+    if result.designs:
+        print_table(_COLUMNS, [_row(k, design, lang) for k, design in enumerate(result.designs, 1)], lang=lang)
     else:
-        print(words["none"])
-    if (rejected or not found.designs) and found.rejected:
+        print(translate("None of the designs examined meets the task.", lang))
+    if (rejected or not result.designs) and result.rejected:
         print()
-        shown = found.rejected if rejected else found.rejected[:5]
-        print_table(words["rejected"], [[d.form, "; ".join(d.verdict.reasons)] for d in shown])
+        designs = result.rejected if rejected else result.rejected[:5]
+        rows = [[design.form, "; ".join(design.verdict.reasons)] for design in designs]
+        print_table((message("rejected"), message("reason")), rows, lang=lang)
 
 
-def _row(number: int, design: Design, words: dict[str, Any]) -> list[str]:
-    verdict, linkage = design.verdict, design.linkage
-    drive = linkage.mechanism.drive_names()[0]
-    mu = "" if isnan(verdict.transmission) else f"{degrees(verdict.transmission):.1f}°"
-    turns = words["yes"] if verdict.turns_fully else words["no"]
-    return [f"{number} {design.form}", drive, str(turns), mu, _lengths(design), f"{verdict.error:.1e}"]
+def _row(position: int, design: Design, lang: str) -> list[Cell]:
+    verdict = design.verdict
+    return [
+        f"{position} {design.form}",
+        design.linkage.mechanism.drive_names("german" if lang == "de" else "international")[0],
+        message("yes") if verdict.turns_fully else message("no"),
+        "" if isnan(verdict.transmission) else number(degrees(verdict.transmission), lang, ".1f") + "°",
+        _lengths(design, lang),
+        number(verdict.error, lang, ".1e"),
+    ]
 
 
-def _lengths(design: Design) -> str:
+def _lengths(design: Design, lang: str) -> str:
     """The distance of the pins of each link, link by link."""
-    linkage = design.linkage
-    out = []
+    linkage, lengths = design.linkage, list[str]()
     for link in linkage.mechanism.chain.links:
         pins = [e for (_, owner), e in linkage.elements.items() if owner == link and len(e) == 2]
-        out += [f"{math.hypot(p.x - q.x, p.y - q.y):.5g}" for k, p in enumerate(pins) for q in pins[:k]]
-    return " ".join(out)
+        lengths += [number(math.hypot(p.x - q.x, p.y - q.y), lang, ".5g") for k, p in enumerate(pins) for q in pins[:k]]
+    return " ".join(lengths)
 
 
 def _check_picture(path: Path) -> None:
@@ -367,21 +359,25 @@ def _coordination(design: Design, task: Task, law: FunctionLaw) -> Coordination 
     return coordination_of(design, task, law)
 
 
-def _print_optimum(optimum: Minimax, words: dict[str, Any]) -> None:
+def _print_optimum(optimum: Minimax, lang: str) -> None:
     solution = optimum.solution
-    turning = solution.kind == "four-bar"
 
-    def out(value: float) -> str:
-        return f"{degrees(value):.5g}°" if turning else f"{value:.5g}"
+    def output(value: float) -> str:
+        turns = solution.kind == "four-bar"
+        return number(degrees(value), lang, ".5g") + "°" if turns else number(value, lang, ".5g")
 
-    text = str(words["minimax"]).format(
-        error=out(optimum.error),
-        start=out(optimum.start_error),
-        lengths=", ".join(f"{v:.6g}" for v in solution.lengths),
-        phi=f"{degrees(solution.input_start):.6g}°",
-        psi=out(solution.output_start),
+    print(
+        translate(
+            "Minimax optimum: largest error {error} (before: {start}); lengths {lengths}; input from {phi:.6g}°, "
+            "output from {psi}.",
+            lang,
+            error=output(optimum.error),
+            start=output(optimum.start_error),
+            lengths=numbers(solution.lengths, lang),
+            phi=degrees(solution.input_start),
+            psi=output(solution.output_start),
+        )
     )
-    print(text)
 
 
 def _optimum_document(optimum: Minimax) -> dict[str, object]:

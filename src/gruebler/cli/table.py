@@ -17,13 +17,13 @@ _TABLES = ("joints", "links", "inversions", "grashof", "transfer")
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Tables for teaching, computed from the library: joints by freedom, links by joints and motion, "
-        "the four inversions of a four-bar chain, four-bars by Grashof's condition with the smallest whole lengths, "
-        "transfer functions of gears, linkages, cams and Geneva drives.",
+        description="Tables for teaching, computed when they are printed: joints by degrees of freedom, links by "
+        "joints and motion, the four inversions of a four-bar chain, four-bars by Grashof's condition with the "
+        "smallest integer lengths, transfer functions of gears, linkages, cams and Geneva drives.",
         epilog="Example: gruebler table grashof --lang de",
     )
-    parser.add_argument("name", choices=_TABLES, metavar="NAME", help=", ".join(_TABLES))
-    parser.add_argument("--json", action="store_true", help="a list of objects with title, headers and rows")
+    parser.add_argument("name", choices=_TABLES, metavar="NAME", help="joints, links, inversions, grashof or transfer")
+    parser.add_printed(help="print a list of objects with title, headers and rows")
 
 
 def run(arguments: argparse.Namespace) -> int:

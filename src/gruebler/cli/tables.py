@@ -7,11 +7,19 @@ from collections.abc import Iterable, Sequence
 from shutil import get_terminal_size
 from textwrap import fill
 
-__all__ = ["print_long_table", "print_table", "print_text", "terminal_width"]
+from gruebler.text import LANGUAGES, Message
+
+__all__ = ["Cell", "print_long_table", "print_table", "print_text", "terminal_width"]
 
 
-def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: Sequence[int] = ()) -> None:
-    """Print rows under headers; ``numbers`` are the columns set flush right.
+Cell = str | Message
+"""A text of a table; messages are translated."""
+
+
+def print_table(
+    headers: Sequence[Cell], rows: Sequence[Sequence[Cell]], numbers: Sequence[int] = (), lang: str = LANGUAGES[0]
+) -> None:
+    """Print rows under headers; ``numbers`` are the columns set flush right, messages are translated.
 
     A table wider than the terminal, or than 160 columns elsewhere, gets its long headers in several lines. On a
     terminal, what is still wider is split into blocks, each with the first column.
@@ -23,7 +31,7 @@ def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: 
     """
     terminal = sys.stdout.isatty()
     width = terminal_width() if terminal else _WIDE
-    columns = [[header, *cells] for header, *cells in zip(headers, *rows, strict=True)]
+    columns = [[_text(cell, lang) for cell in column] for column in zip(headers, *rows, strict=True)]
     if _width(columns) > width:
         longest = 0 if terminal else _HEADER
         columns = [[_folded(head, cells) if len(head) > longest else head, *cells] for head, *cells in columns]
@@ -37,6 +45,10 @@ def print_table(headers: Sequence[str], rows: Sequence[Sequence[str]], numbers: 
             _print_rich([head for head, *_ in chosen], list(zip(*(cells for _, *cells in chosen), strict=True)), right)
         else:
             _print_plain(chosen, right)
+
+
+def _text(cell: Cell, lang: str) -> str:
+    return cell.in_language(lang) if isinstance(cell, Message) else cell
 
 
 def terminal_width() -> int:

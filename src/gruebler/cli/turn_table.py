@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gruebler.cli.tables import print_table
+from gruebler.cli.tables import Cell, print_table
 from gruebler.errors import GrueblerError
+from gruebler.text import Message, number
 
 __all__ = ["print_turn", "records", "turn_degrees"]
 
 
 def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
-    """Angles from 0 in such steps, the full turn included if it is closed.
+    """Angles from 0 with this step, the full turn included if it is closed.
 
     >>> turn_degrees(120).tolist(), turn_degrees(120, closed=True).tolist()
     ([0.0, 120.0, 240.0], [0.0, 120.0, 240.0, 360.0])
@@ -26,13 +27,18 @@ def turn_degrees(step: float, *, closed: bool = False) -> NDArray[np.float64]:
     return np.arange(0, 360 + (step / 2 if closed else -step / 1e6), step)
 
 
-def print_turn(headers: Sequence[str], rows: Sequence[Sequence[Any]], formats: Sequence[str]) -> None:
-    """Print rows of numbers, each column in its format; no minus stands before a zero."""
+def print_turn(
+    headers: Sequence[Cell],
+    rows: Sequence[Sequence[float | Message]],
+    formats: Sequence[tuple[str, str]],
+    lang: str,
+) -> None:
+    """Print rows of numbers, each column with its format and unit."""
     cells = [
-        [form.format(one if isinstance(one, str) else one + 0.0) for one, form in zip(row, formats, strict=True)]
-        for row in rows
+        [value if isinstance(value, Message) else number(value, lang, form) + unit for value, (form, unit) in row]
+        for row in (zip(values, formats, strict=True) for values in rows)
     ]
-    print_table(headers, cells, numbers=range(len(headers)))
+    print_table(headers, cells, numbers=range(len(headers)), lang=lang)
 
 
 def records(keys: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[dict[str, Any]]:
@@ -41,4 +47,4 @@ def records(keys: Sequence[str], rows: Sequence[Sequence[Any]]) -> list[dict[str
     >>> records(["a", "b"], [[1.0, float("inf")]])
     [{'a': 1.0, 'b': None}]
     """
-    return [dict(zip(keys, (one if math.isfinite(one) else None for one in row), strict=True)) for row in rows]
+    return [dict(zip(keys, (value if math.isfinite(value) else None for value in row), strict=True)) for row in rows]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 
 from gruebler.chain import Chain
@@ -15,39 +14,48 @@ from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
 from gruebler.isomorphism import code
 from gruebler.mechanism.inversion import DrivenMechanism
+from gruebler.text import message, translate
 from gruebler.type_synthesis import JointRequirement, Requirements, expected_seconds_of_variants, variants
 
 __all__ = ["add", "run"]
-
-_PROGRESS = {"en": "{n} found, {seconds:.0f} s", "de": "{n} gefunden, {seconds:.0f} s"}
-_FOUND = {"en": "{n} found.", "de": "{n} gefunden."}
 
 
 def add(parser: Parser) -> None:
     """Add the arguments."""
     parser.describe(
-        description="Every typed chain that answers the requirements, each once; mechanisms where something is asked "
-        "of frame, drive or output. PAIR@PLACE is a symbol or name of a pair (or nothing for any), and frame, moving "
-        "or any.",
-        epilog="Example: gruebler variants --links 6 --prismatic 1 --drive R@frame --at-frame P --count",
+        description="Every typed chain that meets the requirements, each once; mechanisms if a requirement concerns "
+        "frame, drive or output. PAIR@PLACE: the symbol or name of a pair (empty for any), and frame, moving or any.",
+        epilog="Example: gruebler variants --links 6 --prismatic 1 --drive-joint R@frame --at-frame P --count",
     )
     parser.add_argument("--links", type=int, required=True, metavar="N", help="number of links")
     parser.add_argument("--mobility", type=int, default=1, metavar="F", help="mobility (default: 1)")
-    parser.add_argument("--prismatic", type=int, default=0, metavar="K", help="exactly so many sliding joints")
-    parser.add_argument("--rolling", type=int, default=0, metavar="K", help="exactly so many rolling joints")
-    parser.add_argument("--roll-slide", type=int, default=0, metavar="K", help="exactly so many gear or cam contacts")
-    parser.add_argument("--multiple-joints", type=int, default=0, metavar="K", help="exactly so many multiple joints")
-    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
-    parser.add_argument("--frame-joints", type=int, metavar="K", help="joints on the frame: 3 for a ternary one")
-    parser.add_argument("--at-frame", action="append", default=[], metavar="PAIR[:K]", help="at least K at the frame")
-    parser.add_argument("--drive", action="append", default=[], metavar="PAIR@PLACE", help="one for each drive")
-    parser.add_argument("--output", metavar="PAIR@PLACE", help="the output link's joint; @moving: not at the frame")
+    parser.add_argument("--prismatic", type=int, default=0, metavar="K", help="number of sliding joints (default: 0)")
+    parser.add_argument("--rolling", type=int, default=0, metavar="K", help="number of rolling joints (default: 0)")
     parser.add_argument(
-        "--output-at-drive", choices=("yes", "no"), help="whether the output is a driven link's neighbour"
+        "--roll-slide", type=int, default=0, metavar="K", help="number of gear and cam contacts (default: 0)"
     )
-    parser.add_argument("--count", action="store_true", help="only how many")
-    parser.add_argument("--yes", action="store_true", help="begin even if it will be long")
-    parser.add_argument("--json", action="store_true", help="an object with count and items")
+    parser.add_argument(
+        "--multiple-joints", type=int, default=0, metavar="K", help="number of multiple joints (default: 0)"
+    )
+    parser.add_argument("--assortment", metavar="N2,N3,...", help="numbers of binary, ternary, ... links")
+    parser.add_argument("--frame-joints", type=int, metavar="K", help="number of joints on the frame")
+    parser.add_argument(
+        "--at-frame", action="append", default=[], metavar="PAIR[:K]", help="at least K such joints (1) on the frame"
+    )
+    parser.add_argument(
+        "--drive-joint", action="append", default=[], metavar="PAIR@PLACE", help="a driven joint; once per drive"
+    )
+    parser.add_argument(
+        "--output-joint", metavar="PAIR@PLACE", help="a joint of the output link; @moving: not on the frame"
+    )
+    parser.add_argument(
+        "--output-at-drive", choices=("yes", "no"), help="whether the output link is next to a driven link"
+    )
+    parser.add_argument("--count", action="store_true", help="only the number")
+    parser.add_argument("--yes", action="store_true", help="start even if it takes long")
+    parser.add_printed(help="print an object with count and items")
+    parser.replaced("--drive", "--drive-joint")
+    parser.replaced("--output", "--output-joint", like=".*@.*")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -60,38 +68,42 @@ def run(arguments: argparse.Namespace) -> int:
         roll_slide=arguments.roll_slide,
         assortment=assortment_of(arguments.assortment),
         multiple_joints=arguments.multiple_joints,
-        drives=tuple(JointRequirement.parse(text) for text in arguments.drive),
+        drives=tuple(JointRequirement.parse(text) for text in arguments.drive_joint),
         at_frame=tuple(_at_frame(text) for text in arguments.at_frame),
         frame_joints=arguments.frame_joints,
-        output=None if arguments.output is None else JointRequirement.parse(arguments.output),
+        output=None if arguments.output_joint is None else JointRequirement.parse(arguments.output_joint),
         output_at_drive={"yes": True, "no": False, None: None}[arguments.output_at_drive],
     )
     seconds = expected_seconds_of_variants(wanted, mechanisms=wanted.about_mechanisms, drives=wanted.about_drives)
     ask_before(seconds, arguments.yes)
     quiet = arguments.count or arguments.json or not sys.stdout.isatty()
-    all_found = progress(variants(wanted), _PROGRESS[arguments.lang] if quiet else "")
+    words = message("{n} found, {seconds:.0f} s").in_language(arguments.lang) if quiet else ""
+    found = progress(variants(wanted), words)
     if arguments.count:
-        number = sum(1 for _ in all_found)
-        print(json.dumps({"count": number}) if arguments.json else number)
-        return 0
-    if arguments.json:
-        items = [_item(one) for one in all_found]
+        count = sum(1 for _ in found)
+        if arguments.json:
+            print_json({"count": count}, indent=None)
+        else:
+            print(count)
+    elif arguments.json:
+        items = [_item(each) for each in found]
         print_json({"count": len(items), "items": items})
-        return 0
-    number = 0
-    for one in all_found:
-        print(one)
-        number += 1
-    print(_FOUND[arguments.lang].format(n=number), file=sys.stderr)
+    else:
+        count = 0
+        for count, each in enumerate(found, 1):  # noqa: B007  the last count is printed
+            print(each)
+        print(translate("{count} found.", arguments.lang, count=count), file=sys.stderr)
     return 0
 
 
-def _item(one: Chain | DrivenMechanism) -> dict[str, object]:
-    return item(one) if isinstance(one, DrivenMechanism) else {"code": code(one), "text": str(one)}
+def _item(variant: Chain | DrivenMechanism) -> dict[str, object]:
+    return item(variant) if isinstance(variant, DrivenMechanism) else {"code": code(variant), "text": str(variant)}
 
 
 def _at_frame(text: str) -> tuple[JointRequirement, int]:
-    symbol, _, number = text.partition(":")
-    if number and not number.isdecimal():
-        raise GrueblerError("--at-frame {text_!r}: expected a pair, or a pair and a number such as P:2", text_=text)
-    return JointRequirement.parse(f"{symbol}@frame"), int(number or 1)
+    symbol, _, count = text.partition(":")
+    if count and not count.isdecimal():
+        raise GrueblerError(
+            "--at-frame: expected a pair, or a pair and a number such as P:2, but found {found!r}", found=text
+        )
+    return JointRequirement.parse(f"{symbol}@frame"), int(count or 1)

@@ -54,8 +54,8 @@ def read_linkage(path: Path | str) -> Linkage:
     data = load_document(path, lambda problem: LinkageError("{path}: {problem}", path=path, problem=problem))
     if isinstance(data, Mapping) and "screws" in data:
         raise LinkageError(
-            "{path}: has the screws of its joints in one position, not the sizes of its links: `gruebler "
-            "freedoms {path}` says how it moves",
+            "{path}: has the screws of its joints in one position, not the dimensions of its links: `gruebler check "
+            "{path} --explain` says how it moves",
             path=path,
         )
     try:

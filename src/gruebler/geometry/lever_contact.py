@@ -7,6 +7,7 @@ any kind there is `gruebler.geometry.contact`, by another way.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -48,7 +49,7 @@ class LeverPose(NamedTuple):
     branch: int
 
 
-def lever_pose(linkage: Linkage, point: str, drive: float) -> LeverPose:
+def lever_pose(linkage: Linkage, point: str, drive: float, branch: str | None = None) -> LeverPose:
     """A four-bar or a central inverted slider-crank (joints in the order A0, A, B, B0), wherever its frame lies.
 
     Raises `LinkageError` for other linkages, and a drive value that is out of reach.
@@ -57,13 +58,21 @@ def lever_pose(linkage: Linkage, point: str, drive: float) -> LeverPose:
     >>> round(pose.size.c, 9), round(pose.u, 9), round(pose.phi, 9), pose.branch
     (40.0, 45.0, 1.0, 1)
     """
-    motion = move(linkage, drive)
+    motion = move(linkage, drive, branch=branch)
     if not motion.complete:
         raise LinkageError("{reason}", reason=motion.reason)
-    names = linkage.mechanism.chain.joint_names()
+    mechanism = linkage.mechanism
+    names, links = mechanism.chain.joint_names(), [set(joint.links) for joint in mechanism.chain.joints]
     turning = [complex(motion.complex_point(name)[0]) for name in names if name.startswith("R")]
-    if len(names) != 4 or len(turning) not in (3, 4):
-        raise LinkageError("this is known of linkages with one loop and at most one slide only")
+    if [name[0] for name in names] not in (list("RRRR"), list("RRPR")):
+        raise LinkageError(
+            "expected a four-bar or an inverted slider-crank, but found joints {joints}", joints=", ".join(names)
+        )
+    if not links[0] & links[-1] == {mechanism.frame} or not all(one & other for one, other in pairwise(links)):
+        raise LinkageError(
+            "expected joints in order round the loop, from the frame over the crank, but found {joints}",
+            joints=", ".join(names),
+        )
     a0, a, *b, b0 = turning
     along, crank = (b[0] if b else b0) - a, (a - a0) / (b0 - a0)
     arm = (complex(motion.complex_point(point)[0]) - a) / along * abs(along)

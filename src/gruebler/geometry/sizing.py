@@ -8,10 +8,22 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.straight import Path, PathPiece, longest_piece, path_piece
+from gruebler.geometry.straight import Path, PathPiece, linkage_path, longest_piece, path_piece
+from gruebler.kinematics import move
+from gruebler.linkages import Linkage, LinkPoint
 from gruebler.linkages.quantities import as_finite, as_positive
 
-__all__ = ["RatioCurve", "Sizing", "Window", "longest_in_band", "ratio_curve", "scale_for", "widest_piece"]
+__all__ = [
+    "RatioCurve",
+    "Sizing",
+    "Window",
+    "crank_length",
+    "longest_in_band",
+    "ratio_curve",
+    "scale_for",
+    "tangent_windows",
+    "widest_piece",
+]
 
 
 class Window(NamedTuple):
@@ -73,6 +85,72 @@ def ratio_curve(path: Path, window: Window, samples: int = 721) -> RatioCurve:
     with np.errstate(divide="ignore", invalid="ignore"):
         ratios = np.where(lengths > 0, bands / lengths, np.inf)
     return RatioCurve(widths[1:], window.ends(widths[1:])[0], lengths, ratios)
+
+
+def tangent_windows(
+    linkage: Linkage,
+    point: str | LinkPoint,
+    centre: float,
+    *,
+    branch: str | None = None,
+    ratios: tuple[float, float] = (1e-6, 0.02),
+) -> RatioCurve:
+    """Q_G and L over the windows about a crank angle, against the path's tangent there.
+
+    Args:
+        linkage: With one drive that turns.
+        point: A named point, a joint or a point of a link.
+        centre: The crank angle in radians.
+        branch: The assembly mode.
+        ratios: The least and the greatest Q_G of the windows.
+
+    Raises `LinkageError` where the linkage cannot be moved all the way, and if fewer than two windows are so straight.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> lever = FourBar(20, 50, 50, 40).linkage({"K": (100, 0)})
+    >>> curve = tangent_windows(lever, "K", np.pi)
+    >>> bool((np.diff(curve.widths) > 0).all()), round(float(curve.ratios[-1]), 2)
+    (True, 0.02)
+    """
+    least, most = ratios
+    middle = move(linkage, [as_finite("centre", centre)], speed=1.0, branch=branch)
+    if not len(middle):
+        raise LinkageError("{reason}", reason=middle.reason)
+    path, tangent = linkage_path(linkage, point, branch), float(np.angle(middle.complex_point(point, 1)[0]))
+    width = 2 * np.pi
+    for _ in range(2):  # first the range of the windows, then that range finely
+        curve = ratio_curve(path, Window(centre - width / 2, centre, centre + width / 2, tangent))
+        shown = (least <= curve.ratios) & (curve.ratios <= most)
+        if np.count_nonzero(shown) < 2:
+            raise LinkageError(
+                "the path of {point} about {centre:g}° has no windows with Q_G from {least:g} to {most:g}",
+                point=point if isinstance(point, str) else f"{point.link}:{point.x:g},{point.y:g}",
+                centre=np.degrees(centre),
+                least=least,
+                most=most,
+            )
+        width = min(1.01 * float(curve.widths[shown][-1]), width)
+    return RatioCurve(*(values[shown] for values in curve))
+
+
+def crank_length(linkage: Linkage) -> float:
+    """The length of the driven link: from the driven joint to the next revolute joint on it.
+
+    Raises `LinkageError` for a linkage without such a link, or with several drives.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> crank_length(FourBar(25, 70, 40, 70).linkage())
+    25.0
+    """
+    drives = linkage.mechanism.drives
+    if len(drives) == 1 and drives[0].turning:
+        driven, link = drives[0].joint, linkage.reference(0)[1]
+        for number, joint in enumerate(linkage.mechanism.chain.joints):
+            if number != driven and link in joint.links and joint.pair.name == "revolute":
+                length = linkage.length(link, driven, number)
+                if length > 0:
+                    return length
+    raise LinkageError("expected a linkage with one drive, a crank with two revolute joints")
 
 
 def _points(path: Path, parameters: Reals) -> Complexes:

@@ -31,7 +31,7 @@ __all__ = [
 ]
 
 
-_RANK = 1e-8  # of the largest singular value: the same threshold as that of `gruebler freedoms`
+_RANK = 1e-8  # of the largest singular value: the same threshold as that of `screws.freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
 _NEAR = 0.05  # sizes and radians: a closed position farther away is not the reference pose
 _WELL = 0.1  # of the largest share in the redundancy: conditions with less are not released
@@ -92,7 +92,8 @@ def independent_part(linkage: Linkage) -> Independent:
     if linkage.reference_pose is None:
         raise LinkageError(
             "Only with special sizes does it move: with a position in which its joints close ([home] or [places]) it "
-            "is moved along the conditions that are independent there. `gruebler freedoms` says what its sizes allow."
+            "is moved along the conditions that are independent there. `gruebler check --explain` says what its "
+            "sizes allow."
         )
     conditions = ReferenceConditions(linkage)
     x = conditions.settled()
@@ -104,7 +105,7 @@ def independent_part(linkage: Linkage) -> Independent:
         names = ", ".join(mechanism.chain.joint_names()[k] for k in sorted(_stressed(conditions, locked)))
         raise LinkageError(
             "In the given position its joints leave mobility {freedoms}, less than the number of drives "
-            "({count}); the drives are blocked by {joints}. `gruebler freedoms` analyses its mobility with "
+            "({count}); the drives are blocked by {joints}. `gruebler check --explain` analyses its mobility with "
             "these dimensions.",
             freedoms=freedoms,
             count=len(drives),
@@ -113,7 +114,7 @@ def independent_part(linkage: Linkage) -> Independent:
     if len(matrix) + len(drives) - locked.shape[1] < matrix.shape[1]:
         raise LinkageError(
             "Its home position is a change point, or its drives leave something free there: give it another one. "
-            "`gruebler freedoms` says which velocities there are."
+            "`gruebler check --explain` says which velocities there are."
         )
     chosen = _simplest(linkage, list(_releases(conditions, x)), forces)
     return Independent(_released(linkage, chosen), tuple(sorted({_release.joint for _release in chosen})))

@@ -127,8 +127,7 @@ def find_zeros(jet: Jet, samples: FunctionSamples | Reals, least: float = 0.0) -
     gone = _vanishing(parts, samples, least)
     if all(gone):
         return ()
-    rows = np.concatenate([part.rows for part, without in zip(parts, gone, strict=True) if not without], axis=1)
-    usual = np.quantile(np.abs(rows), 0.9, axis=1)
+    usual = _usual([part for part, without in zip(parts, gone, strict=True) if not without])
     for stretch in _runs(parts, gone, False, samples.period):
         whole = len(stretch) == len(parts) and samples.period is not None
         zeros += _zeros_of(jet, stretch, samples, usual, samples.period if whole else None)
@@ -180,6 +179,19 @@ def _parts(jet: Jet, samples: FunctionSamples) -> list[_SmoothPart]:
         _SmoothPart(float(low), float(high), at, part)
         for low, high, at, part in zip(bounds[:-1], bounds[1:], places, rows, strict=True)
     ]
+
+
+def _usual(parts: list[_SmoothPart]) -> Reals:
+    """What a function and each derivative exceed on a tenth of these parts.
+
+    Samples count by the width they stand for: towards a limit, where derivatives grow without bound, they are dense.
+    """
+    width = np.concatenate([np.gradient(part.at) for part in parts])
+    rows = np.abs(np.concatenate([part.rows for part in parts], axis=1))
+    order = np.argsort(rows, axis=1, kind="stable")
+    below = np.cumsum(width[order], axis=1)
+    at = np.argmax(below >= 0.9 * below[:, -1:], axis=1)
+    return np.asarray(np.take_along_axis(rows, np.take_along_axis(order, at[:, None], axis=1), axis=1)[:, 0])
 
 
 def _noise(samples: FunctionSamples, row: int) -> float:

@@ -8,7 +8,7 @@ independent placements are compared and the bound on the probability of error is
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,9 +25,10 @@ __all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
 
 _FIRST_SEED = 20_261_121
 _SAMPLES = 3  # random motions or stresses that stand for all
-_MOST_ROWS = 400_000  # constraints that are taken without being asked again: about 1 GB
+_LARGEST = 1e9  # bytes that are taken without being asked again
 _SECONDS_A_ROW = 1e-4
-_BYTES_A_ROW = 2700
+_BYTES_A_ROW = 2800  # of the process, measured with 20,000 links (benchmarks/README.md)
+_BYTES_WITH_STRESSES = 3500  # the same where some constraints depend on others: the transpose is eliminated, too
 _TRIES = 4  # placements tried before a rank below the theorem's is called impossible
 
 
@@ -87,8 +88,9 @@ class Generic:
     @cached_property
     def stress_form(self) -> Echelon:
         """The equations of the self-stresses, the dependencies among the constraints, in echelon form."""
-        rows = transposed(self.placement.rows, self.placement.columns)
-        return _eliminated(rows, len(self.placement.rows), large=self.large)
+        count = len(self.placement.rows)
+        _check_size(count, stresses=True, large=self.large)
+        return _eliminated(transposed(self.placement.rows, self.placement.columns), count, large=self.large)
 
     @cached_property
     def some_stresses(self) -> NDArray[np.int64]:
@@ -104,8 +106,7 @@ def generic(chain: Chain, locks: Sequence[LockedFreedom] = (), *, large: bool = 
     ``large``.
     """
     rows = len(locks) + sum(joint.count * joint.pair.u(chain.space) for joint in chain.joints)
-    if rows > _MOST_ROWS and not large:
-        raise _too_large(CoreTooLarge(rows, rows * _SECONDS_A_ROW, rows * _BYTES_A_ROW))
+    _check_size(rows, stresses=rows > chain.space.b * (chain.n - 1), large=large)
     licensed = bool(theorem(chain)) and not locks
     known = None
     best: tuple[Placement, Echelon] | None = None
@@ -126,7 +127,13 @@ def generic(chain: Chain, locks: Sequence[LockedFreedom] = (), *, large: bool = 
     raise AssertionError(f"{_TRIES} random placements stay below the rank that theory gives for {chain!r}")
 
 
-def _eliminated(rows: list[Row], columns: int, *, large: bool) -> Echelon:
+def _check_size(rows: int, *, stresses: bool, large: bool) -> None:
+    size = rows * (_BYTES_WITH_STRESSES if stresses else _BYTES_A_ROW)
+    if size > _LARGEST and not large:
+        raise _too_large(CoreTooLarge(rows, rows * _SECONDS_A_ROW, size))
+
+
+def _eliminated(rows: Iterable[Row], columns: int, *, large: bool) -> Echelon:
     try:
         return echelon(rows, columns, large=large)
     except CoreTooLarge as core:

@@ -1,24 +1,28 @@
-"""The table of `gruebler analyse`: columns of numbers over the rows of a motion."""
+"""The table of a motion: drives, outputs and points with their derivatives, columns of numbers with units."""
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from math import pi
-from pathlib import Path
-from typing import NamedTuple
+from math import ceil, floor, log10, pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from gruebler.analysis.outputs import Output
+from gruebler.analysis.outputs import Output, find_output
+from gruebler.analysis.transmission import transmission_angle
 from gruebler.arrays import Reals
-from gruebler.errors import GrueblerError
-from gruebler.kinematics import Motion
+from gruebler.chain.pairs import Alphabet
+from gruebler.columns import Column, Table
+from gruebler.kinematics.drive_rows import from_degrees
+from gruebler.kinematics.motion import Motion
 from gruebler.linkages import CamDisc, GenevaDriver, Linkage, NonCircular
+from gruebler.text import translate
 
-__all__ = ["Column", "as_csv", "check_csv", "columns", "shown"]
+if TYPE_CHECKING:
+    from gruebler.analysis.drive_cycle import CycleSpan
+
+__all__ = ["default_rows", "motion_table"]
 
 _POSE = ("x", "y")
 _RATES = (("vx", "vy"), ("ax", "ay"), ("jx", "jy"))
@@ -26,54 +30,48 @@ _DEGREES = 180 / pi
 # Of derivatives of the orders 0 to 3 where polynomials stand for cams and non-circular wheels: each one multiplies
 # rounding. docs/theory/wheels.md has 1e-10, 1e-7, 1e-4 for velocities, accelerations, jerks of up to 24, 45, 310.
 _POLYNOMIAL_NOISE = (1e-12, 1e-10, 1e-8, 1e-6)
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+_ROW_STEP = 15.0  # degrees between the rows of a full turn
 
 
-class Column(NamedTuple):
-    """A quantity over the rows."""
-
-    name: str
-    unit: str
-    values: Reals
-    """(rows,); NaN where it is not defined."""
-    natural: float = 0.0
-    """What such a quantity usually is."""
-    noise: float = 1e-12
-    """The part of the largest or usual value that rounding can make."""
-
-    @property
-    def header(self) -> str:
-        """Name and unit."""
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
-
-    def without(self, rows: int) -> Column:
-        """The column without its first rows."""
-        return self._replace(values=self.values[rows:])
-
-
-def columns(
+def motion_table(
     motion: Motion,
-    outputs: Sequence[Output],
-    points: Iterable[str],
+    outputs: Sequence[str | Output] | None = None,
+    points: Sequence[str] = (),
+    *,
     rates: Sequence[float] | None = None,
-    transmission: Reals | None = None,
-    word: str = "",
-) -> list[Column]:
-    """Drives, outputs with derivatives by the drive and in time, transmission angle, points.
+    transmission: str | None = None,
+    lang: str = "en",
+) -> Table:
+    """What a motion shows row by row: drives, outputs with derivatives by the drive and in time, points.
+
+    Angles are in degrees, their derivatives in radians, lengths in the linkage's unit, times in seconds. The name of
+    a derivative by the drive has a prime for each order; rates in time are ω, α, j of angles and v, a, j of lengths.
 
     Args:
-        motion: of one drive solved for speed 1, of several for their rates, to the second or third order; or to
-            order 0.
-        outputs: what is looked at.
-        points: names of points or joints.
-        rates: velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
+        motion: Of one drive solved for speed 1, of several for their rates, to the second or third order; or to
+            order 0, for positions only.
+        outputs: Links or sliding joints; without them the linkage's outputs.
+        points: Names of points or joints.
+        rates: Velocity, acceleration and jerk of one drive, in radians or units of length and seconds; None: rates by
             the drive only.
-        transmission: (rows,) angle in radians, if there is one.
-        word: the name of that column.
+        transmission: The output whose transmission angle gets a column.
+        lang: Language of the column names and joint symbols.
+
+    >>> from gruebler.fourbar import FourBar
+    >>> from gruebler.kinematics import from_degrees, move
+    >>> table = motion_table(move(FourBar(25, 70, 40, 70).linkage(), from_degrees(0, 180, 90), speed=1.0), ["rocker"])
+    >>> [column.header for column in table]
+    ['R(frame-crank) [°]', 'rocker [°]', 'rocker′', 'rocker′′ [1/rad]']
+    >>> table["rocker"].round(3).tolist()
+    [69.258, 92.319, 138.876]
     """
     linkage, mechanism = motion.linkage, motion.linkage.mechanism
+    asked: Sequence[str | Output | None] = outputs or linkage.outputs or [None]
+    seen = [each if isinstance(each, Output) else find_output(linkage, each) for each in asked]
     out = []
-    for k, (name, drive) in enumerate(zip(mechanism.drive_names(), mechanism.drives, strict=True)):
+    for k, (name, drive) in enumerate(
+        zip(mechanism.drive_names(Alphabet.of_language(lang)), mechanism.drives, strict=True)
+    ):
         turning = drive.turning
         out.append(_scaled(name, turning, linkage, motion.drives[:, k]))
     turning = mechanism.drives[0].turning
@@ -94,7 +92,7 @@ def columns(
     if any(isinstance(element, CamDisc | GenevaDriver | NonCircular) for element in linkage.elements.values()):
         noise = _POLYNOMIAL_NOISE
     usual = (abs(v), v**2 + abs(a), abs(v) ** 3 + 3 * abs(v * a) + abs(j))
-    for output in outputs:
+    for output in seen:
         own, natural = ("rad", 1.0) if output.turning else (linkage.unit, linkage.size)
         out.append(_scaled(output.name, output.turning, linkage, output.values(motion)))
         for order in (1, 2) if orders and len(mechanism.drives) == 1 else ():
@@ -106,7 +104,8 @@ def columns(
             usually = natural * usual[order - 1] / unit**order
             out.append(Column(name, f"{own}/{_seconds(order)}", values, usually, noise[order]))
     if transmission is not None:
-        out.append(Column(word, "°", transmission * _DEGREES, _DEGREES))
+        angle = transmission_angle(motion, transmission)
+        out.append(Column(translate("transmission angle", lang), "°", angle * _DEGREES, _DEGREES))
     for name in points:
         at = motion.point(name)
         out += [Column(f"{name} {axis}", linkage.unit, at[:, k], linkage.size) for k, axis in enumerate(_POSE)]
@@ -118,7 +117,7 @@ def columns(
                 Column(f"{name} {axis}", written, values[:, k], natural, noise[order])
                 for k, axis in enumerate(_RATES[order - 1])
             ]
-    return out
+    return Table(tuple(out))
 
 
 def _seconds(order: int) -> str:
@@ -142,38 +141,28 @@ def _by(own: str, per: str, order: int) -> str:
     return f"{own}/{per}{'' if order == 1 else '²'}"
 
 
-def shown(made: Sequence[Column]) -> list[list[str]]:
-    """The rows as texts of six digits, rounding noise as 0, a radius without end as ∞."""
-    cells = []
-    for column in made:
-        finite = np.abs(column.values[np.isfinite(column.values)])
-        noise = column.noise * max(finite.max(initial=0.0), column.natural)
-        values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
-        cells.append([_cell(value) for value in values])
-    return [list(row) for row in zip(*cells, strict=True)]
+def default_rows(span: CycleSpan, between: tuple[float, float] | None, turning: bool) -> Reals:
+    """Drive values for a table: a full turn by 15 degrees, or about 20 round numbers in the range; (rows, 1).
 
-
-def _cell(value: float) -> str:
-    if np.isfinite(value):
-        return f"{value + 0.0:.6g}"
-    return "∞" if np.isinf(value) else "–"
-
-
-def check_csv(path: Path | None) -> None:
-    """`GrueblerError` if the name of the file promises something else than a table."""
-    if path is not None and path.suffix.lower() not in ("", ".csv", ".txt"):
-        raise GrueblerError("{path}: a table is written as CSV; end the name with .csv", path=path)
-
-
-def as_csv(made: Sequence[Column]) -> str:
-    """A table with the units in its header; an empty cell where a quantity is not defined.
-
-    Headers that begin with = + - @, a tab or a line end get an apostrophe in front, so that no spreadsheet takes the
-    name of a point for a formula. Numbers stay as they are.
+    Args:
+        span: The range of the drive.
+        between: A smaller range, in degrees or the unit.
+        turning: Whether the drive turns.
     """
-    text = io.StringIO()
-    writer = csv.writer(text)
-    writer.writerow(["'" + one if one.startswith(_FORMULA) else one for one in (column.header for column in made)])
-    for row in zip(*(column.values for column in made), strict=True):
-        writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
-    return text.getvalue()
+    if between is None and span.full:
+        return from_degrees(0, 360 * span.turns, _ROW_STEP).reshape(-1, 1)
+    scale = 180 / pi if turning else 1.0
+    low, high = between or (span.low * scale, span.high * scale)
+    step = _round_step((high - low) / 20)
+    first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
+    return np.array([[k * step / scale] for k in range(first, last + 1)])
+
+
+def _round_step(step: float) -> float:
+    """The next number of 1, 2, 5 times a power of ten.
+
+    >>> _round_step(0.03), _round_step(3.4)
+    (0.05, 5.0)
+    """
+    power = floor(log10(step))
+    return next(float(f"{k}e{power}") for k in (1, 2, 5, 10) if k * 10.0**power >= step * (1 - 1e-9))

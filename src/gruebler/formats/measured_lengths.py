@@ -7,14 +7,14 @@ import re
 
 from gruebler.errors import GrueblerError
 
-__all__ = ["length_of", "numbers_in_language", "same_unit"]
+__all__ = ["length_of", "same_unit"]
 
 _METRES = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254}
 _FORM = re.compile(r"\s*([-+]?[0-9.]+(?:[eE][-+]?[0-9]{1,3})?)\s*([a-zA-Z]*)\s*")
 
 
 def length_of(name: str, word: str) -> tuple[float, str]:
-    """Number and unit; no unit is an empty one.
+    """Number and unit; no unit is an empty one. Errors begin with the name.
 
     >>> length_of("length", "15cm"), length_of("length", "2")
     ((15.0, 'cm'), (2.0, ''))
@@ -26,10 +26,10 @@ def length_of(name: str, word: str) -> tuple[float, str]:
         value = math.nan
     if form is None or not 0 < value < 1e70 or form[2] not in ("", *_METRES):
         raise GrueblerError(
-            "--{name}: expected a positive length such as 15cm (units: {metres}), but found {word!r}",
+            "{name}: expected a positive length such as 15cm (units: {units}), but found {found!r}",
             name=name,
-            metres=", ".join(_METRES),
-            word=word,
+            units=", ".join(_METRES),
+            found=word,
         )
     return value, form[2]
 
@@ -45,14 +45,3 @@ def same_unit(value: float, unit: str, wanted: str) -> float:
     if not wanted:
         raise GrueblerError("one length is in {unit}, the other has no unit: give both, or none", unit=unit)
     return float(f"{value * _METRES[unit] / _METRES[wanted]:.15g}")
-
-
-def numbers_in_language(text: str, lang: str) -> str:
-    """Numbers with a decimal comma in German; in lists of numbers a semicolon stands between them then.
-
-    >>> numbers_in_language("a = 1.5, 2.5", "de")
-    'a = 1,5; 2,5'
-    """
-    if lang != "de":
-        return text
-    return re.sub(r"(?<=\d)\.(?=\d)", ",", re.sub(r"(?<=\d), (?=[-−\d])", "; ", text))

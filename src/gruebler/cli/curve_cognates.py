@@ -1,0 +1,128 @@
+"""`gruebler curve --cognates`: the other linkages that trace the same coupler curve."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Sequence
+
+from gruebler.analysis.drive_cycle import drive_cycle
+from gruebler.cli.coupler_inputs import branch_sign, coupler_point
+from gruebler.cli.linkage_inputs import linkage_of, size_of, with_points
+from gruebler.cli.output import print_json
+from gruebler.cli.tables import Cell, print_table
+from gruebler.errors import GrueblerError
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.geometry.lever_contact import lever_pose
+from gruebler.geometry.roberts import Cognate, cognates, slider_cognates
+from gruebler.text import joined, message, number, translate
+
+__all__ = ["run"]
+
+_INSIDE = 0.4  # of the range of the crank: a pose away from its limits
+_LINKS = {"crank": message("crank"), "coupler": message("coupler"), "rocker": message("rocker")}
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Lengths, coupler point and place of every cognate."""
+    size, u, v, branch, phi = _given(arguments)
+    found: Sequence[Cognate]
+    if isinstance(size, FourBar):
+        found = cognates(size, u, v, branch=branch, phi=phi)
+    elif isinstance(size, SliderCrank):
+        found = slider_cognates(size, u, v, branch=branch, phi=phi)
+    else:
+        raise GrueblerError("cognates are known of the four-bar and the slider-crank, not of its inversion")
+    if arguments.json:
+        print_json({"cognates": [_item(cognate) for cognate in found]})
+    else:
+        _print(found, arguments.lang)
+    return 0
+
+
+def _given(
+    arguments: argparse.Namespace,
+) -> tuple[FourBar | SliderCrank | InvertedSliderCrank, float, float, int, float | None]:
+    """The linkage by its lengths, the coupler point, the assembly mode, and the crank angle of the pose."""
+    size = size_of(arguments.linkage)
+    if size is not None:
+        u, v = coupler_point(size, arguments.point)
+        return size, u, v, branch_sign(arguments.branch), _radians(arguments.at)
+    linkage = with_points(linkage_of(arguments.linkage)[0], [arguments.point])
+    drive = _radians(arguments.at)
+    if drive is None:
+        span = drive_cycle(linkage, arguments.branch).span
+        drive = span.low + _INSIDE * span.width
+    size, u, v, phi, branch = lever_pose(linkage, arguments.point, drive, arguments.branch)
+    return size, u, v, branch, phi
+
+
+def _radians(degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(degrees)
+
+
+def _lengths(cognate: Cognate) -> dict[str, float]:
+    return {name: getattr(cognate.size, name) for name in ("abcd" if isinstance(cognate.size, FourBar) else "abe")}
+
+
+def _print(found: Sequence[Cognate], lang: str) -> None:
+    rows = [
+        (
+            str(n),
+            *(number(value, lang, ".6f") for value in (*_lengths(cognate).values(), cognate.u, cognate.v)),
+            translate("{x:.6g}; {y:.6g}", lang, x=cognate.pivot.real, y=cognate.pivot.imag),
+            number(_degrees(cognate.turn), lang, ".4f") + "°",
+            cognate.size.type.name(lang),
+        )
+        for n, cognate in enumerate(found, 1)
+    ]
+    headers: tuple[Cell, ...] = (
+        "",
+        *_lengths(found[0]),
+        "u",
+        "v",
+        message("pivot"),
+        message("direction"),
+        message("type"),
+    )
+    print_table(headers, rows, numbers=range(len(headers) - 1), lang=lang)
+    print()
+    if isinstance(found[0].size, FourBar):
+        third = found[1].pins[3]
+        print(
+            translate(
+                "Third pivot C0 at {x:.6g}, {y:.6g}, distance {distance:.9g} from A0.",
+                lang,
+                x=third.real,
+                y=third.imag,
+                distance=abs(third),
+            )
+        )
+    else:
+        print(translate("The third pivot lies at infinity: a slider-crank has one further cognate.", lang))
+    for n, cognate in enumerate(found[1:], 2):
+        pairs = zip(_LINKS, cognate.turns_with, strict=False)
+        turning = [
+            message("{link} turns with the given {given}", link=_LINKS[own], given=_LINKS[other])
+            for own, other in pairs
+        ]
+        print(translate("Cognate {number}: {links}.", lang, number=n, links=joined(turning)))
+
+
+def _item(cognate: Cognate) -> dict[str, object]:
+    return {
+        **_lengths(cognate),
+        "u": cognate.u,
+        "v": cognate.v,
+        "type": cognate.size.type.key,
+        "direction_deg": _degrees(cognate.turn),
+        "pins": [[pin.real, pin.imag] for pin in cognate.pins],
+        "point": [cognate.point.real, cognate.point.imag],
+        "phi_deg": math.degrees(cognate.phi),
+        "branch": cognate.branch,
+        "turns_with": list(cognate.turns_with),
+    }
+
+
+def _degrees(turn: complex) -> float:
+    return math.degrees(math.atan2(turn.imag, turn.real)) + 0.0

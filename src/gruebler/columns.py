@@ -1,0 +1,122 @@
+"""Tables of numbers: named columns with units, as text or CSV."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.arrays import Reals
+from gruebler.errors import GrueblerError, nearest
+from gruebler.text import number
+
+__all__ = ["Column", "Table", "as_csv", "shown"]
+
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+
+
+class Column(NamedTuple):
+    """A quantity over the rows of a table."""
+
+    name: str
+    unit: str
+    values: Reals
+    """(rows,); NaN where it is not defined."""
+    natural: float = 0.0
+    """What such a quantity usually is."""
+    noise: float = 1e-12
+    """The part of the largest or usual value that rounding can make."""
+
+    @property
+    def header(self) -> str:
+        """Name and unit.
+
+        >>> Column("torque", "N·mm", np.zeros(1)).header
+        'torque [N·mm]'
+        """
+        return f"{self.name} [{self.unit}]" if self.unit else self.name
+
+    def without(self, rows: int) -> Column:
+        """The column without its first rows."""
+        return self._replace(values=self.values[rows:])
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns over the same rows."""
+
+    columns: tuple[Column, ...]
+
+    def __iter__(self) -> Iterator[Column]:
+        return iter(self.columns)
+
+    def __len__(self) -> int:
+        """How many rows there are."""
+        return len(self.columns[0].values) if self.columns else 0
+
+    def __getitem__(self, name: str) -> Reals:
+        """The values of a column, (rows,); `GrueblerError` with the nearest name if there is none."""
+        for column in self.columns:
+            if column.name == name:
+                return column.values
+        names = [column.name for column in self.columns]
+        raise GrueblerError(
+            "the table has no column {name!r}{suggestion}; it has {names}",
+            name=name,
+            suggestion=nearest(name, names),
+            names=", ".join(names),
+        )
+
+    @property
+    def rows(self) -> Reals:
+        """All values; (rows, columns)."""
+        return np.column_stack([column.values for column in self.columns])
+
+    def without(self, rows: int) -> Table:
+        """The table without its first rows."""
+        return Table(tuple(column.without(rows) for column in self.columns))
+
+    def csv(self) -> str:
+        """The table as CSV, with units in its header."""
+        return as_csv(self.columns)
+
+
+def shown(columns: Iterable[Column], lang: str = "en") -> list[list[str]]:
+    """The rows as texts of six digits, rounding noise as 0, an infinite value as ∞, a missing one as –.
+
+    >>> shown([Column("x", "", np.array([1.5, 1e-15, np.nan]))], "de")
+    [['1,5'], ['0'], ['–']]
+    """
+    cells = []
+    for column in columns:
+        finite = np.abs(column.values[np.isfinite(column.values)])
+        noise = column.noise * max(finite.max(initial=0.0), column.natural)
+        values = np.where(np.abs(column.values) <= noise, 0.0, column.values)
+        cells.append([_cell(value, lang) for value in values])
+    return [list(row) for row in zip(*cells, strict=True)]
+
+
+def _cell(value: float, lang: str) -> str:
+    if np.isfinite(value):
+        return number(value + 0.0, lang)
+    return "∞" if np.isinf(value) else "–"
+
+
+def as_csv(columns: Iterable[Column]) -> str:
+    """A table with the units in its header; an empty cell where a quantity is not defined.
+
+    Headers that begin with = + - @, a tab or a line end get an apostrophe in front, so that no spreadsheet takes the
+    name of a point for a formula. Numbers stay as they are.
+    """
+    columns = list(columns)
+    text = io.StringIO()
+    writer = csv.writer(text)
+    headers = [column.header for column in columns]
+    writer.writerow(["'" + header if header.startswith(_FORMULA) else header for header in headers])
+    for row in zip(*(column.values for column in columns), strict=True):
+        writer.writerow([repr(float(value)) if np.isfinite(value) else "" for value in row])
+    return text.getvalue()
