@@ -31,7 +31,7 @@ from gruebler.synthesis import (
     synthesise_positions,
 )
 from gruebler.synthesis.functions import Coordination, Minimax
-from gruebler.text import message, number, numbers, translate
+from gruebler.text import joined, message, number, numbers, translate
 
 __all__ = ["add", "run"]
 
@@ -271,7 +271,7 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
             )
         )
     for note in result.notes:
-        print(note)
+        print(note.in_language(lang))
     accepted = len(result.designs)
     print(
         translate(
@@ -285,14 +285,14 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
     if (rejected or not result.designs) and result.rejected:
         print()
         designs = result.rejected if rejected else result.rejected[:5]
-        rows = [[design.form, "; ".join(design.verdict.reasons)] for design in designs]
+        rows = [[design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs]
         print_table((message("rejected"), message("reason")), rows, lang=lang)
 
 
 def _row(position: int, design: Design, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
-        f"{position} {design.form}",
+        f"{position} {design.form_in_language(lang)}",
         design.linkage.mechanism.drive_names("german" if lang == "de" else "international")[0],
         message("yes") if verdict.turns_fully else message("no"),
         "" if isnan(verdict.transmission) else number(degrees(verdict.transmission), lang, ".1f") + "°",
