@@ -39,9 +39,10 @@ def synthesise_path(
 ) -> SynthesisResult:
     """All four-bars whose coupler point passes through the points of a task.
 
-    With nine points, five points and two fixed pivots, five points with crank angles, or the finite mixed tasks all
-    solutions are found; with fewer the task is completed, since it has infinitely many; with more, and for a closed
-    curve, the four-bars that come nearest are sought.
+    Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
+    finitely many solutions, all of which are found. Fewer points have infinitely many: points on a smooth curve through
+    them are added until the number is finite. For more points, and for a closed curve, the four-bars that come nearest
+    are sought.
 
     Args:
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
@@ -117,8 +118,8 @@ def _exact(
     cognate = problem.poses == 0 and not problem.given_pivots
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
-    count = SolutionCount(what, problem.classes, len(found.z) + found.infinite, len(found.real))
-    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(found, made.added)))
+    count = SolutionCount(what, None if made.added else problem.classes, len(found.z) + found.infinite, len(found.real))
+    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, found, made.added)))
 
 
 def _check_general(task: PathTask) -> None:
@@ -150,12 +151,13 @@ def _check_general(task: PathTask) -> None:
             )
 
 
-def _notes(found: Solutions, added: int) -> Iterator[Message]:
+def _notes(problem: Problem, found: Solutions, added: int) -> Iterator[Message]:
     if added:
         yield message(
-            "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added, "
-            "which leaves finitely many.",
+            "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added; "
+            "with them there are {theorem} solutions.",
             count=added,
+            theorem=problem.classes,
         )
     if found.infinite:
         yield message("{count} solutions lie at infinity: the task is a special one.", count=found.infinite)

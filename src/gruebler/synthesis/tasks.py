@@ -13,15 +13,19 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
+from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
 from gruebler.text import Message, joined_by_and, message
 
-__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task"]
+__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task", "function_task"]
 
 Pair = tuple[float, float]
+_Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outputs, whether their starts are given
 
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
+MOST_PAIRS = 5
+"""Precision pairs that a linkage coordinates exactly, with both starts free."""
 MOST_POINTS = 9
 """A coupler curve of a four-bar passes through nine general points; more are met as well as possible."""
 
@@ -217,6 +221,8 @@ class FunctionTask:
     start_input: bool = True
     start_output: bool = True
     unit: str = "mm"
+    law: FunctionLaw | None = None
+    """The function whose values at Chebyshev's spacing the pairs are; `function_task` makes such a task."""
 
     def __post_init__(self) -> None:
         for name in ("inputs", "outputs"):
@@ -236,9 +242,35 @@ class FunctionTask:
             for m in range(k):
                 if abs(value - self.inputs[m]) <= SAME:
                     raise SynthesisError("inputs {m} and {k} are equal", m=m + 1, k=k + 1)
+        if self.law is not None and _pairs_of(self.law, len(self)) != self._pairs:
+            raise SynthesisError("the pairs are not those of the function at Chebyshev's spacing")
+
+    @property
+    def _pairs(self) -> _Pairs:
+        return self.inputs, self.outputs, self.start_input, self.start_output
 
     def __len__(self) -> int:
         return len(self.inputs)
+
+
+def _pairs_of(law: FunctionLaw, count: int) -> _Pairs:
+    x = chebyshev_spacing(*law.interval, count)
+    starts = law.input_start is not None, law.output_start is not None
+    return (tuple(law.inputs(x).tolist()), tuple(law.outputs(x).tolist()), *starts)
+
+
+def function_task(law: FunctionLaw, count: int = 5, *, output: str = "angle", unit: str = "mm") -> FunctionTask:
+    """The precision pairs of a function at Chebyshev's spacing.
+
+    >>> function_task(FunctionLaw("log10(x)", (1, 2), 1.0, 1.0, 0.8, 0.9), 3).inputs
+    (0.866987..., 1.3, 1.733012...)
+    """
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_PAIRS:
+        raise SynthesisError(
+            "precision_points: expected 2 to {most} precision points, but found {count!r}", most=MOST_PAIRS, count=count
+        )
+    inputs, outputs, start_input, start_output = _pairs_of(law, count)
+    return FunctionTask(inputs, outputs, output, start_input, start_output, unit, law)
 
 
 @dataclass(frozen=True)
