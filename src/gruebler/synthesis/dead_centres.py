@@ -19,7 +19,14 @@ from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, Syn
 from gruebler.synthesis.tasks import DeadCentreTask
 from gruebler.text import message
 
-__all__ = ["DeadCentreFamily", "FamilyMember", "dead_centre_family", "synthesise_dead_centres"]
+__all__ = [
+    "DeadCentreFamily",
+    "DeadCentrePlaces",
+    "FamilyMember",
+    "dead_centre_family",
+    "member_places",
+    "synthesise_dead_centres",
+]
 
 
 _SAMPLES = 720
@@ -129,22 +136,15 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
     if sizes is None or not 0 < sizes[0] < sizes[1]:
         return None
     a, b = sizes
-    # The pin B in its outer (b + a) and inner (b - a) dead centre, seen from the crank's pivot.
-    delta = task.angle - pi
-    outer, inner = complex(b + a), (b - a) * complex(cos(delta), sin(delta))
-    way = inner - outer
+    outer, inner, pivot = _places(task, a, b)
+    chord = inner - outer
     try:
         linkage: FourBar | SliderCrank
-        if task.swing is None:
-            e = (np.conj(way) * outer).imag / abs(way)
-            linkage = SliderCrank(a, b, float(e))
-            centres = linkage.dead_centres
+        if pivot is None:
+            linkage = SliderCrank(a, b, float((np.conj(chord) * outer).imag / abs(chord)))
         else:
-            # From the outer to the inner dead centre the rocker turns by the swing in the sense of the crank.
-            turn = complex(cos(task.swing), sin(task.swing))
-            centre = (inner - turn * outer) / (1 - turn)
-            linkage = FourBar(a, b, 1.0, abs(centre))
-            centres = linkage.dead_centres
+            linkage = FourBar(a, b, 1.0, abs(pivot))
+        centres = linkage.dead_centres
         if centres is None:
             return None
         if task.swing is None:
@@ -153,11 +153,34 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
             wanted, found = (task.swing, task.angle), (centres.travel, centres.phi_back)
         if max(abs(x - y) for x, y in zip(wanted, found, strict=True)) > _SAME:
             return None
-        if task.swing is not None and not _same_sense(centre, outer, inner):
+        if pivot is not None and not _same_sense(pivot, outer, inner):
             return None
         return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest))
     except LinkageError:
         return None
+
+
+class DeadCentrePlaces(NamedTuple):
+    """Where the pin B of rocker or slider lies in the dead centres, and the rocker's pivot; the crank's is 0."""
+
+    outer: complex
+    inner: complex
+    rocker_pivot: complex | None
+
+
+def member_places(task: DeadCentreTask, member: FamilyMember) -> DeadCentrePlaces:
+    """The dead centres of a member; rocker or stroke have the length 1."""
+    return _places(task, member.linkage.a, member.linkage.b)
+
+
+def _places(task: DeadCentreTask, a: float, b: float) -> DeadCentrePlaces:
+    delta = task.angle - pi
+    outer, inner = complex(b + a), (b - a) * complex(cos(delta), sin(delta))
+    if task.swing is None:
+        return DeadCentrePlaces(outer, inner, None)
+    # From the outer to the inner dead centre the rocker turns by the swing in the sense of the crank.
+    turn = complex(cos(task.swing), sin(task.swing))
+    return DeadCentrePlaces(outer, inner, (inner - turn * outer) / (1 - turn))
 
 
 def _same_sense(centre: complex, outer: complex, inner: complex) -> bool:

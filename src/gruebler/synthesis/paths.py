@@ -118,7 +118,9 @@ def _exact(
     cognate = problem.poses == 0 and not problem.given_pivots
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
-    count = SolutionCount(what, None if made.added else problem.classes, len(found.z) + found.infinite, len(found.real))
+    count = SolutionCount(
+        what, None if made.added else problem.classes, problem.classes - found.missing, len(found.real)
+    )
     return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, found, made.added)))
 
 
@@ -161,9 +163,14 @@ def _notes(problem: Problem, found: Solutions, added: int) -> Iterator[Message]:
         )
     if found.infinite:
         yield message("{count} solutions lie at infinity: the task is a special one.", count=found.infinite)
+    if found.singular:
+        yield message(
+            "{count} solutions are singular, since some coincide or have coinciding pivots: the task is a special one.",
+            count=found.singular,
+        )
     if found.missing:
         yield message(
-            "{count} solutions are missing: their paths could not be followed to the end.", count=found.missing
+            "{count} solutions are not resolved: where their paths end could not be decided.", count=found.missing
         )
     doubtful = int(np.count_nonzero(~found.certified))
     if doubtful:
@@ -181,9 +188,9 @@ def _best_reference(
     for first in candidates[:2]:
         made = _reduced(task, problem, oriented, first)
         found = solutions(problem, made.parameters, threads=threads, progress=progress)
-        if best is None or len(found.z) > len(best[1].z):
+        if best is None or found.missing < best[1].missing:
             best = made, found
-        if not found.missing + found.infinite:
+        if not found.missing:
             break
     assert best is not None
     return best
