@@ -70,7 +70,7 @@ def test_a_function_file_gives_the_same_optimum(tmp_path, capsys):
 )
 def test_a_page_of_dead_centres_has_the_construction_and_moving_designs(options, tmp_path):
     page = tmp_path / "page.html"
-    assert main(["synthesise", "dead-centres", *options, "--number", "3", "--draw", str(page)]) == 0
+    assert main(["synthesise", "dead-centres", *options.split(), "--number", "3", "--draw", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
     assert all(f"{step}. " in text for step in range(1, 6))
     assert text.count("<svg") >= 8

@@ -47,7 +47,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
     """
     wanted = demands or Demands()
     free = (not task.start_input) + (not task.start_output)
-    made, notes = [], []
+    candidates, notes = [], []
     theorem: int | None = 0
     found = real = 0
     for kind in (kind for kind in KINDS if kind.output == task.output):
@@ -58,13 +58,13 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
             solutions = solve(kind, task)
             theorem = theorem if theorem is None else theorem + (solutions.complex if free else 1)
             found, real = found + solutions.complex, real + len(solutions.real)
-            made += [_design(task, wanted, solution) for solution in solutions.real]
+            candidates += [_design(task, wanted, solution) for solution in solutions.real]
     if free == 2:
         dyads = _connecting(task, number)
         real = len(dyads)
         theorem = 3 if len(task) == 5 else None  # four dyads less the frame
         found = 3 if len(task) == 5 else len(dyads)
-        made += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
+        candidates += [design for dyad in dyads if (design := _connected(task, wanted, dyad)) is not None]
         if len(task) < 5:
             notes.append(
                 message(
@@ -72,7 +72,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
                     count=len(dyads),
                 )
             )
-    elif not made and not theorem:
+    elif not candidates and not theorem:
         most = 3 + free
         if len(task) > most:
             raise SynthesisError(
@@ -84,7 +84,7 @@ def synthesise_function(task: FunctionTask, demands: Demands | None = None, *, n
             )
         notes.append(message("There are infinitely many solutions: give more pairs."))
         theorem = None
-    designs, rejected = ranked(made)
+    designs, rejected = ranked(candidates)
     count = SolutionCount(message("linkages"), theorem, found, real)
     return SynthesisResult(task, designs, rejected, count, tuple(notes))
 

@@ -110,18 +110,18 @@ def _exact(
     progress: Progress | None,
 ) -> SynthesisResult:
     _check_general(task)
-    made, found = _best_reference(task, problem, oriented, threads, progress)
+    reduced, found = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
-    for guiding_dyad, two in _dyad_pairs(problem, found):
-        guiding_dyad, two = (d.moved(made.size, made.origin) for d in (guiding_dyad, two))  # noqa: PLW2901
-        designs += _judged(task, demands, guiding_dyad, two, made.first)
+    for pair in _dyad_pairs(problem, found):
+        first, second = (dyad.moved(reduced.size, reduced.origin) for dyad in pair)
+        designs += _judged(task, demands, first, second, reduced.first)
     cognate = problem.poses == 0 and not problem.given_pivots
     what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
     count = SolutionCount(
-        what, None if made.added else problem.classes, problem.classes - found.missing, len(found.real)
+        what, None if reduced.added else problem.classes, problem.classes - found.missing, len(found.real)
     )
-    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, found, made.added)))
+    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, found, reduced.added)))
 
 
 def _check_general(task: PathTask) -> None:
@@ -186,10 +186,10 @@ def _best_reference(
     candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
     best: tuple[_Reduced, Solutions] | None = None
     for first in candidates[:2]:
-        made = _reduced(task, problem, oriented, first)
-        found = solutions(problem, made.parameters, threads=threads, progress=progress)
+        reduced = _reduced(task, problem, oriented, first)
+        found = solutions(problem, reduced.parameters, threads=threads, progress=progress)
         if best is None or found.missing < best[1].missing:
-            best = made, found
+            best = reduced, found
         if not found.missing:
             break
     assert best is not None
@@ -273,11 +273,9 @@ def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
 def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
     """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
     problem = PROBLEMS[4 if task.fixed_pivots else 0]
-    made, found = _best_reference(task, problem, [], None, None)
-    pairs = _dyad_pairs(problem, found)
-    return [
-        (guiding_dyad.moved(made.size, made.origin), two.moved(made.size, made.origin)) for guiding_dyad, two in pairs
-    ]
+    reduced, found = _best_reference(task, problem, [], None, None)
+    size, origin = reduced.size, reduced.origin
+    return [(first.moved(size, origin), second.moved(size, origin)) for first, second in _dyad_pairs(problem, found)]
 
 
 def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:

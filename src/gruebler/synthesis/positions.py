@@ -90,9 +90,9 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         displacements = Displacements(
             np.append(displacements.q, _halfway(displacements.q[0])), np.append(displacements.t, _halved(displacements))
         )
-    for made, pivot in chosen:
+    for construct, pivot in chosen:
         try:
-            out.append(made(displacements, (pivot - origin) / size).moved(size, origin))
+            out.append(construct(displacements, (pivot - origin) / size).moved(size, origin))
         except SynthesisError:
             if task.moving_pivots or task.fixed_pivots:
                 raise
@@ -131,7 +131,7 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
     dyads = guiding_dyads(task, number)
     if len(task) > 5:
         return _approximate(task, wanted, dyads)
-    made = _judged_pairs(task, wanted, dyads)
+    candidates = _judged_pairs(task, wanted, dyads)
     notes: list[Message] = []
     found = len(dyads)
     if len(task) == 5:
@@ -141,13 +141,13 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
         notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
     if len(dyads) < 2:
         notes.append(message("A linkage needs two dyads."))
-    designs, rejected = ranked(made)
+    designs, rejected = ranked(candidates)
     return SynthesisResult(
         task, designs, rejected, SolutionCount(DYADS, THEOREM[len(task)], found, len(dyads)), tuple(notes)
     )
 
 
-def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
     """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
 
     def worth(design: Design) -> tuple[bool, float, float]:
@@ -155,9 +155,11 @@ def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ..
         mu = verdict.transmission
         return not verdict.turns_fully, 0.0 if isnan(mu) else -mu, verdict.size_ratio
 
-    made = list(made)
-    accepted = sorted((d for d in made if d.verdict.accepted), key=worth)
-    rejected = sorted((d for d in made if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d)))
+    candidates = list(candidates)
+    accepted = sorted((d for d in candidates if d.verdict.accepted), key=worth)
+    rejected = sorted(
+        (d for d in candidates if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d))
+    )
     return tuple(accepted), tuple(rejected)
 
 

@@ -100,8 +100,8 @@ def synthesise_structures(
     jobs = [job for mechanism in mechanisms for job in _jobs(task, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
     found = list(map(work, jobs) if executor is None else executor.map(work, jobs))
-    made = [design for designs in found for design in designs]
-    accepted, rejected = ranked(made)
+    candidates = [design for designs in found for design in designs]
+    accepted, rejected = ranked(candidates)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
     note = message(
         "{count} starts were improved by least squares; designs that come nearer than {limit:g} of the size are "
@@ -109,7 +109,7 @@ def synthesise_structures(
         count=len(jobs),
         limit=_limit(wanted),
     )
-    count = SolutionCount(message("linkages"), 0, len(made), len(made))
+    count = SolutionCount(message("linkages"), 0, len(candidates), len(candidates))
     return SynthesisResult(task, accepted, rejected, count, (note,))
 
 
