@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gruebler.chain import Chain
+from gruebler.errors import expect
 from gruebler.isomorphism.codes import canonical_order, code
 
 __all__ = ["Isomorphism", "find_isomorphism", "is_isomorphic"]
@@ -13,11 +14,11 @@ __all__ = ["Isomorphism", "find_isomorphism", "is_isomorphic"]
 
 @dataclass(frozen=True, slots=True)
 class Isomorphism:
-    """Which link and which joint of the other chain corresponds to each of the one."""
+    """The link and the joint of the second chain that correspond to each of the first."""
 
     links: Mapping[str, str]
     joints: tuple[int, ...]
-    """joints[k] is the number, in the other chain, of the joint that corresponds to joint k."""
+    """joints[k] is the number, in the second chain, of the joint that corresponds to joint k."""
 
 
 def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
@@ -26,18 +27,20 @@ def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
     >>> find_isomorphism(Chain.parse("R(a-b) R(b-c) P(c-a)"), Chain.parse("P(0-1) R(1-2) R(2-0)")).links["b"]
     '2'
     """
+    for chain in (first, second):
+        expect(chain, Chain)
     if first.space is not second.space or first.n != second.n or len(first.joints) != len(second.joints):
         return None
     if code(first) != code(second):
         return None
-    order, yours = canonical_order(first), canonical_order(second)
-    links = {first.links[a]: second.links[b] for a, b in zip(order.links, yours.links, strict=True)}
-    joints = dict(zip(order.joints, yours.joints, strict=True))
+    first_order, second_order = canonical_order(first), canonical_order(second)
+    links = {first.links[a]: second.links[b] for a, b in zip(first_order.links, second_order.links, strict=True)}
+    joints = dict(zip(first_order.joints, second_order.joints, strict=True))
     return Isomorphism(links, tuple(joints[k] for k in range(len(first.joints))))
 
 
 def is_isomorphic(first: Chain, second: Chain) -> bool:
-    """Whether two chains have the same structure, names aside.
+    """Whether two chains have the same structure, whatever the links are called.
 
     >>> is_isomorphic(Chain.parse("R(a-b) R(b-c) P(c-a)"), Chain.parse("P(0-1) R(1-2) R(2-0)"))
     True
