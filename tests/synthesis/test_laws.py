@@ -148,9 +148,9 @@ def dyads(draw, form):
 
 
 @settings(max_examples=10, deadline=None)
-@given(st.sampled_from([("RR", "RR"), ("RR", "PR"), ("RR", "RP"), ("PR", "RP")]), st.data(), st.floats(0.05, 0.25))
+@given(st.sampled_from([("RR", "RR"), ("RR", "RP")]), st.data(), st.floats(0.15, 0.35))
 def test_every_pair_of_dyads_comes_back_from_five_of_its_positions(forms, data, step):
-    """All structures with exact tasks. Two PR or two RP dyads move the body as infinitely many dyads do (Cardan)."""
+    """Of dyads drawn at random; sliders on the frame are in `test_positions`. A PR with an RP dyad is no exact task."""
     one, two = (data.draw(dyads(form)) for form in forms)
     try:
         linkage = linkage_of_dyads(one, two, 0.3 + 0.4j, "mm")
