@@ -65,9 +65,7 @@ def test_a_function_file_gives_the_same_optimum(tmp_path, capsys):
     assert "Minimax optimum: largest error 0.0036" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    "options", [["--swing", "60", "--crank-angle", "200"], ["--stroke", "50", "--time-ratio", "1"]]
-)
+@pytest.mark.parametrize("options", ["--swing 60 --crank-angle 200", "--stroke 50 --time-ratio 1"])
 def test_a_page_of_dead_centres_has_the_construction_and_moving_designs(options, tmp_path):
     page = tmp_path / "page.html"
     assert main(["synthesise", "dead-centres", *options.split(), "--number", "3", "--draw", str(page)]) == 0
