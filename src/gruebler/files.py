@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 __all__ = ["FORMATS", "Format", "FormatWarning", "convert", "format_of", "read", "write"]
 
-_TASKS = frozenset({"positions", "points", "inputs", "swing", "stroke"})
+_TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
 _LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
 _LARGEST_TABLE = 1_000_000  # bytes
 _POSE = 4  # numbers: a place and a direction
