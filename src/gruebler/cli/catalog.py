@@ -78,7 +78,7 @@ def _described(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
     if arguments.full and isinstance(record, Entry):
         from gruebler.catalog.machine_report import machine_report
 
-        text += "\n\n" + machine_report(record).explain(arguments.lang)
+        text += "\n\n" + machine_report(record.in_language(arguments.lang)).explain(arguments.lang)
     return text
 
 
@@ -108,9 +108,10 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
             for case in record.cases
         ]
         return "\n".join(lines)
+    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
+    record = record.in_language(lang)
     chain, alphabet = record.chain(), Alphabet.of_language(lang)
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
-    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
     lines += [
         translate("Chain: {chain}", lang, chain=chain.text(alphabet)),
         translate("Links: {links}", lang, links=names if lang == "de" else ", ".join(record.links)),

@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 
+from gruebler.cli.link_names import entry_in_language, linkage_in_language
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
@@ -76,14 +77,16 @@ def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
     return _of_lengths(kind or "four-bar", lengths)
 
 
-def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which a catalog entry shows it.
+
+    The links of lengths and of catalog entries have their names in the language.
 
     >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
     if (size := size_of(word)) is not None:
-        return size.linkage(), None
+        return linkage_in_language(size.linkage(), lang), None
     kind, colon, _ = word.partition(":")
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
@@ -94,14 +97,14 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
         raise GrueblerError(
             "{word!r} has no dimensions; give a file, a catalog entry or {forms}", word=word[:40], forms=_forms()
         )
-    from gruebler.catalog import entries, entry
+    from gruebler.catalog import entries
     from gruebler.errors import nearest
 
     if word not in entries() and colon:
         raise GrueblerError(
             "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _KINDS)
         )
-    record = entry(word)
+    record = entry_in_language(word, lang)
     if record.dimensions is None:
         sized = ", ".join(each.id for each in entries().values() if each.dimensions is not None)
         if record.screws is None:

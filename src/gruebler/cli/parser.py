@@ -122,7 +122,7 @@ class Parser(argparse.ArgumentParser):
             raise argparse.ArgumentError(action, text) from None
 
     def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As argparse; an unknown option is answered by the nearest known one."""
+        """As argparse; an unknown option is answered by the nearest known one, links are spelled alike."""
         arguments, unknown = self.parse_known_args(args, namespace)
         if unknown:
             known = [option for parser in self._all() for option in parser._option_string_actions]
@@ -135,6 +135,9 @@ class Parser(argparse.ArgumentParser):
                     suggestion=suggestion,
                 )
             )
+        from gruebler.cli.link_names import spell_links_alike
+
+        spell_links_alike(self._actions, arguments)
         return arguments
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:

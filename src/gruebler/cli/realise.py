@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.formats.linkages import linkage_to_json, linkage_to_toml, write_linkage
@@ -35,9 +36,9 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Find dimensions and print or write them. Status 1: none were found."""
-    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
+    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive, language_of_names(arguments))
     realisation = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
-    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain)):
+    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain, language_of_names(arguments))):
         realisation = replace(realisation, linkage=realisation.linkage.with_outputs(outputs))
     if realisation.linkage is not None and arguments.out is not None:
         write_linkage(arguments.out, realisation.linkage)

@@ -7,12 +7,15 @@ here, so that an entry is sound or does not exist.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 import msgspec
 
 from gruebler.chain import Chain
+from gruebler.chain.notation import renamed_links
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
 from gruebler.formats.linkage_records import Dimensions, linkage_from_record
@@ -20,7 +23,7 @@ from gruebler.formats.screws import ScrewsRecord, spatial_linkage_from_record
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import SpatialLinkage, has_only_lower_pairs
-from gruebler.text import Message, Text
+from gruebler.text import LANGUAGES, Message, Text, translate
 
 __all__ = [
     "Case",
@@ -120,6 +123,15 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return linkage_from_record(self.dimensions, mechanism, self.outputs)
 
+    def in_language(self, lang: str) -> Entry:
+        """The same entry, its links by their names in a language; the German ones are cut short where that is clear.
+
+        >>> from gruebler.catalog import entry
+        >>> entry("lambda").in_language("de").drives
+        ('R(Gestell-Kurbel)',)
+        """
+        return self if lang == LANGUAGES[0] else _with_link_names(self, _short_names(self.links, lang))
+
     def placed(self) -> Linkage | SpatialLinkage | None:
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
         if self.screws is not None:
@@ -127,6 +139,40 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
             return spatial_linkage_from_record(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
         linkage = None if self.dimensions is None else self.linkage()
         return linkage if linkage is not None and has_only_lower_pairs(linkage) else None
+
+
+def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
+    """Without "link" before a number, brackets, and what follows "with", if the names stay different."""
+    left_out = rf"^{translate('link', lang)} (?=\d)| \(.*| {translate('with', lang)} .*"
+    short = {link: re.sub(left_out, "", name) for link, name in full.items()}
+    return short if len(set(short.values())) == len(short) else dict(full)
+
+
+_NAME_LINKS: Mapping[str, tuple[str, ...]] = {
+    "dimensions": ("elements", "home", "places", "points", "drive"),
+    "screws": ("joints",),
+    "claims": ("idle",),
+}
+
+
+def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
+    """The record with these names of its links wherever they stand in it."""
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, str):
+            return renamed_links(value, names)
+        if isinstance(value, Mapping):
+            return {renamed(key): renamed(item) for key, item in value.items()}
+        return [renamed(item) for item in value] if isinstance(value, list | tuple) else value
+
+    plain = msgspec.to_builtins(entry)
+    for key in ("joints", "frame", "drives", "outputs"):
+        plain[key] = renamed(plain[key])
+    for part, keys in _NAME_LINKS.items():
+        if plain[part] is not None:
+            plain[part] |= {key: renamed(plain[part][key]) for key in keys if key in plain[part]}
+    plain["links"] = {names[link]: name for link, name in entry.links.items()}
+    return msgspec.convert(plain, Entry)
 
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
