@@ -87,7 +87,7 @@ def test_catalog_list_show_search(capsys):
     assert status == 0
     assert "exercise-5b" in out
     _, out, _ = run(capsys, "catalog", "show", "vcomp", "exercise-6", "--lang", "de")
-    assert "D(crank-conrod1-conrod2)" in out
+    assert 'D(Kurbel-"Pleuel 1"-"Pleuel 2")' in out
     assert "Aufgabe" in out
     _, out, _ = run(capsys, "catalog", "search", "compressor", "--links", "6", "--json")
     assert [e["id"] for e in json.loads(out)] == ["vcomp"]

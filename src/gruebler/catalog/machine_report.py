@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 __all__ = ["GuidedPoint", "MachineReport", "Partial", "machine_report"]
 
 _ROWS = 361
+_ROUNDING = 1e-9
+# A partial derivative far below one length of the machine, or one radian, for each of the same is rounding: an output
+# at rest computes to some 1e-15, the slowest gear of a machine that anybody draws is a thousandth.
 
 
 class Partial(NamedTuple):
@@ -168,8 +171,12 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
         return ()
     home = pose_at_reference(plan, np.zeros(len(names))).drives
     output = find_output(linkage)
+    far = 1.0 if output.turning else linkage.size
+    each = [1.0 if drive.turning else linkage.size for drive in linkage.mechanism.drives]
     values = [output.values(move(linkage, [home], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
-    return tuple(Partial(output.name, *row) for row in zip(names, home.tolist(), map(float, values), strict=True))
+    rest = [abs(value) * drive <= _ROUNDING * far for value, drive in zip(values, each, strict=True)]
+    rates = [0.0 if still else float(value) for value, still in zip(values, rest, strict=True)]
+    return tuple(Partial(output.name, *row) for row in zip(names, home.tolist(), rates, strict=True))
 
 
 def _shown_transmission(entry: Entry, found: Measures | None) -> tuple[float, float] | None:
@@ -219,6 +226,7 @@ _TEXTS = {
     "range": message("Shown between {low:g}{unit} and {high:g}{unit}."),
     "shown": message("In the range shown the transmission angle is {small:.4g}° to {large:.4g}°."),
     "partial": message("As drawn, {output} goes by {ratio:.6g} for each unit of {drive} (angles in radians)."),
+    "rest": message("As drawn, {output} rests while {drive} moves."),
     "closed": message("{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high."),
     "open": message(
         "{name} on {link}: a path {length:.6g} {unit} long between the limits, {width:.6g} wide, {height:.6g} high."
@@ -252,7 +260,10 @@ def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]
         each = zip(found.partials, found.mechanism.drive_names(alphabet), strict=True)
         yield (
             "measures",
-            [say("partial", output=partial.output, ratio=partial.value, drive=name) for partial, name in each],
+            [
+                say("partial" if partial.value else "rest", output=partial.output, ratio=partial.value, drive=name)
+                for partial, name in each
+            ],
         )
     if found.measures is not None and found.points:
         unit = found.measures.linkage.unit

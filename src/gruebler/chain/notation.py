@@ -19,7 +19,17 @@ from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space, read_symbols
 from gruebler.errors import NotationError, PairError
 from gruebler.text import Message, message
 
-__all__ = ["joint_text", "link_name", "link_text", "read", "renamed_links", "space_of", "split_links", "symbols_for", "write"]
+__all__ = [
+    "joint_text",
+    "link_name",
+    "link_text",
+    "read",
+    "renamed_links",
+    "space_of",
+    "split_links",
+    "symbols_for",
+    "write",
+]
 
 _BARE = r"""[^\s()\-",:;]+"""
 _NAME = rf'(?:"(?:[^"\\]|\\.)*"|{_BARE})'

@@ -29,7 +29,7 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import read_branch
 from gruebler.kinematics.solve import all_branches, cached_plan
 from gruebler.linkages import Linkage
-from gruebler.text import LANGUAGES, Message, error_in_language, joined, message, translate
+from gruebler.text import Message, error_in_language, joined, message, translate
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures

@@ -9,10 +9,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, exercises
+from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
-from gruebler.cli.link_names import entry_in_language, language_of_names
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import is_lengths, linkage_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -233,7 +233,7 @@ def _structures(word: str, space: str | None, lang: str) -> Iterator[Structure]:
     elif is_lengths(word):
         yield Structure(word, "", linkage_of(word, lang)[0])
     else:
-        yield Structure(word, "", entry_in_language(word, lang))
+        yield Structure(word, "", entry(word).in_language(lang))
 
 
 def _checked_structure(structure: Structure, arguments: argparse.Namespace) -> CheckedEntry:

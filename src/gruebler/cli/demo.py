@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import argparse
 
-from gruebler.catalog import check_all, check_entry
+from gruebler.catalog import check_all, check_entry, entry
 from gruebler.cli.check import explanation, print_checked
-from gruebler.cli.link_names import entry_in_language
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_text
 
@@ -28,5 +27,5 @@ def run(arguments: argparse.Namespace) -> int:
     checked_entries = check_all()
     print_checked(checked_entries, arguments.lang)
     for id in _EXPLAINED:
-        print_text("\n" + explanation(check_entry(entry_in_language(id, arguments.lang)), arguments.lang))
+        print_text("\n" + explanation(check_entry(entry(id).in_language(arguments.lang)), arguments.lang))
     return int(any(not checked_entry.holds for checked_entry in checked_entries))

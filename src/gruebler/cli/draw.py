@@ -18,7 +18,6 @@ from gruebler.catalog import entries
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
 from gruebler.cli.inputs import chain_from_word, mechanism_of
-from gruebler.cli.link_names import entry_in_language
 from gruebler.cli.linkage_inputs import add_branch, add_curves, linkage_of, with_points
 from gruebler.cli.output import print_svg, write_file
 from gruebler.cli.parser import Parser
@@ -225,7 +224,7 @@ def _has_sizes(word: str) -> bool:
 
 def entry_of(word: str, lang: str = "en") -> Entry | None:
     """The catalog entry of that name, if there is one, its links by their names in the language."""
-    return None if is_structure_text(word) or word not in entries() else entry_in_language(word, lang)
+    return None if is_structure_text(word) or word not in entries() else entries()[word].in_language(lang)
 
 
 def german(record: Entry | None, lang: str) -> Mapping[str, str]:

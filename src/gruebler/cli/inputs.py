@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from gruebler.catalog import entry
 from gruebler.chain import Chain
-from gruebler.cli.link_names import entry_in_language
 from gruebler.errors import GrueblerError
 from gruebler.formats.structures import chain_of_text, is_code, is_structure_text
 from gruebler.linkages import Linkage
@@ -33,7 +33,7 @@ def chain_from_word(word: str, space: str | None = None, lang: str = "en") -> Ch
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
     if (mechanism := _of_file(word)) is not None:
         return mechanism.chain
-    return chain_of_text(word, space) if is_structure_text(word) else entry_in_language(word, lang).chain()
+    return chain_of_text(word, space) if is_structure_text(word) else entry(word).in_language(lang).chain()
 
 
 def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str = "en") -> Mechanism:
@@ -41,7 +41,7 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str 
     if (drawn := _of_file(word)) is not None:
         mechanism = drawn
     elif not is_structure_text(word):
-        record = entry_in_language(word, lang)
+        record = entry(word).in_language(lang)
         chain = record.chain()
         mechanism = Mechanism(chain, record.frame or chain.links[0], record.drives)
     elif "(" in word and not (is_code(word) and ";frame=" not in word):
@@ -60,7 +60,7 @@ def outputs_of(word: str, lang: str = "en") -> tuple[str, ...]:
         linkage = read_any_linkage(Path(word))
         return linkage.outputs if isinstance(linkage, Linkage) else ()
     if not is_structure_text(word):
-        return entry_in_language(word, lang).outputs
+        return entry(word).in_language(lang).outputs
     if is_code(word) or ";" not in word:
         return ()
     output = Mechanism.parse_with_output(word)[1]

@@ -6,14 +6,23 @@ import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 
-from gruebler.cli.link_names import entry_in_language, linkage_in_language
 from gruebler.cli.parser import Parser
 from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.text import translate
 
-__all__ = ["add_branch", "add_curves", "add_linkage", "is_lengths", "linkage_of", "size_of", "with_points"]
+__all__ = [
+    "add_branch",
+    "add_curves",
+    "add_linkage",
+    "is_lengths",
+    "linkage_of",
+    "linkage_of_lengths",
+    "size_of",
+    "with_points",
+]
 
 _BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
 
@@ -77,6 +86,16 @@ def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
     return _of_lengths(kind or "four-bar", lengths)
 
 
+def linkage_of_lengths(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str = "en") -> Linkage:
+    """The linkage of given lengths, its links by their names in a language.
+
+    >>> linkage_of_lengths(FourBar(25, 70, 40, 70), "de").mechanism.chain.links
+    ('Gestell', 'Kurbel', 'Koppel', 'Schwinge')
+    """
+    linkage = size.linkage()
+    return linkage.renamed({link: translate(link, lang) for link in linkage.mechanism.chain.links})
+
+
 def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which a catalog entry shows it.
 
@@ -86,7 +105,7 @@ def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float
     70.0
     """
     if (size := size_of(word)) is not None:
-        return linkage_in_language(size.linkage(), lang), None
+        return linkage_of_lengths(size, lang), None
     kind, colon, _ = word.partition(":")
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
@@ -97,14 +116,14 @@ def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float
         raise GrueblerError(
             "{word!r} has no dimensions; give a file, a catalog entry or {forms}", word=word[:40], forms=_forms()
         )
-    from gruebler.catalog import entries
+    from gruebler.catalog import entries, entry
     from gruebler.errors import nearest
 
     if word not in entries() and colon:
         raise GrueblerError(
             "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _KINDS)
         )
-    record = entry_in_language(word, lang)
+    record = entry(word).in_language(lang)
     if record.dimensions is None:
         sized = ", ".join(each.id for each in entries().values() if each.dimensions is not None)
         if record.screws is None:

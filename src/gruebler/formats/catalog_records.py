@@ -161,6 +161,8 @@ def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
     def renamed(value: Any) -> Any:
         if isinstance(value, str):
             return renamed_links(value, names)
+        if isinstance(value, Mapping) and "at" in value:  # a wheel, cam or point with keys of its own
+            return {key: renamed(item) if key == "link" else item for key, item in value.items()}
         if isinstance(value, Mapping):
             return {renamed(key): renamed(item) for key, item in value.items()}
         return [renamed(item) for item in value] if isinstance(value, list | tuple) else value

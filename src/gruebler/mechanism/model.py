@@ -153,10 +153,9 @@ class Mechanism:
         >>> print(Mechanism.parse("R(0-1) R(1-2) R(2-0); drive=R(0-1)").renamed({"0": "base"}))
         R(base-1) R(1-2) R(2-base); frame=base; drive=R(base-1)
         """
-        drives = [
-            replace(drive, between=tuple(names.get(link, link) for link in drive.between)) for drive in self.drives
-        ]
-        return Mechanism(self.chain.renamed(names), names.get(self.frame, self.frame), drives)
+        new = {link: names.get(link, link) for link in self.chain.links}
+        drives = [replace(d, between=(new[d.between[0]], new[d.between[1]])) for d in self.drives]
+        return Mechanism(self.chain.renamed(names), new[self.frame], drives)
 
     def code(self) -> str:
         """The canonical code: equal exactly for mechanisms of one structure.
