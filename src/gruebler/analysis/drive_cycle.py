@@ -102,6 +102,21 @@ class DriveCycle(Brief):
         return self.plan.linkage
 
     @property
+    def lower_linkage(self) -> Linkage:
+        """The linkage as it is solved: with lower pairs, and the links that replace higher ones."""
+        return self.plan.lower
+
+    @property
+    def size(self) -> float:
+        """A length of the order of the linkage as it is solved."""
+        return self.plan.lower.size
+
+    @property
+    def drive_size(self) -> float:
+        """What counts as much as a radian of a turning drive: 1, or the size for a sliding one."""
+        return 1.0 if self.turning_drive else self.size
+
+    @property
     def turning_drive(self) -> bool:
         """Whether the drive turns; else it slides."""
         return _turns(self.plan)
@@ -142,8 +157,7 @@ class DriveCycle(Brief):
         if stop is None:
             return float(function(self.at(np.array([limit])))[0])
         of_group = stop.reason == "singular"
-        size = 1.0 if self.turning_drive else self.plan.lower.size
-        from_end = _from_end(min(_END, (2 * _END_OF_GROUP * size / half) ** 0.5) if of_group else _END, half)
+        from_end = _from_end(min(_END, (2 * _END_OF_GROUP * self.drive_size / half) ** 0.5) if of_group else _END, half)
         motion = self.at(limit + inward * from_end)
         if of_group:
             from_end = from_end - _limit_error(motion, from_end)
@@ -352,7 +366,7 @@ def _grid(cycle: DriveCycle) -> Reals:
     def drive(s: Reals) -> Reals:
         return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
 
-    least = _STILL / (1 if cycle.turning_drive else cycle.plan.lower.size)
+    least = _STILL / cycle.drive_size
     suspect = np.ones(len(s) - 1, bool)
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
@@ -385,7 +399,7 @@ def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
         return ()
     grid = cycle.grid
     motion = cycle.at(grid, 0)
-    found: list[float] = []
+    joints: list[float] = []
     for condition in laws:
         seen = _direction(motion, condition)
         for angle in sorted({joint % (2 * pi) for joint in condition.law.joints}):
@@ -397,23 +411,23 @@ def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
             def off(drives: Reals, condition: Condition = condition, angle: float = angle) -> Reals:
                 return np.asarray((_direction(cycle.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
 
-            found += bracketed_root(off, low, high).tolist() if len(cells) else []
-    return _merged(sorted(found), _SAME * cycle.span.width, cycle.span.period)
+            joints += bracketed_root(off, low, high).tolist() if len(cells) else []
+    return _merged(sorted(joints), _SAME * cycle.span.width, cycle.span.period)
 
 
 def _merged(places: list[float], near: float, period: float) -> tuple[float, ...]:
-    out: list[float] = []
+    merged: list[float] = []
     for place in places:
-        if not out or place - out[-1] > near:
-            out.append(place)
-    if len(out) > 1 and out[0] + period - out[-1] <= near:
-        out.pop()
-    return tuple(out)
+        if not merged or place - merged[-1] > near:
+            merged.append(place)
+    if len(merged) > 1 and merged[0] + period - merged[-1] <= near:
+        merged.pop()
+    return tuple(merged)
 
 
 def _direction(motion: Motion, condition: Condition) -> Complexes:
     """The argument of a law as a direction, as in the kernel `closure`."""
-    plan, chain = motion.plan, motion.plan.lower.mechanism.chain
+    plan, chain = motion.plan, motion.lower_linkage.mechanism.chain
     points, lines = plan.element_arrays(plan.lower)
     turns, places, along = [], [], []
     for side in condition.sides:
