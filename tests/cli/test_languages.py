@@ -5,9 +5,10 @@ import re
 
 import pytest
 
-from gruebler.catalog import entries
+from gruebler.catalog import entries, exercises
 from gruebler.cli import main
 from gruebler.cli.commands import command, command_names
+from gruebler.formats.catalog_records import source_text
 from gruebler.isomorphism import code
 from gruebler.mechanism import Mechanism
 
@@ -181,3 +182,13 @@ def test_placeholders_of_the_help_are_translated(capsys):
     with pytest.raises(SystemExit):
         main(["statics", "--help"])
     assert "--load POINT=FX,FY" in capsys.readouterr().out
+
+
+def test_no_source_is_left_in_english():
+    """Words of a source that German has no use for."""
+    english = re.compile(r"\b(and|of|the|section|exercise|figure|variant|lengths|machine|chapter|not|is)\b")
+    sources = [entry.source for entry in entries().values()] + [task.source for task in exercises().values()]
+    sources += [entry.dimensions.source for entry in entries().values() if entry.dimensions is not None]
+    german = [source_text(source, "de") for source in sources]
+    assert [text for text in german if english.search(text)] == []
+    assert any(english.search(source_text(source, "en")) for source in sources)

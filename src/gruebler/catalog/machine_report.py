@@ -13,7 +13,7 @@ from gruebler.catalog.feature_query import entry_features, entry_mechanism, feat
 from gruebler.catalog.features import AccessFeatures
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
-from gruebler.formats.catalog_records import Entry
+from gruebler.formats.catalog_records import Entry, source_text
 from gruebler.linkages import Linkage
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import MobilityReport, mobility_report
@@ -100,7 +100,9 @@ class MachineReport(Brief):
             "freedoms": None if self.freedoms is None else self.freedoms.to_json(),
             "features": features_to_json(self.features),
             "drives_fix_the_motion": None if self.drives is None else self.drives.fixed,
-            "dimensions": None if sizes is None else {"assumed": sizes.assumed, "source": sizes.source},
+            "dimensions": None
+            if sizes is None
+            else {"assumed": sizes.assumed, "source": source_text(sizes.source, LANGUAGES[0])},
             "measures": None if self.measures is None else self.measures.to_json(),
             "partials": [partial._asdict() for partial in self.partials],
             "points": [point._asdict() for point in self.points],
@@ -248,7 +250,7 @@ def _sections(report: MachineReport, lang: str) -> Iterator[tuple[str, list[str]
         names = ", ".join(report.mechanism.drive_names(alphabet))
         usual = report.moves == report.mobility.generic
         yield "drive", [names, report.drives.explain(lang) if usual else say("special", moves=report.moves)]
-    if lines := _dimension_lines(report.entry, say):
+    if lines := _dimension_lines(report.entry, say, lang):
         yield "dimensions", lines
     if report.measures is not None:
         lines = report.measures.explain(lang).splitlines()
@@ -280,11 +282,14 @@ def _moves_lines(report: MachineReport, say: Any, lang: str) -> list[str]:
     return [say("claimed", mobility=claims.mobility, reason=claims.reason or "")]
 
 
-def _dimension_lines(entry: Entry, say: Any) -> list[str]:
+def _dimension_lines(entry: Entry, say: Any, lang: str) -> list[str]:
     sizes = entry.dimensions or entry.screws
     if sizes is None:
         return []
-    lines = [say("source", source=sizes.source) if sizes.source else say("assumed"), say("unit", unit=sizes.unit)]
+    lines = [
+        say("source", source=source_text(sizes.source, lang)) if sizes.source else say("assumed"),
+        say("unit", unit=sizes.unit),
+    ]
     if entry.dimensions is None:
         return [*lines, say("screws")]
     if entry.dimensions.range is not None:

@@ -23,7 +23,7 @@ from gruebler.formats.screws import ScrewsRecord, spatial_linkage_from_record
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import SpatialLinkage, has_only_lower_pairs
-from gruebler.text import LANGUAGES, Message, Text, translate
+from gruebler.text import LANGUAGES, Message, Text, message, translate
 
 __all__ = [
     "Case",
@@ -36,7 +36,39 @@ __all__ = [
     "entry_of_data",
     "read_entry",
     "read_exercise",
+    "source_text",
 ]
+
+_SOURCE_WORDS = (
+    message("sections"),
+    message("section"),
+    message("the first of two with this number"),
+    message("first exercise"),
+    message("second exercise"),
+    message("exercise"),
+    message("figure"),
+    message("chapter"),
+    message("variant of"),
+    message("variant"),
+    message("classification"),
+    message("common machine, not in"),
+    message("numeric checks"),
+    message("bevel differential"),
+    message("and"),
+)
+
+
+def source_text(source: str | Text, lang: str) -> str:
+    """Where something stands in the teaching documents.
+
+    >>> source_text("000/003, sections 2.3 and 2.6", "de"), source_text("000, figure 6.12, variant", "de")
+    ('000/003, Abschnitte 2.3 und 2.6', '000, Bild 6.12, Variante')
+    """
+    if isinstance(source, Text):
+        return source.in_language(lang)
+    for term in _SOURCE_WORDS:
+        source = re.sub(rf"\b{term}\b", term.in_language(lang), source)
+    return source
 
 
 class ClaimedGroup(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -69,7 +101,7 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     assumed: bool = False
     """Whether the seeds print none, so that the dimensions are chosen here."""
-    source: str = ""
+    source: str | Text = ""
     """Where they are printed."""
     drive: str | tuple[str, ...] | None = None
     """The driven joint of the example, or several, where the machine itself names none."""
