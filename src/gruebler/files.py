@@ -37,6 +37,8 @@ def read(path: str | PathLike[str]) -> Value:
 
     Raises `GrueblerError` that names the file and what does not fit.
     """
+    if not isinstance(path, str | PathLike):
+        raise GrueblerError("expected the path of a file, but found {path!r}", path=path)
     path = Path(path)
     match path.suffix.lower():
         case ".csv":
