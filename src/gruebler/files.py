@@ -124,7 +124,8 @@ def write(value: object, path: str | PathLike[str]) -> Path:
         _write_chains(path, list(value), alone=False)
     else:
         raise GrueblerError(
-            "a {kind} cannot be written; linkages, tasks, chains and lists of chains can", kind=type(value).__name__
+            "values of type {kind} cannot be written; linkages, tasks, chains and lists of chains can",
+            kind=type(value).__name__,
         )
     return path
 

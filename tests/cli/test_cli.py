@@ -86,6 +86,7 @@ def test_catalog_list_show_search(capsys):
     status, out, _ = run(capsys, "catalog", "list", "--lang", "de")
     assert status == 0
     assert "exercise-5b" in out
+    assert "003, Bild 3.3; 000/003, Abschnitt 3.5.4 und Aufgabe 19" in out
     _, out, _ = run(capsys, "catalog", "show", "vcomp", "exercise-6", "--lang", "de")
     assert 'D(Kurbel-"Pleuel 1"-"Pleuel 2")' in out
     assert "Aufgabe" in out

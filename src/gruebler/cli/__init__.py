@@ -15,7 +15,7 @@ from pathlib import Path
 from gruebler.cli.commands import command, command_names, overview
 from gruebler.cli.parser import argparse_in_language, wanted_language
 from gruebler.errors import GrueblerError, shortened
-from gruebler.text import LANGUAGES, error_in_language, translate
+from gruebler.text import LANGUAGES, error_in_language, reason_of, translate
 
 __all__ = ["main"]
 
@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         _forget_output()
         return 0
     except OSError as error:
-        problem = error.strerror or str(error)
+        problem = reason_of(error)
         if error.filename is not None:
             file = shortened(repr(error.filename))
             return _complain(words, translate("{file} cannot be opened: {problem}", lang, file=file, problem=problem))

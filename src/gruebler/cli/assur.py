@@ -133,7 +133,8 @@ def _list(groups: list[AssurGroup], lang: str) -> None:
         named = "" if form == group.code else form
         rows.append((named, roman(group.class_number), str(group.order), group.chain.text(alphabet)))
     headers = [translate("form", lang), translate("class", lang), translate("order", lang), translate("group", lang)]
-    print_table(headers, rows, numbers=(2,))
+    first = 0 if any(form for form, *_ in rows) else 1  # groups of more than four links have no names
+    print_table(headers[first:], [row[first:] for row in rows], numbers=(2 - first,))
 
 
 def _compare(choices: list[Decomposition], lang: str) -> None:

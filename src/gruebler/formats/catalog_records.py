@@ -52,8 +52,7 @@ _SOURCE_WORDS = (
     message("variant"),
     message("classification"),
     message("common machine, not in"),
-    message("numeric checks"),
-    message("bevel differential"),
+    message("numeric checks, bevel differential"),
     message("and"),
 )
 

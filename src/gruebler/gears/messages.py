@@ -68,10 +68,10 @@ def explain_train(reading: TrainReading, lang: str = "en") -> str:
     independent = len(train.meshes) - len(redundant)
     lines = [
         translate(
-            "{links} moving links, {meshes} independent meshes: mobility {mobility}.",
+            "{links}, {meshes}: mobility {mobility}.",
             lang,
-            links=links,
-            meshes=independent,
+            links=plural("{count} moving link", "{count} moving links", links, lang),
+            meshes=plural("{count} independent mesh", "{count} independent meshes", independent, lang),
             mobility=links - independent,
         )
     ]

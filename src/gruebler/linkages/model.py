@@ -39,11 +39,11 @@ NEAR_REFERENCE = 0.05
 
 
 class Linkage:
-    """A planar mechanism whose links have sizes. A value: sound or not constructed, never changed.
+    """A planar mechanism with the dimensions of its links. Immutable, and checked when it is constructed.
 
-    Every link has coordinates of its own; those of the frame are the coordinates of the plane. A driven turning joint
-    has the angle of the second link's x axis against the first's, a driven slide the way from the first line's point to
-    the second's; "first" is the frame, or the link named first in the joint.
+    Every link has coordinates of its own; those of the frame are the coordinates of the plane. The drive value of a
+    turning joint is the angle of the second link's x axis against the first's, that of a slide the distance from the
+    first line's point to the second's; "first" is the frame, or the link named first in the joint.
 
     Args:
         mechanism: a planar mechanism.
@@ -51,8 +51,8 @@ class Linkage:
             line, `Wheel` or `Circle`, in the link's coordinates; angles in radians.
         points: further points by name: ``(link, x, y)``.
         unit: the unit of all lengths; a name only.
-        home: where the links lie in one position (``(x, y, angle)`` for each link), if the assembly mode is to be that
-            of a drawing.
+        reference_pose: where the links lie in one position, ``(x, y, angle)`` for each link, if the assembly mode is
+            to be that of a drawing.
         outputs: the links that a user looks at.
 
     Raises:
