@@ -106,6 +106,7 @@ MISTAKES = [
     (lambda: gr.write(CRANK_ROCKER, 7), "expected the path of a file, but found 7"),
     (lambda: gr.write(7, "x.toml"), "values of type int cannot be written"),
     (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
+    (lambda: gr.read(7), "expected the path of a file, but found 7"),
     (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),
     (lambda: gr.synthesise(7), "expected a task of positions"),
@@ -137,3 +138,11 @@ def test_values_of_many_numbers_are_printed_in_a_line():
     for value in (motion, gr.circuit(CRANK_ROCKER), gr.draw(CRANK_ROCKER), gr.measures(CRANK_ROCKER)):
         assert "\n" not in repr(value)
         assert len(repr(value)) < 1500
+
+
+@pytest.mark.parametrize(
+    "size", [gr.FourBar(25, 70, 40, 70), gr.SliderCrank(25, 70), gr.InvertedSliderCrank(25, 70)], ids=repr
+)
+def test_lengths_show_themselves_in_notebooks_as_their_linkage(size):
+    assert size._repr_svg_() == size.linkage()._repr_svg_()
+    assert size._repr_svg_().startswith("<svg")

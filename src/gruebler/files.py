@@ -444,6 +444,8 @@ def read(path: str | PathLike[str], format_name: str | None = None, *, left_out:
 
     Raises `GrueblerError` that names the file and what does not fit. docs/theory/formats.md has every format.
     """
+    if not isinstance(path, str | PathLike):
+        raise GrueblerError("expected the path of a file, but found {path!r}", path=path)
     path = Path(path)
     form = format_of(path, format_name)
     if form.read is None:

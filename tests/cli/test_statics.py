@@ -32,8 +32,8 @@ def test_all_forces_of_one_pose(capsys):
     status, out, _ = run(capsys, "four-bar:25,70,40,70", "--moment", "rocker=-1000", "--at", "55", "--lang", "de")
     assert status == 0
     rows = [line.rsplit(maxsplit=2) for line in out.splitlines() if line.endswith(("N", "N·mm"))]
-    assert ["Antriebsmoment D(frame-crank)", "478,521", "N·mm"] in rows
-    assert ["Kraft von D(frame-crank) auf crank y", "-7,44971", "N"] in rows
+    assert ["Antriebsmoment D(Gestell-Kurbel)", "478,521", "N·mm"] in rows
+    assert ["Kraft von D(Gestell-Kurbel) auf Kurbel y", "-7,44971", "N"] in rows
 
 
 def test_json_and_csv(capsys, tmp_path):

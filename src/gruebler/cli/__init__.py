@@ -56,11 +56,14 @@ def _run(words: list[str], lang: str) -> int:
         print(f"gruebler {__version__}")
         return 0
     chosen = command(words[0], words[1:])
+    parser = chosen.parser(lang)
     with argparse_in_language(lang):
-        arguments = chosen.parser(lang).parse_args(words[1:])
+        arguments = parser.parse_args(words[1:])
     from gruebler.cli.compiling_progress import show_compiling
+    from gruebler.cli.link_names import spell_links_alike
     from gruebler.cli.printed_file import printed_to_file
 
+    spell_links_alike(parser, arguments)
     show_compiling(lang)
     try:
         with printed_to_file(arguments):

@@ -14,8 +14,8 @@ from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.documents import infinities_as_words
-from gruebler.exercises.messages import source_text
 from gruebler.formats import Entry, Exercise
+from gruebler.formats.catalog_records import source_text
 from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
 from gruebler.text import translate
@@ -79,7 +79,7 @@ def _described(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
     if arguments.full and isinstance(record, Entry):
         from gruebler.catalog.machine_report import machine_report
 
-        text += "\n\n" + machine_report(record).explain(arguments.lang)
+        text += "\n\n" + machine_report(record.in_language(arguments.lang)).explain(arguments.lang)
     return text
 
 
@@ -105,8 +105,7 @@ def _list(arguments: argparse.Namespace) -> None:
     print_table([id, name, "n", "F", source], rows, numbers=(2, 3))
     print("\n" + translate("Exercises on these machines (gruebler check ID, gruebler exercise show ID):", lang))
     print_table(
-        [id, name, source],
-        [(task.id, task.name.in_language(lang), source_text(task.source, lang)) for task in tasks],
+        [id, name, source], [(task.id, task.name.in_language(lang), source_text(task.source, lang)) for task in tasks]
     )
 
 
@@ -120,9 +119,10 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
             for case in record.cases
         ]
         return "\n".join(lines)
+    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
+    record = record.in_language(lang)
     chain, alphabet = record.chain(), Alphabet.of_language(lang)
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
-    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
     lines += [
         translate("Chain: {chain}", lang, chain=chain.text(alphabet)),
         translate("Links: {links}", lang, links=names if lang == "de" else ", ".join(record.links)),

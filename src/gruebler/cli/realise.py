@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
 from gruebler.errors import GrueblerError
@@ -42,9 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Find dimensions and print or write them. Status 1: none were found."""
     if arguments.tries < 1:
         raise GrueblerError("--tries: expected a whole number of at least 1, but found {found}", found=arguments.tries)
-    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
+    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive, language_of_names(arguments))
     realisation = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
-    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain)):
+    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain, language_of_names(arguments))):
         realisation = replace(realisation, linkage=realisation.linkage.with_outputs(outputs))
     if realisation.linkage is not None and arguments.out is not None:
         write_linkage(arguments.out, realisation.linkage)

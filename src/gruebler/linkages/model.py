@@ -252,6 +252,24 @@ class Linkage:
         """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
         return self._changed(reference_pose=reference_pose)
 
+    def renamed(self, names: Mapping[str, str]) -> Linkage:
+        """The same linkage with other link names; names that the mapping leaves out stay.
+
+        >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+        >>> drawn = Linkage.from_drawing(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
+        >>> drawn.renamed({"1": "crank"}).length("crank", "R(0-crank)", "R(crank-2)")
+        2.0
+        """
+        new = {link: names.get(link, link) for link in self.mechanism.chain.links}
+        pose = self.reference_pose
+        return self._changed(
+            mechanism=self.mechanism.renamed(names),
+            elements={new[link]: elements for link, elements in self._by_link().items()},
+            points={n: (new[p.link], p.x, p.y) for n, p in self.points.items()},
+            reference_pose=None if pose is None else {new[link]: place for link, place in pose.items()},
+            outputs=[new[link] for link in self.outputs],
+        )
+
     def scaled(self, factor: float) -> Linkage:
         """Every length times a positive factor."""
         if not 0 < factor < 1e100:
