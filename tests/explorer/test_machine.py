@@ -88,4 +88,4 @@ def test_the_law_of_grashof(tmp_path):
         crank = sides[0] + sides[3] < sides[1] + sides[2] and sides[0] in (bar.a, bar.d)
         assert found["full"] == crank
         if crank:
-            assert found["least"]["mu"] == pytest.approx(bar.transmission_angle.smallest, abs=1e-9)
+            assert found["least"]["mu"] == pytest.approx(bar.transmission_angle.smallest.mu, abs=1e-9)

@@ -24,7 +24,8 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from gruebler.errors import GrueblerError
+from gruebler.atomic_files import atomic_file
+from gruebler.errors import GrueblerError, RunError
 from gruebler.explorer.page import module_text, served_page
 from gruebler.explorer.workers import CancelledError, Workers
 from gruebler.text import error_in_language
@@ -257,14 +258,13 @@ def kept_token() -> str:
         return token
     file = Path(folder) / "explorer-token"
     try:
-        with file.open("x", encoding="ascii") as out:
-            file.chmod(0o600)
-            out.write(token)
-    except FileExistsError:
         kept = file.read_text(encoding="ascii").strip()
-        return kept if len(kept) >= len(token) else token
-    except OSError:
-        return token
+        if len(kept) >= len(token):
+            return kept
+    except (OSError, UnicodeDecodeError):
+        pass  # there is none yet, or none that can be read
+    with suppress(RunError), atomic_file(file, durable=False) as out:  # the folder is the user's own
+        out.write(token.encode("ascii"))
     return token
 
 
