@@ -42,6 +42,8 @@ _BACK = 1e-7  # how near it is then
 _WELL = 1e-3  # a start with a root below it is near a change point or limit
 _END = 0.3  # how far from an end (of pi for the range) the nodes for values at it lie
 _END_OF_GROUP = 2e-4  # radians or sizes: the same for larger groups, whose limits are known to 1e-10 and may be sharp
+_END_NEAREST = 1e-10  # radians or sizes: nodes lie no nearer to a limit; one of a larger group is known no better
+_END_CLOSE = 1e-9  # of the function's size: values at an end that agree; rounding leaves 1e-10 at dyads, 1e-9 at groups
 _NODES = 10
 _NEWTON = 5  # steps, from a place that is nearer to the extremum than a hundredth of the nodes' range
 _NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
@@ -133,24 +135,37 @@ class DriveCycle(Brief):
         """The value of a function of the poses at an end of the range, where poses themselves are ill-conditioned.
 
         In t, drive = middle - cos t times half the width, it is analytic: it is extrapolated by a polynomial of degree
-        9 from t up to 0.3; at the limit of a larger group from drive values within 2e-4 (radians or sizes) of it. Error
-        of the order of 1e-10 of the function's size.
+        9 through ten poses with t up to 0.3, at the limit of a larger group with drive values within 2e-4 (radians or
+        sizes) of it. The interval of t is halved until two such values agree within 1e-9 of the function's size, or as
+        long as they come nearer to one another and the nodes no nearer than 1e-10 to the limit.
         """
-        half = self.span.width / 2
         limit, inward = (self.span.high, -1.0) if upper else (self.span.low, 1.0)
         stop = self.span.stops[int(upper)]
         if stop is None:
             return float(function(self.at(np.array([limit])))[0])
-        of_group = stop.reason == "singular"
+        most, half = _END, self.span.width / 2
         size = 1.0 if self.turning_drive else self.plan.lower.size
-        from_end = _from_end(min(_END, (2 * _END_OF_GROUP * size / half) ** 0.5) if of_group else _END, half)
-        motion = self.at(limit + inward * from_end)
-        if of_group:
-            from_end = from_end - _limit_error(motion, from_end)
-        t = 2 * np.arcsin(np.sqrt(from_end / (2 * half)))
+        if stop.reason == "singular":
+            most = min(_END, (2 * _END_OF_GROUP * size / half) ** 0.5)
+            from_end = _from_end(most, half)
+            limit += inward * _limit_error(self.at(limit + inward * from_end), from_end)
         others = ~np.eye(_NODES, dtype=bool)
-        weights = np.prod(-t / np.where(others, t[:, None] - t, 1.0), axis=1, where=others)
-        return float(weights @ function(motion))
+        value, change = np.nan, np.inf
+        from_end = _from_end(most, half)
+        while np.isnan(value) or from_end[0] > _END_NEAREST * size:
+            t = 2 * np.arcsin(np.sqrt(from_end / (2 * half)))
+            weights = np.prod(-t / np.where(others, t[:, None] - t, 1.0), axis=1, where=others)
+            values = function(self.at(limit + inward * from_end))
+            wider, value, previous = value, float(weights @ values), change
+            if not np.isnan(wider):
+                change = abs(value - wider)
+                if change > previous:
+                    return wider
+                if change <= _END_CLOSE * np.abs(values).max():
+                    break
+            most /= 2
+            from_end = _from_end(most, half)
+        return value
 
 
 def _from_end(most: float, half: float) -> Reals:
