@@ -131,41 +131,44 @@ class DriveCycle(Brief):
             raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
         return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
 
-    def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
-        """The value of a function of the poses at an end of the range, where poses themselves are ill-conditioned.
+    def end(self, function: Callable[[Motion], Reals | Complexes], upper: bool, size: float = 1.0) -> complex:
+        """The value of a function of that size at an end of the range, where poses themselves are ill-conditioned.
 
         In t, drive = middle - cos t times half the width, it is analytic: it is extrapolated by a polynomial of degree
         9 through ten poses with t up to 0.3, at the limit of a larger group with drive values within 2e-4 (radians or
         sizes) of it. The interval of t is halved until two such values agree within 1e-9 of the function's size, or as
-        long as they come nearer to one another and the nodes no nearer than 1e-10 to the limit.
+        long as they come nearer to one another and the poses are known: no nearer than 1e-10 to the limit.
         """
         limit, inward = (self.span.high, -1.0) if upper else (self.span.low, 1.0)
         stop = self.span.stops[int(upper)]
         if stop is None:
-            return float(function(self.at(np.array([limit])))[0])
+            return complex(function(self.at(np.array([limit])))[0])
         most, half = _END, self.span.width / 2
-        size = 1.0 if self.turning_drive else self.plan.lower.size
+        natural = 1.0 if self.turning_drive else self.plan.lower.size
         if stop.reason == "singular":
-            most = min(_END, (2 * _END_OF_GROUP * size / half) ** 0.5)
+            most = min(_END, (2 * _END_OF_GROUP * natural / half) ** 0.5)
             from_end = _from_end(most, half)
             limit += inward * _limit_error(self.at(limit + inward * from_end), from_end)
         others = ~np.eye(_NODES, dtype=bool)
-        value, change = np.nan, np.inf
-        from_end = _from_end(most, half)
-        while np.isnan(value) or from_end[0] > _END_NEAREST * size:
+        values: list[complex] = []
+        while True:
+            from_end = _from_end(most / 2 ** len(values), half)
+            if values and from_end[0] < _END_NEAREST * natural:
+                return values[-1]
+            try:
+                motion = self.at(limit + inward * from_end)
+            except LinkageError:
+                if not values:
+                    raise
+                return values[-1]  # In coordinates with large offsets a larger group is lost a little farther away.
             t = 2 * np.arcsin(np.sqrt(from_end / (2 * half)))
             weights = np.prod(-t / np.where(others, t[:, None] - t, 1.0), axis=1, where=others)
-            values = function(self.at(limit + inward * from_end))
-            wider, value, previous = value, float(weights @ values), change
-            if not np.isnan(wider):
-                change = abs(value - wider)
-                if change > previous:
-                    return wider
-                if change <= _END_CLOSE * np.abs(values).max():
-                    break
-            most /= 2
-            from_end = _from_end(most, half)
-        return value
+            values.append(complex(weights @ function(motion)))
+            changes = np.abs(np.diff(values[-3:]))
+            if len(changes) and changes[-1] > changes[0]:
+                return values[-2]
+            if len(changes) and changes[-1] <= _END_CLOSE * size:
+                return values[-1]
 
 
 def _from_end(most: float, half: float) -> Reals:
