@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike
 from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.change_point_rates import set_change_point_rates
+from gruebler.kinematics.change_point_rows import set_change_point_rows
 from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.reference_pose import ReferencePose, pose_at_reference
 from gruebler.kinematics.root_finding import FunctionSamples, bracketed_root
 from gruebler.kinematics.solve import cached_plan, motion_from_rows, move
 from gruebler.linkages import Linkage
@@ -287,8 +287,7 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
     motion = motion_from_rows(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
-    if order:
-        set_change_point_rates(plan, motion, path, speeds, signs)
+    set_change_point_rows(plan, motion, path, speeds, ReferencePose(path[0], signs, start.unknowns[0]))
     return motion, rows
 
 
