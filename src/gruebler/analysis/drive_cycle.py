@@ -142,10 +142,25 @@ class DriveCycle(Brief):
 
     def _along(self, drives: Reals, order: int) -> Motion:
         """The poses at ascending drive values."""
-        motion, rows = _run(self.plan, np.concatenate([self.start.drives[0], drives]), order, self.start)
+        start = self._nearest(drives[0])
+        motion, rows = _run(self.plan, np.concatenate([start.drives[0], drives]), order, start)
         if not motion.complete:
             raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
         return _rows(motion, rows[1:], order)
+
+    def _nearest(self, drive: float) -> Motion:
+        """The start, or a nearer pose that is kept; none next to a change point or an end of the range."""
+        branching = [dyad.number for dyad in self.plan.dyads if dyad.branching]
+        best, margin = self.start, 0.0 if self.span.full else _WELL * self.span.width
+        for motion in self._kept.values():
+            at = motion.drives[:, 0]
+            well = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _WELL
+            well &= ((at >= self.span.low + margin) & (at <= self.span.high - margin)) | self.span.full
+            far = np.where(well, np.abs(at - drive), np.inf)
+            row = int(far.argmin())
+            if far[row] < abs(best.drives[0, 0] - drive):
+                best = _rows(motion, np.array([row]), 0)
+        return best
 
     def end(self, function: Callable[[Motion], Reals | Complexes], upper: bool, size: float = 1.0) -> complex:
         """The value of a function of that size at an end of the range, where poses themselves are ill-conditioned.
