@@ -15,8 +15,8 @@ ROOT = Path(__file__).parents[1]
 # From the ground up. A room may import rooms on lower floors and its own files; errors, then texts, lie beneath them.
 BENEATH = ["errors", "text"]
 FLOORS = [
-    {"arrays", "disjoint_sets", "errors", "text", "atomic_files", "documents", "notebook", "_numeric"},
-    {"chain", "columns", "cams", "gears", "geneva", "drawing/canvas"},
+    {"arrays", "disjoint_sets", "errors", "events", "text", "atomic_files", "documents", "notebook", "_numeric"},
+    {"chain", "columns", "jets", "cams", "gears", "geneva", "drawing/canvas"},
     {"mobility", "isomorphism", "drawing/machines"},
     {"enumeration", "mechanism"},
     {"assur", "linkages", "drawing/structure"},
@@ -27,6 +27,7 @@ FLOORS = [
     {"synthesis", "catalog"},
     {"exercises", "sheets"},
     {"files", "pictures", "teaching"},
+    {"explorer"},
     {"cli"},
 ]
 ENTRANCES = {"", "__main__"}  # the front door looks into every room, lazily; python -m opens the command line

@@ -9,6 +9,7 @@ from . import (
     drawing,
     enumeration,
     errors,
+    explorer,
     forces,
     formats,
     fourbar,
@@ -37,6 +38,7 @@ from .cams import Cam
 from .chain import Chain, Joint
 from .enumeration import chains, count_chains
 from .errors import GrueblerError
+from .explorer.notebook import explore
 from .files import read, write
 from .forces import Loads, Statics, statics
 from .fourbar import FourBar, InvertedSliderCrank, SliderCrank
@@ -44,7 +46,8 @@ from .gears import Train
 from .geneva import Geneva
 from .geometry import coupler_curve
 from .isomorphism import code, decode, is_isomorphic, symmetry
-from .kinematics import Circuit, Motion, assembly_modes, circuit, from_degrees, move, move_many
+from .kinematics import Circuit, Motion, circuit, from_degrees, move, move_many
+from .kinematics.solve import assembly_modes
 from .linkages import Linkage
 from .mechanism import Mechanism
 from .mechanism.inversion import driven_mechanisms, inversions
@@ -98,6 +101,8 @@ __all__ = [
     "driven_mechanisms",
     "enumeration",
     "errors",
+    "explore",
+    "explorer",
     "extend",
     "forces",
     "formats",

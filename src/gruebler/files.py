@@ -55,22 +55,9 @@ def read(path: str | PathLike[str]) -> Value:
 
 def _chains(path: Path) -> list[Chain]:
     from gruebler.chain import Chain
+    from gruebler.formats.structures import read_structures
 
-    try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError("{path}: cannot be read: {problem}", path=path, problem=_problem(error)) from None
-    chains = []
-    for number, line in enumerate(lines, 1):
-        text = line.strip()
-        if not text or text.startswith("#"):
-            continue
-        code = path.suffix.lower() == ".g6" and not text.startswith("g6:")
-        try:
-            chains.append(Chain.parse(f"g6:{text}" if code else text))
-        except GrueblerError as error:
-            raise GrueblerError("{path}, line {number}: {error}", path=path, number=number, error=error) from None
-    return chains
+    return [structure.value for structure in read_structures(path) if isinstance(structure.value, Chain)]
 
 
 def _document(path: Path) -> Value:
@@ -165,7 +152,3 @@ def _graph6(chain: Chain) -> str:
     graph.add_nodes_from(range(chain.n))
     graph.add_edges_from(tuple(map(chain.index, joint.links)) for joint in chain.joints)
     return str(networkx.to_graph6_bytes(graph, header=False).decode("ascii").strip())
-
-
-def _problem(error: OSError | UnicodeDecodeError) -> str:
-    return getattr(error, "strerror", None) or str(error)

@@ -1,6 +1,6 @@
 """Geneva drives: a driver with pins, a wheel with slots, outside or inside; docs/theory/geneva.md.
 
-Angles in radians. The driver's angle is 0 when a pin stands on the line of centres, in the middle of a step. Rates are
+Angles in radians. The driver's angle is 0 when a pin is on the line of centres, in the middle of a step. Rates are
 derivatives by the driver's angle: with a driver that turns at omega the wheel has omega times the first and omega
 squared times the second.
 """
@@ -25,7 +25,7 @@ _MOST = 2_000
 
 
 class GenevaError(GrueblerError):
-    """Numbers that no Geneva drive can have."""
+    """An impossible Geneva drive."""
 
 
 class GenevaMotion(NamedTuple):
@@ -101,7 +101,7 @@ class Geneva:
 
     @property
     def most_pins(self) -> int:
-        """How many equally spaced pins have room: a whole number not above 2n/(n - 2), or 1 inside."""
+        """The largest number of equally spaced pins: a whole number not above 2n/(n - 2), or 1 inside."""
         return 1 if self.internal else 2 * self.slots // (self.slots - 2)
 
     @property
@@ -202,7 +202,7 @@ class Geneva:
         rate = lam * (cosine + side * lam) / square
         second = -lam * (1 - lam**2) * sine / square**2
         third = -lam * (1 - lam**2) * (cosine * square + 4 * side * lam * sine**2) / square**3
-        ratio, acceleration, jerk = (np.where(dwell, 0.0, side * one) for one in (rate, second, third))
+        ratio, acceleration, jerk = (np.where(dwell, 0.0, side * rates) for rates in (rate, second, third))
         return GenevaMotion(side * (index * self.step + moved), ratio, acceleration, jerk, dwell)
 
     def _repr_svg_(self) -> str | None:

@@ -28,7 +28,7 @@ def dwell_six_bar() -> tuple[Linkage, float]:
     """Two crank-rockers in a row, both in their outer dead centres at once; and the crank angle of that."""
     size = FourBar(2, 7, 4.5, 5.5)
     outer = size.dead_centres.outer
-    arm = 2 * np.exp(1j * (outer.phi - outer.output))
+    arm = 2 * np.exp(1j * (outer.drive - outer.output))
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3) R(3-4) R(4-5) R(0-5); frame=0; drive=R(0-1)")
     linkage = Linkage(
         mechanism,
@@ -42,12 +42,12 @@ def dwell_six_bar() -> tuple[Linkage, float]:
         },
         outputs=["5"],
     )
-    return linkage, outer.phi
+    return linkage, outer.drive
 
 
 def locked_rows(motion: Motion, row: int, links: tuple[str, str], joint: int | None) -> np.ndarray:
     """The Jacobian of all closing conditions of a linkage of turning joints and slides, one freedom locked."""
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     chain, frame = lower.mechanism.chain, lower.mechanism.frame
     moving = [link for link in chain.links if link != frame]
     rows: list[np.ndarray] = []
@@ -135,8 +135,10 @@ def check_centres(size: object, closed: object, branch: str) -> None:
     for side in ("inner", "outer"):
         mine = next(centre for centre in found if centre.side == side)
         wanted = getattr(closed, side)
-        phi = wanted.phi if branch == "+" else -wanted.phi
+        phi = wanted.drive if branch == "+" else -wanted.drive
         assert abs(np.exp(1j * (mine.drive - phi)) - 1) < 1e-8
+        assert (mine.kind == wanted.kind) == (branch == "+")  # mirrored, a maximum is a minimum
+        assert mine.flat == wanted.flat
     top, bottom = max(c.output for c in found), min(c.output for c in found)
     assert top - bottom == pytest.approx(closed.travel, rel=1e-8)
 
@@ -173,7 +175,7 @@ def test_the_left_branch_of_a_slider_crank() -> None:
     # turned by half a turn: s(phi, e) on branch - is -s(pi - phi, e) on branch +
     for centre in found:
         wanted = getattr(size.dead_centres, centre.side)
-        assert centre.drive == pytest.approx((math.pi - wanted.phi) % TURN, abs=1e-12)
+        assert centre.drive == pytest.approx((math.pi - wanted.drive) % TURN, abs=1e-12)
         assert centre.output == pytest.approx(-wanted.output, abs=1e-12)
 
 

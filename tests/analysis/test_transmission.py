@@ -44,11 +44,23 @@ def test_along_the_motion(size: FourBar | SliderCrank | InvertedSliderCrank, bra
 def test_extremes(size: FourBar | SliderCrank | InvertedSliderCrank, branch: str) -> None:
     course = drive_cycle(size.linkage(), branch)
     found = measure_transmission(course, find_output(course.linkage))
-    assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest, abs=1e-12)
+    assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest.mu, abs=1e-12)
     dense = size.motion(np.linspace(0, 2 * math.pi, 100_001)).transmission_angle
     assert found.largest.mu == pytest.approx(dense.max(), abs=1e-4)
     assert found.largest.mu >= dense.max() - 1e-12
-    assert found.good == size.transmission_angle.is_good()
+    assert found.good == size.transmission_angle.good
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_the_closed_form_gives_the_same_values(size: FourBar | SliderCrank | InvertedSliderCrank) -> None:
+    closed = size.transmission_angle
+    for branch in "+-":
+        course = drive_cycle(size.linkage(), branch)
+        found = measure_transmission(course, find_output(course.linkage))
+        assert found.legs == closed.legs
+        assert found.largest.mu == pytest.approx(closed.largest.mu, abs=1e-12)
+    by_drive = drive_cycle(size.linkage(), "+").at(np.array([extreme.drive for extreme in closed.extremes]), 2)
+    assert transmission_angle(by_drive) == pytest.approx([extreme.mu for extreme in closed.extremes], abs=1e-9)
 
 
 @settings(max_examples=20, deadline=None)
@@ -61,7 +73,7 @@ def test_extremes_of_any_four_bar(a: float, b: float, c: float, d: float) -> Non
     course = drive_cycle(size.linkage())
     found = measure_transmission(course, find_output(course.linkage))
     # the closed form at a limit is 0 to the root of a rounding
-    assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest, abs=1e-7)
+    assert found.smallest.mu == pytest.approx(size.transmission_angle.smallest.mu, abs=1e-7)
 
 
 def test_a_cylinder_pushes_along_its_line() -> None:

@@ -43,7 +43,7 @@ def overlapping(found):
         room = Obstacles([one])
         wide = Obstacles([other]).texts
         if room.texts.gaps(wide.a, wide.b)[0, 0] - 7.0 < 0:
-            yield one.words, other.words
+            yield one.text, other.text
 
 
 # --- the geometry ----------------------------------------------------------------------------------
@@ -82,7 +82,7 @@ def test_what_has_a_side_at_the_rim_is_named_outside(links):
         outer = {link for link in chain.links if chain.degrees[link] > 1 and _sides(placed.outlines[link], rim)}
         for text in texts(figure):
             at = complex(*text.at.minus(shift))
-            assert not (text.words in outer and is_inside(np.array([at]), rim)[0]), (text.words, chain.text())
+            assert not (text.text in outer and is_inside(np.array([at]), rim)[0]), (text.text, chain.text())
 
 
 def _sides(outline, rim):
@@ -111,7 +111,7 @@ def test_no_two_texts_of_any_structure_picture_touch():
 
 def test_short_names_are_not_listed_as_themselves():
     record = entry("quad_double")
-    words = [text.words for text in texts(draw(Mechanism(record.chain(), "1"), labels=True))]
+    words = [text.text for text in texts(draw(Mechanism(record.chain(), "1"), labels=True))]
     assert [word for word in words if "  " in word] == ["5  diagonal"]
 
 
@@ -127,22 +127,22 @@ def test_dimensions_and_names_do_not_touch(name):
 
 
 def test_pins_within_a_body_and_cylinders_have_dimensions():
-    boom = [text.words for text in texts(draw_linkage(entry("excavator").linkage(), show=["dimensions"]), "value")]
+    boom = [text.text for text in texts(draw_linkage(entry("excavator").linkage(), show=["dimensions"]), "value")]
     assert len(boom) > 16
     linkage, between = linkage_and_range("crane_cyl")
     figure = draw_linkage(linkage, 40.0, between=between, show=["dimensions"])
-    assert "40 mm" in [text.words for text in texts(figure, "value")]
+    assert "40 mm" in [text.text for text in texts(figure, "value")]
     corners = {"R(0-1)": (0, 0), "R(1-2)": (3, 4), "R(2-3)": (9, 4), "R(0-3)": (9, 0)}
     mechanism = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
     triangle = Linkage.from_drawing(mechanism, corners).with_points({"A": ("2", 3.0, 6.0), "B": ("2", 3.0, 1.0)})
-    values = [text.words for text in texts(draw_linkage(triangle, show=["dimensions"]), "value")]
+    values = [text.text for text in texts(draw_linkage(triangle, show=["dimensions"]), "value")]
     assert {"3.162 mm"} <= set(values)  # from B, within 0, 6 and A, to the nearest corner
 
 
 @pytest.mark.parametrize(("factor", "word"), [(1e-8, "2.5×10⁻⁷ mm"), (1e6, "2.5×10⁷ mm"), (0.1, "2.5 mm")])
 def test_sizes_are_written_with_powers_of_ten(factor, word):
     figure = draw_linkage(FourBar(25, 70, 40, 70).linkage().scaled(factor), 1.0, show=["dimensions", "scale"])
-    values = [text.words for text in texts(figure, "value")]
+    values = [text.text for text in texts(figure, "value")]
     assert word in values
     assert not [value for value in values if "e-" in value or "e+" in value]
 
@@ -150,7 +150,7 @@ def test_sizes_are_written_with_powers_of_ten(factor, word):
 def test_german_sizes_have_commas():
     assert as_text(1.25, "cm", "de") == "1,25 cm"
     figure = draw_linkage(FourBar(2.5, 7, 4, 7).linkage(), 1.0, show=["dimensions", "transmission"], lang="de")
-    assert not [text.words for text in texts(figure, "value") if "." in text.words]
+    assert not [text.text for text in texts(figure, "value") if "." in text.text]
 
 
 # --- what is drawn besides -------------------------------------------------------------------------
@@ -184,7 +184,7 @@ def test_sliding_drives_are_marked_while_they_move(name):
 def test_hodographs_tell_round_values_and_keep_their_dots():
     linkage, between = linkage_and_range("crane_cyl")
     figure = hodograph(linkage, ["C"], between=between)
-    told = [text.words for text in texts(figure, "value") if text.words.endswith(" mm")]
+    told = [text.text for text in texts(figure, "value") if text.text.endswith(" mm")]
     assert told
     assert all(float(word.split()[0]) % 1 == 0 for word in told)
     dots = [shape for shape in figure.shapes if shape.style == "dot"]

@@ -21,7 +21,7 @@ CRANK_ROCKER = FourBar(25, 70, 40, 70)
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
+    return [shape.text for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def named(figure):

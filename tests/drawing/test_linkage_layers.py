@@ -38,7 +38,7 @@ CARDAN = SliderCrank(25, 25).linkage()
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
+    return [shape.text for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def styled(figure, style):
@@ -164,7 +164,7 @@ def test_the_inflection_circle_is_that_of_the_geometry_and_passes_through_the_sl
 
 def test_links_without_centrodes():
     figure = draw_linkage(WITH_POINT, 1.0, show=["centrodes", "inflection"], output="rocker")
-    assert "Not there, or outside the picture: fixed centrode" in figure.description
+    assert "Missing, or outside the picture: fixed centrode" in figure.description
     text = draw_linkage(entry("loco2").linkage(), 1.0, show=["centrodes", "inflection"], lang="de").description
     assert "Nicht vorhanden oder außerhalb des Bildes: Rastpolbahn" in text
 

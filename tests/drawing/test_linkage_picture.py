@@ -40,7 +40,7 @@ LAYERS = ["dead-centres", "transmission", "velocities", "poles", "scale"]
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
+    return [shape.text for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def styles(figure, name):
@@ -341,8 +341,8 @@ def test_lengths_are_drawn_to_scale(capsys):
 def test_what_is_not_there_is_said(capsys):
     assert draw.run(arguments_of("draw", "wiper", show=["dead-centres", "scale"])) == 0
     text, said = capsys.readouterr()  # the blade moves without turning
-    assert "Shown: scale. Not there, or outside the picture: dead centres." in text
-    assert said == "Not there, or outside the picture: dead centres.\n"
+    assert "Shown: scale. Missing, or outside the picture: dead centres." in text
+    assert said == "Missing, or outside the picture: dead centres.\n"
     assert "Shown: dead centres." in drawn(capsys, "wiper", show=["dead-centres"], output="rocker1")
 
 

@@ -46,7 +46,7 @@ PLANETARY = "sun:24 planet:18 ring:-60 on arm planets=3; hold ring; sun=7"
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
+    return [shape.text for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def number(line):
@@ -427,6 +427,6 @@ GERMAN = {
 @pytest.mark.parametrize("machine", GERMAN)
 def test_numbers_in_german_pictures_have_a_decimal_comma(machine):
     figure = GERMAN[machine]()
-    words = [figure.description, *(shape.words for shape in figure.shapes if isinstance(shape, TextShape))]
+    words = [figure.description, *(shape.text for shape in figure.shapes if isinstance(shape, TextShape))]
     assert any(re.search(r"\d,\d", text) for text in words)
     assert [text for text in words if re.search(r"\d\.\d", text)] == []

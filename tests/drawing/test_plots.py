@@ -39,7 +39,7 @@ SHEET = [
 
 
 def words(figure):
-    return [shape.words for shape in figure.shapes if isinstance(shape, TextShape)]
+    return [shape.text for shape in figure.shapes if isinstance(shape, TextShape)]
 
 
 def lines(figure, style):
@@ -63,7 +63,7 @@ class Read:
 
     def named(self, at):
         return next(
-            float(t.words.replace("−", "-"))
+            float(t.text.replace("−", "-"))
             for t in self.texts
             if abs(t.at.x - at.x) < 0.01 and abs(t.at.y - at.y) < 0.01
         )

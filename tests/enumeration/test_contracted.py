@@ -160,7 +160,7 @@ def test_the_first_graph_that_is_not_planar():
         (((0, 1, 3), (1, 2, 0)), "bundle"),
         (((0, 1, 2),), "three strings"),
         (((0, 1, 2), (1, 0, 2)), "two bundles"),
-        (((0, 1, 3), (2, 3, 3)), "in pieces"),
+        (((0, 1, 3), (2, 3, 3)), "disconnected"),
         (((0, 1, 3), (1, 2, 3)), "falls apart at node 1"),
         (((0, 2, 3),), "three strings"),
     ],

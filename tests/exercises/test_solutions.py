@@ -533,7 +533,7 @@ CHECKED = [
     ("15", "φ_i, the crank's inclination there"),
     ("17", "Ratio of the times"),
     ("17", "Crank angle of the dead centres"),
-    ("17", "Length of this stretch"),
+    ("17", "Length of this part"),
     ("18", "Stroke, by the general solver"),
     ("18", "Points in common"),
     ("19", "L, by the general solver"),

@@ -77,7 +77,7 @@ def test_limits_tell_exactly_which_poses_are_assembled(linkage):
     assert bool(arcs) == (linkage.type.key != "not_assemblable")
     assert (len(arcs) == 1 and arcs[0].full) == ("a" in linkage.turning)
     for end in ends:
-        assert linkage.transmission_angle.smallest < 1e-6
+        assert linkage.transmission_angle.smallest.mu < 1e-6
         assert not linkage.motion([end - 1e-4, end + 1e-4]).assembled.all()
 
 
@@ -171,8 +171,8 @@ def refined(values, pick):
 def test_dead_centres_are_the_extremes_of_the_output(linkage):
     centres = linkage.dead_centres
     assume(centres is not None)
-    assume(linkage.transmission_angle.smallest > 0.1)
-    start = (centres.inner.phi + centres.phi_forward / 2) % (2 * np.pi)
+    assume(linkage.transmission_angle.smallest.mu > 0.1)
+    start = (centres.inner.drive + centres.phi_forward / 2) % (2 * np.pi)
     output = linkage.motion(DENSE + start).output.value
     if not isinstance(linkage, SliderCrank):
         output = np.unwrap(output)
@@ -183,8 +183,8 @@ def test_dead_centres_are_the_extremes_of_the_output(linkage):
     ):
         best, where = refined(output, pick)
         assert best == pytest.approx(centre.output, abs=1e-6 * (1 + abs(centre.output)))
-        assert abs(np.angle(np.exp(1j * (where + start - centre.phi)))) < 2e-3
-        at = linkage.motion(centre.phi)
+        assert abs(np.angle(np.exp(1j * (where + start - centre.drive)))) < 2e-3
+        at = linkage.motion(centre.drive)
         assert float(at.output.value) == pytest.approx(centre.output, abs=1e-9)
         assert abs(at.output.velocity) < 1e-9
         collinear = np.exp(1j * (at.coupler.value - at.crank.value))
@@ -204,17 +204,17 @@ def test_transmission_angles_are_extreme(linkage):
     motion = linkage.motion(DENSE)
     folded = motion.transmission_angle[motion.assembled]
     assume(folded.size > 20)
-    assert extremes.smallest <= folded.min() + 1e-6
-    assert extremes.largest >= folded.max() - 1e-6
-    assert 0 <= extremes.smallest <= extremes.largest <= math.pi / 2
-    assert extremes.smallest + extremes.largest_deviation == pytest.approx(math.pi / 2)
-    assert extremes.is_good() == (math.degrees(extremes.smallest) >= 40)
-    for extreme in (extremes.first, extremes.second):
-        at = linkage.motion(extreme.phi)
+    assert extremes.smallest.mu <= folded.min() + 1e-6
+    assert extremes.largest.mu >= folded.max() - 1e-6
+    assert 0 <= extremes.smallest.mu <= extremes.largest.mu <= math.pi / 2
+    assert extremes.smallest.mu + extremes.smallest.deviation == pytest.approx(math.pi / 2)
+    assert extremes.good == (math.degrees(extremes.smallest.mu) >= 40)
+    for extreme in extremes.extremes:
+        at = linkage.motion(extreme.drive)
         if at.assembled and not isinstance(linkage, InvertedSliderCrank):
-            assert float(at.mu) == pytest.approx(extreme.mu, abs=1e-5)
+            assert float(at.mu) == pytest.approx(extreme.angle, abs=1e-5)
     if linkage.limits[0].full:
-        assert folded.min() == pytest.approx(extremes.smallest, abs=0.02)
+        assert folded.min() == pytest.approx(extremes.smallest.mu, abs=0.02)
 
 
 @given(slider_cranks, angle)

@@ -27,7 +27,7 @@ def test_a_point_on_the_inflection_circle_has_no_normal_acceleration(name, relat
     for angle in (0.3, 2.0, 4.0):
         there = middle + circle.diameter / 2 * np.exp(1j * angle) * circle.normal
         arm = np.conj(seen.turn) * (there - seen.places[0])
-        velocity, acceleration = seen.point(arm, 1), seen.point(arm, 2)
+        velocity, acceleration = seen.complex_point(arm, 1), seen.complex_point(arm, 2)
         known = np.isfinite(velocity)
         normal = (np.conj(velocity) * acceleration).imag[known]
         assert np.all(abs(normal) <= 1e-8 * abs(velocity[known]) * (abs(acceleration[known]) + abs(velocity[known])))

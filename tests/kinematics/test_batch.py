@@ -36,12 +36,12 @@ def check(many: Designs, order: int = 2, branch: str | None = None, path: np.nda
         alone = move(one, path, order=order, branch=branch)
         end = motions.reached[n]
         assert end == len(alone)
-        assert np.isnan(motions.turns[n, :, end:]).all()
+        assert np.isnan(motions.turns[n, end:]).all()
         for k, link in enumerate(motions.links):
             column = one.mechanism.chain.links.index(link)
-            assert np.abs(motions.turns[n, k, :end] - alone.turns[:, column]).max(initial=0) < 1e-13
+            assert np.abs(motions.turns[n, :end, k] - alone.turns[:, column]).max(initial=0) < 1e-13
             for m in range(order + 1):
-                gap = motions.places[m, n, k, :end] - alone.places[m, :, column]
+                gap = motions.places[m, n, :end, k] - alone.places[m, :, column]
                 assert np.abs(gap).max(initial=0) < 1e-9 * (1 + np.abs(alone.places[m]).max(initial=0))
             if end == len(path):
                 assert np.allclose(motions.angle(link)[n], alone.angle(link), rtol=0, atol=1e-12)
@@ -73,16 +73,18 @@ def test_joints_and_rates_of_the_kept_links() -> None:
     alone = move(FourBar(25, 70, 40, 70).linkage(), PATH, speed=4)
     for order in range(3):
         assert np.allclose(
-            motions.joint("R(coupler-rocker)", order)[1], alone.complex_point("R(coupler-rocker)", order)
+            motions.complex_point("R(coupler-rocker)", order)[1], alone.complex_point("R(coupler-rocker)", order)
         )
+    shown = motions.point("R(coupler-rocker)")
+    assert np.allclose(shown[1], alone.point("R(coupler-rocker)"))
     assert np.allclose(motions.angular("coupler")[1], alone.angular("coupler"))
     assert motions.motion(1).complete
     with pytest.raises(LinkageError, match="'rocker' was not kept"):
         motions.angle("rocker")
     with pytest.raises(LinkageError, match="order from 0 to 2"):
-        motions.joint("R(crank-coupler)", 3)
+        motions.complex_point("R(crank-coupler)", 3)
     with pytest.raises(LinkageError, match="not a joint of the links kept"):
-        motions.joint("R(frame-crank)")
+        motions.complex_point("R(frame-crank)")
 
 
 def test_a_design_that_cannot_be_assembled_reaches_no_row() -> None:

@@ -122,7 +122,7 @@ def test_measures_of_a_geneva_drive():
     [
         (lambda: move(flat_follower("rise 20 90; dwell"), [0]), "it began"),
         (lambda: move(flat_follower("rise 20 20; fall 20 20; dwell", 20.0), [0]), "crosses itself"),
-        (lambda: move(geneva(2), [0]), "at least 3"),
+        (lambda: move(geneva(2), [0]), "from 3 to 2,000"),
         (lambda: move(geneva(4, 9), [0]), "at most 4 pins"),
         (lambda: flat_follower().mirrored(), "mirror image of a cam"),
         (lambda: roller_follower()._changed(elements=_with_roller(7.0)), "made for a roller of 10, not 7"),

@@ -36,9 +36,9 @@ def test_the_circuit_goes_straight_on_and_names_them(count, angle):
     assert len(found) == 2
     assert away == pytest.approx([0, 0], abs=1e-8)
     assert [point.several for point in made.change_points] == [count > 1] * 2
-    for point in made.change_points:  # every crank stands like the first one, on the drawn curve
-        turned = [point.pose.angle(f"w{k}")[0] for k in range(count + 1)]
-        assert np.abs(np.exp(1j * np.diff(2 * np.array(turned))) - 1).max() < 1e-8
+    turned = [made.poses_at_change_points.angle(f"w{k}") for k in range(count + 1)]
+    assert np.shape(turned) == (count + 1, 2)  # every crank stands like the first one, on the drawn curve
+    assert np.abs(np.exp(1j * np.diff(2 * np.array(turned), axis=0)) - 1).max() < 1e-8
 
 
 def test_a_near_miss_is_none():

@@ -123,7 +123,7 @@ def test_home_is_on_the_motion_and_everything_stays_closed(name):
     assert motion.complete, motion.message()
     assert motion.closure_error < 1e-12
     for link, home in linkage.reference_pose.items():
-        k = motion.plan.lower.mechanism.chain.index(link)
+        k = motion.link_index(link)
         assert abs(motion.places[0, 0, k] - complex(home.x, home.y)) < 1e-12 * linkage.size
         assert abs(motion.turns[0, k] - np.exp(1j * home.angle)) < 1e-12
 

@@ -91,8 +91,8 @@ def test_the_curves_roll_on_each_other(text, teeth):
     motion = move(linkage, 2 * pi * rows / len(one))
     assert motion.complete
     first, second = linkage.element(2, "a"), linkage.element(2, "b")
-    turned = motion.turns[:, motion._link("a")] * np.exp(1j * first.angle)
-    other = motion.turns[:, motion._link("b")] * np.exp(1j * second.angle)
+    turned = motion.turns[:, motion.link_index("a")] * np.exp(1j * first.angle)
+    other = motion.turns[:, motion.link_index("b")] * np.exp(1j * second.angle)
     here, there = turned * one[rows % len(one)], 100 + other * two[rows]
     np.testing.assert_allclose(here, there, atol=1e-10)
     assert np.abs(here.imag).max() < 1e-10

@@ -79,7 +79,7 @@ def test_the_cam_gives_the_lift_for_which_it_is_made(linkage):
 def touching(linkage, motion, row, points):
     """The least distance of the profile, as it is cut, from the follower's surface; negative if it cuts into it."""
     number, cam = next((key, e) for key, e in linkage.elements.items() if isinstance(e, CamDisc))
-    turned = motion.turns[row, motion._link("cam")] * np.exp(1j * cam.angle)
+    turned = motion.turns[row, motion.link_index("cam")] * np.exp(1j * cam.angle)
     centre = motion.complex_point(LinkPoint("cam", cam.x, cam.y))[row]
     profile = centre + cam.scale * turned * points
     other = next(link for link in linkage.mechanism.chain.joints[number[0]].links if link != "cam")
@@ -87,7 +87,7 @@ def touching(linkage, motion, row, points):
     at = motion.complex_point(LinkPoint(other, element.x, element.y))[row]
     if isinstance(element, Circle):
         return np.abs(profile - at).min() - element.radius
-    normal = 1j * motion.turns[row, motion._link(other)] * np.exp(1j * element.angle)
+    normal = 1j * motion.turns[row, motion.link_index(other)] * np.exp(1j * element.angle)
     return -(np.conj(normal) * (profile - at)).real.max()
 
 

@@ -90,7 +90,7 @@ def test_planetary_trains_run_as_willis_says(sun, planet, drives):
     for link, value in wanted.items():
         np.testing.assert_allclose(motion.angular(link), float(value), rtol=1e-12, atol=1e-12)
         np.testing.assert_allclose(motion.angle(link), float(value) * np.linspace(0, 1.5, 10), atol=1e-11)
-        assert np.abs(motion.rates[1:, :, motion._link(link)]).max() < 1e-9
+        assert np.abs(motion.rates[1:, :, motion.link_index(link)]).max() < 1e-9
 
 
 @settings(max_examples=15, deadline=None)

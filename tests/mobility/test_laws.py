@@ -117,7 +117,7 @@ def test_what_is_said_to_mend_mends(chain):
                 after = generic(inner.without_joint(position)).redundancy
             except ChainError:
                 continue
-            assert (after == 0) == (number in part.mended_by_removing)
+            assert (after == 0) == (number in part.resolved_by_removing)
 
 
 def induced(chain, links):
@@ -161,4 +161,4 @@ def test_one_more_freedom_mends_where_it_is_said_to(chain):
             position = next(k for k, j in enumerate(inner.joints) if set(j.links) == set(joint.links))
             freed = [("roll_slide" if k == position else j.pair, j.links) for k, j in enumerate(inner.joints)]
             after = generic(Chain(freed, links=inner.links)).redundancy
-            assert (after == 0) == (number in part.mended_by_freeing)
+            assert (after == 0) == (number in part.resolved_by_freeing)

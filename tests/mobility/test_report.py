@@ -48,7 +48,7 @@ def test_a_sum_that_is_right_by_accident_is_not_passed():
     (part,) = braced.overconstrained
     assert part.links == ("0", "1", "2", "3")
     assert part.redundancy == 1
-    assert part.mended_by_freeing == part.mended_by_removing == part.joints == (0, 1, 2, 3, 4)
+    assert part.resolved_by_freeing == part.resolved_by_removing == part.joints == (0, 1, 2, 3, 4)
     assert braced.rigid_clusters == (("0", "1", "2", "3"),)
     assert braced.immobile_joints == (0, 1, 2, 3, 4)
     hidden = mobility_report(Chain.parse(KNOWN[10][0]))
@@ -94,13 +94,13 @@ def test_explanations_of_the_seeds_two_chains():
         mobility_report(Chain.parse(VEE)).explain("fr")
 
 
-def test_a_tangle_too_large_to_take_apart_is_handed_back_whole():
+def test_a_part_too_large_to_decompose_is_returned_undivided():
     import networkx as nx
 
     report = mobility_report(Chain.from_edges(nx.complete_graph(20).edges))
     assert report.redundancy == 2 * 190 - 57
     assert [part.minimal for part in report.overconstrained] == [False]
-    assert "not taken apart" in report.explain()
+    assert "not decomposed" in report.explain()
 
 
 def test_a_chain_of_very_many_links_is_refused_with_its_size_unless_it_is_wanted(monkeypatch):

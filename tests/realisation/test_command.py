@@ -1,11 +1,10 @@
 """`gruebler realise`: what it prints, writes and returns."""
 
-import argparse
 import json
 
 import pytest
 
-from gruebler.cli.realise import run
+from gruebler.cli.commands import command
 from gruebler.formats.linkages import linkage_from_json, read_linkage
 from gruebler.kinematics import move
 from gruebler.mechanism import Mechanism
@@ -14,9 +13,9 @@ from gruebler.realisation import realise
 FOUR = "R(0-1) R(1-2) R(2-3) R(3-0)"
 
 
-def called(chain, **options):
-    given = {"frame": None, "drive": [], "seed": 0, "tries": 200, "output": None, "json": False, "lang": "en"}
-    return run(argparse.Namespace(chain=chain, **(given | options)))
+def called(chain, *options):
+    chosen = command("realise")
+    return chosen.module().run(chosen.parser().parse_args([chain, "--tries", "200", *options]))
 
 
 def test_it_prints_a_linkage(capsys, tmp_path):
@@ -30,7 +29,7 @@ def test_it_prints_a_linkage(capsys, tmp_path):
 
 @pytest.mark.parametrize("name", ["four.toml", "four.json"])
 def test_what_it_writes_moves(capsys, tmp_path, name):
-    assert called(FOUR, drive=["R(3-0)"], seed=3, output=tmp_path / name, lang="de") == 0
+    assert called(FOUR, "--drive", "R(3-0)", "--seed", "3", "-o", str(tmp_path / name), "--lang", "de") == 0
     assert "D(3-0) läuft um" in capsys.readouterr().out
     found = realise(Mechanism.parse(f"{FOUR}; drive=R(3-0)"), seed=3, budget=200)
     motion = move(read_linkage(tmp_path / name), found.path())
@@ -39,7 +38,7 @@ def test_what_it_writes_moves(capsys, tmp_path, name):
 
 
 def test_json(capsys):
-    assert called("R(0-1) R(1-2) R(2-3) P(3-0)", json=True, drive=["P(3-0)"]) == 0
+    assert called("R(0-1) R(1-2) R(2-3) P(3-0)", "--json", "--drive", "P(3-0)") == 0
     document = json.loads(capsys.readouterr().out)
     (drive,) = document["drives"]
     assert drive["joint"] == "P(3-0)"
@@ -50,5 +49,5 @@ def test_json(capsys):
 def test_a_failure_is_said(capsys):
     assert called("R(0-1) R(1-2) R(2-0)") == 1
     assert "no mobility" in capsys.readouterr().out
-    assert called("R(0-1) R(1-2) R(2-0)", json=True, lang="de") == 1
+    assert called("R(0-1) R(1-2) R(2-0)", "--json", "--lang", "de") == 1
     assert json.loads(capsys.readouterr().out)["found"] is False

@@ -49,7 +49,7 @@ def test_with_two_freedoms_the_order_matters_and_both_ways_agree(links):
 
 @cache
 def _loops_by_trying_everything(chain):
-    return is_loop(chain) or any(_loops_by_trying_everything(dyad.rest) for dyad in removable_dyads(chain))
+    return is_loop(chain) or any(_loops_by_trying_everything(dyad.remainder) for dyad in removable_dyads(chain))
 
 
 @given(st.sampled_from([STEPHENSON, WATT, *closed_chains(7, 2), *closed_chains(8, 1)]), st.data())

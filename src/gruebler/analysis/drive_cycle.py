@@ -108,6 +108,21 @@ class DriveCycle(Brief):
         return self.plan.linkage
 
     @property
+    def lower_linkage(self) -> Linkage:
+        """The linkage as it is solved: with lower pairs, and the links that replace higher ones."""
+        return self.plan.lower
+
+    @property
+    def size(self) -> float:
+        """A length of the order of the linkage as it is solved."""
+        return self.plan.lower.size
+
+    @property
+    def drive_size(self) -> float:
+        """What counts as much as a radian of a turning drive: 1, or the size for a sliding one."""
+        return 1.0 if self.turning_drive else self.size
+
+    @property
     def turning_drive(self) -> bool:
         """Whether the drive turns; else it slides."""
         return _turns(self.plan)
@@ -175,16 +190,15 @@ class DriveCycle(Brief):
         if stop is None:
             return complex(function(self.at(np.array([limit])))[0])
         most, half = _END, self.span.width / 2
-        natural = 1.0 if self.turning_drive else self.plan.lower.size
         if stop.reason == "singular":
-            most = min(_END, (2 * _END_OF_GROUP * natural / half) ** 0.5)
+            most = min(_END, (2 * _END_OF_GROUP * self.drive_size / half) ** 0.5)
             from_end = _from_end(most, half)
             limit += inward * _limit_error(self.at(limit + inward * from_end), from_end)
         others = ~np.eye(_NODES, dtype=bool)
         values: list[complex] = []
         while True:
             from_end = _from_end(most / 2 ** len(values), half)
-            if values and from_end[0] < _END_NEAREST * natural:
+            if values and from_end[0] < _END_NEAREST * self.drive_size:
                 return values[-1]
             try:
                 motion = self.at(limit + inward * from_end)
@@ -403,7 +417,7 @@ def _grid(cycle: DriveCycle) -> Reals:
     def drive(s: Reals) -> Reals:
         return s if span.full else span.low + span.width * np.sin(s / 2) ** 2
 
-    least = _STILL / (1 if cycle.turning_drive else cycle.plan.lower.size)
+    least = _STILL / cycle.drive_size
     suspect = np.ones(len(s) - 1, bool)
     speed, change = np.empty((2, 0, len(cycle.plan.lower.mechanism.chain.links)))
     for _ in range(_LEVELS):
@@ -437,7 +451,7 @@ def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
         return ()
     grid = cycle.grid
     motion = cycle.at(grid, 0)
-    found: list[float] = []
+    joints: list[float] = []
     for condition in laws:
         seen = _direction(motion, condition)
         for angle in sorted({joint % (2 * pi) for joint in condition.law.joints}):
@@ -449,23 +463,23 @@ def _law_joints(cycle: DriveCycle) -> tuple[float, ...]:
             def off(drives: Reals, condition: Condition = condition, angle: float = angle) -> Reals:
                 return np.asarray((_direction(cycle.at(drives, 0), condition) * np.exp(-1j * angle)).imag)
 
-            found += bracketed_root(off, low, high).tolist() if len(cells) else []
-    return _merged(sorted(found), _SAME * cycle.span.width, cycle.span.period)
+            joints += bracketed_root(off, low, high).tolist() if len(cells) else []
+    return _merged(sorted(joints), _SAME * cycle.span.width, cycle.span.period)
 
 
 def _merged(places: list[float], near: float, period: float) -> tuple[float, ...]:
-    out: list[float] = []
+    merged: list[float] = []
     for place in places:
-        if not out or place - out[-1] > near:
-            out.append(place)
-    if len(out) > 1 and out[0] + period - out[-1] <= near:
-        out.pop()
-    return tuple(out)
+        if not merged or place - merged[-1] > near:
+            merged.append(place)
+    if len(merged) > 1 and merged[0] + period - merged[-1] <= near:
+        merged.pop()
+    return tuple(merged)
 
 
 def _direction(motion: Motion, condition: Condition) -> Complexes:
     """The argument of a law as a direction, as in the kernel `closure`."""
-    plan, chain = motion.plan, motion.plan.lower.mechanism.chain
+    plan, chain = motion.plan, motion.lower_linkage.mechanism.chain
     points, lines = plan.element_arrays(plan.lower)
     turns, places, along = [], [], []
     for side in condition.sides:

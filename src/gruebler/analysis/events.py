@@ -16,18 +16,16 @@ from gruebler.analysis.drive_cycle import DriveCycle
 from gruebler.analysis.outputs import Output
 from gruebler.arrays import Reals
 from gruebler.assur import SolvedGroup
+from gruebler.events import ChangePoint, DeadCentre
 from gruebler.kinematics.circuits import Circuit, circuit
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Dyad
-from gruebler.kinematics.poses import Poses
 from gruebler.kinematics.redundancy import ReferenceConditions
 from gruebler.kinematics.root_finding import Zero, bracketed_root, find_zeros, vanishing
 
 __all__ = [
     "Crossing",
     "Dwell",
-    "GroupChangePoint",
-    "OutputDeadCentre",
     "change_points",
     "crossings",
     "dead_centres",
@@ -52,20 +50,6 @@ _TOGETHER = 1e-8  # radians or sizes: change points that are nearer are one
 _LOST = 1e-6  # of the largest singular value: less is zero
 _AROUND = np.array([-4, -3, -2, -1, 1, 2, 3, 4.0])  # places about a change point, in steps
 _STEP = 0.02  # radians, or parts of the size
-
-
-class OutputDeadCentre(NamedTuple):
-    """Where the output stops: it turns back there, or (``flat``, not a maximum or minimum) only pauses."""
-
-    drive: float
-    """The drive's value; of full turns in 0 to the period."""
-    output: float
-    kind: str
-    """``maximum`` or ``minimum`` of the output, or ``flat``: it goes on in the same direction."""
-    flat: bool
-    """Whether the second derivative vanishes as well, so that the output dwells."""
-    side: str
-    """``inner`` or ``outer`` for the two extreme ones, else empty."""
 
 
 class Dwell(NamedTuple):
@@ -103,16 +87,6 @@ class Crossing(NamedTuple):
     """``maximum``, ``minimum`` or ``flat`` of that function; for order 0 ``rising``, ``falling`` or ``touching``."""
 
 
-class GroupChangePoint(NamedTuple):
-    """Where the assembly modes of a group meet and the motion goes on through."""
-
-    drive: float
-    links: tuple[str, ...]
-    form: str
-    several: bool = False
-    """Whether more than two curves of positions meet there, or two that touch one another."""
-
-
 def transfer_function(cycle: DriveCycle, output: Output, drives: Reals, order: int = 0) -> Reals:
     """The transfer function of order 0 to 3 at drive values: psi, psi', psi'', psi''' in radians or lengths; (n,)."""
     return output.values(cycle.at(np.asarray(drives, np.float64), max(order, 1)), order)
@@ -120,8 +94,7 @@ def transfer_function(cycle: DriveCycle, output: Output, drives: Reals, order: i
 
 def natural_speed(cycle: DriveCycle, output: Output) -> float:
     """The usual size of output over drive: 1 for angle by angle, the linkage's size for a way by an angle, ..."""
-    size = cycle.plan.lower.size
-    return (1.0 if output.turning else size) / (1.0 if cycle.turning_drive else size)
+    return (1.0 if output.turning else cycle.size) / cycle.drive_size
 
 
 def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, ...]:
@@ -130,8 +103,7 @@ def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, 
     Of an angle the zeros of order 0 are the multiples of a full turn. None for an output that stands still.
     """
     least = (_EVEN if order > 1 else _STILL) * natural_speed(cycle, output)
-    if not cycle.turning_drive:
-        least /= cycle.plan.lower.size ** max(order - 1, 0)
+    least /= cycle.drive_size ** max(order - 1, 0)
 
     def jet(drives: Reals) -> Reals:
         motion = cycle.at(drives)
@@ -157,18 +129,18 @@ def crossings(cycle: DriveCycle, output: Output, order: int) -> tuple[Crossing, 
     )
 
 
-def _before(cycle: DriveCycle, output: Output, found: tuple[Zero, ...], order: int) -> Reals:
-    if not found:
+def _before(cycle: DriveCycle, output: Output, zeros: tuple[Zero, ...], order: int) -> Reals:
+    if not zeros:
         return np.empty(0)
-    return transfer_function(cycle, output, np.array([zero.at for zero in found]), order - 1 if order else 1)
+    return transfer_function(cycle, output, np.array([zero.at for zero in zeros]), order - 1 if order else 1)
 
 
-def _inside(cycle: DriveCycle, found: tuple[Zero, ...]) -> tuple[Zero, ...]:
+def _inside(cycle: DriveCycle, zeros: tuple[Zero, ...]) -> tuple[Zero, ...]:
     """The zeros in the order in which they are reported."""
-    return tuple(sorted(found, key=lambda zero: cycle.span.wrapped(zero.at)))
+    return tuple(sorted(zeros, key=lambda zero: cycle.span.wrapped(zero.at)))
 
 
-def dead_centres(cycle: DriveCycle, output: Output) -> tuple[OutputDeadCentre, ...]:
+def dead_centres(cycle: DriveCycle, output: Output) -> tuple[DeadCentre, ...]:
     """All positions in which the output stops without resting, with the extreme ones told apart as inner and outer.
 
     A dead centre is a zero of psi' that is not in a dwell. The outer one is that in which the point that drives the
@@ -189,7 +161,7 @@ def dwells(cycle: DriveCycle, output: Output) -> tuple[Dwell, ...]:
     return stops(cycle, output)[1]
 
 
-def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ...], tuple[Dwell, ...]]:
+def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[DeadCentre, ...], tuple[Dwell, ...]]:
     """`dead_centres` and `dwells`."""
 
     def jet(drives: Reals) -> Reals:
@@ -201,12 +173,11 @@ def stops(cycle: DriveCycle, output: Output) -> tuple[tuple[OutputDeadCentre, ..
     resting = vanishing(jet, samples, least) if cycle.joints else ()
     values = transfer_function(cycle, output, np.array([zero.at for zero in zeros])) if zeros else np.empty(0)
     centres = [
-        OutputDeadCentre(
+        DeadCentre(
             cycle.span.wrapped(zero.at),
             float(value),
             "flat" if zero.multiplicity == 2 else "minimum" if zero.rises else "maximum",
-            zero.multiplicity > 1,
-            "",
+            flat=zero.multiplicity > 1,
         )
         for zero, value in zip(zeros, values, strict=True)
     ]
@@ -245,7 +216,7 @@ def _way(cycle: DriveCycle, output: Output, edge: float, joint: float) -> int:
     return int(np.sign(rates[np.argmax(np.abs(rates) > _EVEN * np.abs(rates).max())]))
 
 
-def _sides(cycle: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre | Dwell]) -> list[str]:
+def _sides(cycle: DriveCycle, output: Output, stops: Sequence[DeadCentre | Dwell]) -> list[str]:
     """Which of the stops is the inner and which the outer one; of several that are as far out the first."""
     sides = [""] * len(stops)
     turning = [k for k, stop in enumerate(stops) if stop.kind != "flat"]
@@ -261,7 +232,7 @@ def _sides(cycle: DriveCycle, output: Output, stops: Sequence[OutputDeadCentre |
 
     top, bottom = first(high), first(low)
     far = _distances(cycle, output, np.array([stops[top].drive, stops[bottom].drive]))
-    if far is None or abs(far[0] - far[1]) < _EQUAL * cycle.plan.lower.size:
+    if far is None or abs(far[0] - far[1]) < _EQUAL * cycle.size:
         top_is_outer = not output.turning
     else:
         top_is_outer = bool(far[0] > far[1])
@@ -283,7 +254,7 @@ def output_turns(cycle: DriveCycle, output: Output) -> int:
 
 def drive_pivot(cycle: DriveCycle) -> complex | None:
     """Where a turning drive has its axis in the frame; None for any other drive."""
-    lower = cycle.plan.lower
+    lower = cycle.lower_linkage
     first, _ = lower.reference(0)
     if first != lower.mechanism.frame or not cycle.turning_drive:
         return None
@@ -297,7 +268,7 @@ def _distances(cycle: DriveCycle, output: Output, drives: Reals) -> Reals | None
     if pivot is None or place is None:
         return None
     motion = cycle.at(drives, 0)
-    k = cycle.plan.lower.mechanism.chain.index(place[0])
+    k = cycle.start.link_index(place[0])
     point = motion.places[0, :, k] + motion.turns[:, k] * place[1]
     return np.asarray(np.abs(point - pivot))
 
@@ -306,21 +277,21 @@ def _driving_point(cycle: DriveCycle, output: Output) -> tuple[str, complex] | N
     """The one pin by which the rest of its group takes hold of the output link."""
     plan = cycle.plan
     for group in plan.decomposition.groups:
-        mine = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
-        if not mine:
+        own = [k for k, body in enumerate(group.bodies) if output.link in (*body, *group.carried[k])]
+        if not own:
             continue
-        inner = [(n, m) for n, m in group.joints if not m.outer and mine[0] in m.links]
+        inner = [(n, m) for n, m in group.joints if not m.outer and own[0] in m.links]
         if len(inner) != 1 or inner[0][1].pair.name != "revolute":
             return None
         number = inner[0][0]
-        body = (*group.bodies[mine[0]], *group.carried[mine[0]])
+        body = (*group.bodies[own[0]], *group.carried[own[0]])
         link = next(link for link in plan.lower.mechanism.chain.joints[number].links if link in body)
         e = plan.lower.elements[number, link]
         return link, complex(e.x, e.y)
     return None
 
 
-def change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
+def change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     """Where the motion goes through a position in which two assembly modes of a group meet.
 
     The signed root of a dyad (twice the area of its triangle, ...) goes through zero there. It loses half its digits
@@ -332,15 +303,15 @@ def change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
     return _meetings(cycle, [*larger, *dyad_change_points(cycle)])
 
 
-def _meetings(cycle: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[GroupChangePoint, ...]:
+def _meetings(cycle: DriveCycle, change_points: Iterable[ChangePoint]) -> tuple[ChangePoint, ...]:
     """The same in order, with those marked that several groups have at the same place."""
-    near = _TOGETHER * (1 if cycle.turning_drive else cycle.plan.lower.size)
+    near = _TOGETHER * cycle.drive_size
 
-    def gap(one: GroupChangePoint, other: GroupChangePoint) -> float:
-        way = abs(one.drive - other.drive)
-        return min(way, abs(cycle.span.period - way))
+    def gap(first: ChangePoint, other: ChangePoint) -> float:
+        distance = abs(first.drive - other.drive)
+        return min(distance, abs(cycle.span.period - distance))
 
-    ordered = sorted(found)
+    ordered = sorted(change_points)
     return tuple(
         change_point._replace(
             several=change_point.several
@@ -350,39 +321,42 @@ def _meetings(cycle: DriveCycle, found: Iterable[GroupChangePoint]) -> tuple[Gro
     )
 
 
-def dyad_change_points(cycle: DriveCycle) -> tuple[GroupChangePoint, ...]:
+def dyad_change_points(cycle: DriveCycle) -> tuple[ChangePoint, ...]:
     """Those of dyads alone."""
-    found = []
+    meetings = []
     roots = cycle.at(cycle.grid, 0).roots
     for dyad in (dyad for dyad in cycle.plan.dyads if dyad.branching):
-        mine = roots[:, dyad.number]
-        for cell in np.flatnonzero(np.sign(mine[:-1]) * np.sign(mine[1:]) < 0):
-            found.append(_change_point(cycle, dyad, cycle.grid[cell : cell + 2]))
-    if cycle.plan.released and found:  # one of the independent part may be none of the linkage
-        found = [point for point in found if not _is_regular(cycle.at(np.array([point.drive]), 0), 0)]
-    return _meetings(cycle, found)
+        dyad_roots = roots[:, dyad.number]
+        for cell in np.flatnonzero(np.sign(dyad_roots[:-1]) * np.sign(dyad_roots[1:]) < 0):
+            meetings.append(_change_point(cycle, dyad, cycle.grid[cell : cell + 2]))
+    if cycle.plan.released and meetings:  # one of the independent part may be none of the linkage
+        meetings = [point for point in meetings if not _is_regular(cycle.at(np.array([point.drive]), 0), 0)]
+    return _meetings(cycle, meetings)
 
 
-def _of_larger_groups(cycle: DriveCycle) -> Iterator[GroupChangePoint]:
-    made = circuit(cycle.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]))
-    for change in made.change_points:
-        groups = list(_singular(cycle, made, change.pose))
+def _of_larger_groups(cycle: DriveCycle) -> Iterator[ChangePoint]:
+    whole = circuit(cycle.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]))
+    angles = {link: whole.poses_at_change_points.angle(link) for link in whole.system.bodies}
+    for row, change in enumerate(whole.change_points):
+        groups = list(_singular(cycle, whole, row))
         for turn in range(cycle.span.turns) if cycle.span.full else range(-1, 2) if cycle.turning_drive else (0,):
             drive = float(change.drive % (2 * pi) + 2 * pi * turn if cycle.turning_drive else change.drive)
             if cycle.span.low <= drive <= cycle.span.high or cycle.span.full:
                 motion = cycle.at(np.array([drive]), 0)
-                away = [motion.angle(link)[0] - change.pose.angle(link)[0] for link in made.system.bodies]
+                away = [motion.angle(link)[0] - angle[row] for link, angle in angles.items()]
                 if np.abs(np.exp(1j * np.array(away)) - 1).max() < _THERE:
                     for group in groups:
-                        yield GroupChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
+                        yield ChangePoint(cycle.span.wrapped(drive), group.links, group.form(), change.several)
 
 
-def _singular(cycle: DriveCycle, circuit: Circuit, pose: Poses) -> Iterator[SolvedGroup]:
-    """The larger groups that can move there while everything before them stands."""
-    plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.plan.lower.size
+def _singular(cycle: DriveCycle, circuit: Circuit, row: int) -> Iterator[SolvedGroup]:
+    """The larger groups that can move in a change point of the circuit while everything before them stands."""
+    plan, bodies, size = cycle.plan, list(circuit.system.bodies), cycle.size
+    poses = circuit.poses_at_change_points
     rows = [
-        (z.real / size, z.imag / size, angle[0])
-        for z, angle in ((pose.places[0, 0, pose._link(link)], pose.angle(link)) for link in bodies)
+        (z.real / size, z.imag / size, angle)
+        for link in bodies
+        for z, angle in [(poses.places[0, row, poses.link_index(link)], poses.angle(link)[row])]
     ]
     _, matrix = circuit.system.linearised(np.array(rows).ravel())
     _, values, vectors = np.linalg.svd(matrix)
@@ -398,9 +372,9 @@ def _singular(cycle: DriveCycle, circuit: Circuit, pose: Poses) -> Iterator[Solv
         known = max(known, rank)
 
 
-def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoint:
+def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> ChangePoint:
     span = cycle.span
-    step = _STEP * (1 if cycle.turning_drive else cycle.plan.lower.size)
+    step = _STEP * cycle.drive_size
 
     def root(drives: Reals) -> Reals:
         return cycle.at(drives, 0).roots[:, dyad.number]
@@ -416,7 +390,7 @@ def _change_point(cycle: DriveCycle, dyad: Dyad, cell: Reals) -> GroupChangePoin
             break
         at += room * float(min(near, key=abs))
     group = cycle.plan.decomposition.groups[dyad.group]
-    return GroupChangePoint(span.wrapped(at), group.links, group.form())
+    return ChangePoint(span.wrapped(at), group.links, group.form())
 
 
 _SINGULAR = 1e-6  # of the largest singular value: poses at change points are known to some 1e-8 only
@@ -427,7 +401,7 @@ def _is_regular(motion: Motion, row: int) -> bool:
     conditions = ReferenceConditions(motion.linkage)
     x = []
     for link in conditions.bodies:
-        k = motion._link(link)
+        k = motion.link_index(link)
         z = motion.places[0, row, k] / motion.linkage.size
         x += [z.real, z.imag, float(np.angle(motion.turns[row, k]))]
     pose = np.array(x)

@@ -5,15 +5,15 @@
 - ``linkage, output`` (`Output`: name, link, joint, turning), ``branch`` (labels at ``start``), ``start`` (drive value);
 - ``span`` (`CycleSpan`: low, high, full, turns, stops, period, width): the drive's range; ``turning_drive``;
 - ``ends``: the output at both ends of a range that is no full turn, else None;
-- ``dead_centres`` (tuple of `OutputDeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
+- ``dead_centres`` (tuple of `DeadCentre`: drive, output, kind maximum/minimum/flat, flat, side inner/outer/"");
 - ``dwells`` (tuple of `Dwell`: begin, end, duration, output, kind, side): where the output rests; ``dwell_share``;
   ``moving_span``, ``motion_ratio``: how far the drive moves while the output does, and that by the dwells;
-- ``inner, outer`` (`OutputDeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
+- ``inner, outer`` (`DeadCentre`, `Dwell` or None), ``travel`` (stroke or swing, None if the output goes round),
   ``output_turns`` (turns of the output per period);
 - ``phi_forward, phi_back, phi_max, phi_min, delta_phi, time_ratio`` (drive angles inner to outer and back while the
   output moves; None if not defined), ``speed_rpm``, ``times`` (`StrokeTimes` in seconds, None without a speed),
   ``dwell_time``;
-- ``change_points`` (tuple of `GroupChangePoint`: drive, links, form; ``change_points_error`` says if some are not
+- ``change_points`` (tuple of `ChangePoint`: drive, links, form; ``change_points_error`` says if some are not
   known);
 - ``transfer`` (`Transfer`: still, uniform, ratio, largest, smallest, zeros, velocity, acceleration);
 - ``transmission`` (`TransmissionExtremes`: extremes, smallest, largest, legs, good; None if undefined, then
@@ -34,8 +34,6 @@ from gruebler.analysis.drive_cycle import CycleSpan, DriveCycle, drive_cycle
 from gruebler.analysis.events import (
     Crossing,
     Dwell,
-    GroupChangePoint,
-    OutputDeadCentre,
     change_points,
     crossings,
     dyad_change_points,
@@ -61,11 +59,10 @@ from gruebler.analysis.messages import (
 from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import (
     NoTransmissionAngleError,
-    TransmissionExtremes,
-    TransmissionExtremum,
     measure_transmission,
 )
 from gruebler.errors import LinkageError
+from gruebler.events import ChangePoint, DeadCentre, Transmission, TransmissionExtremes
 from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.kinematics.root_finding import sample_function
 from gruebler.linkages import Linkage
@@ -111,12 +108,12 @@ class Measures(Brief):
     turning_drive: bool
     span: CycleSpan
     ends: tuple[float, float] | None
-    dead_centres: tuple[OutputDeadCentre, ...]
+    dead_centres: tuple[DeadCentre, ...]
     dwells: tuple[Dwell, ...]
     """Where the output rests, behind a cam or a Geneva drive."""
     output_turns: int
     travel: float | None
-    change_points: tuple[GroupChangePoint, ...]
+    change_points: tuple[ChangePoint, ...]
     change_points_error: LinkageError | None
     """Why those of larger groups are not known; None if they are."""
     transfer: Transfer
@@ -131,21 +128,21 @@ class Measures(Brief):
         return str(self.transmission_error or "")
 
     @property
-    def inner(self) -> OutputDeadCentre | Dwell | None:
+    def inner(self) -> DeadCentre | Dwell | None:
         """The inner dead centre, or the dwell in its place."""
         return self._extreme("inner")
 
     @property
-    def outer(self) -> OutputDeadCentre | Dwell | None:
+    def outer(self) -> DeadCentre | Dwell | None:
         """The outer dead centre, or the dwell in its place."""
         return self._extreme("outer")
 
     @property
-    def stops(self) -> tuple[OutputDeadCentre | Dwell, ...]:
+    def stops(self) -> tuple[DeadCentre | Dwell, ...]:
         """Where the output stops: dead centres, then dwells."""
         return (*self.dead_centres, *self.dwells)
 
-    def _extreme(self, side: str) -> OutputDeadCentre | Dwell | None:
+    def _extreme(self, side: str) -> DeadCentre | Dwell | None:
         return next((stop for stop in self.stops if stop.side == side), None)
 
     @property
@@ -158,7 +155,7 @@ class Measures(Brief):
         """The drive angle from the outer to the next inner dead centre, in the positive sense, less dwells between."""
         return self._way(self.outer, self.inner)
 
-    def _way(self, start: OutputDeadCentre | Dwell | None, end: OutputDeadCentre | Dwell | None) -> float | None:
+    def _way(self, start: DeadCentre | Dwell | None, end: DeadCentre | Dwell | None) -> float | None:
         """How far the drive turns, while the output moves, from one stop to the next that is like the other.
 
         Of several stops like the first before that one the last counts: the ways are those of a mirror image, too.
@@ -167,7 +164,7 @@ class Measures(Brief):
             return None
         period, near = self.span.period, 1e-9 * (self.travel or 0.0)
 
-        def alike(one: OutputDeadCentre | Dwell) -> list[OutputDeadCentre | Dwell]:
+        def alike(one: DeadCentre | Dwell) -> list[DeadCentre | Dwell]:
             return [stop for stop in self.stops if stop.kind == one.kind and abs(stop.output - one.output) <= near]
 
         def ahead(drive: float, of: float) -> float:
@@ -279,7 +276,7 @@ class Measures(Brief):
         def crossing(c: Any, scale: float) -> dict[str, Any]:
             return {"drive": turn(c.drive), "value": c.value * scale, "kind": c.kind}
 
-        def extreme(e: TransmissionExtremum) -> dict[str, Any]:
+        def extreme(e: Transmission) -> dict[str, Any]:
             return {
                 "drive": turn(e.drive),
                 "mu": degrees(e.mu),
@@ -385,7 +382,7 @@ def measures(
     span = cycle.span
     ends = None
     if not span.full:
-        size = 1.0 if looked_at.turning else cycle.plan.lower.size
+        size = 1.0 if looked_at.turning else cycle.size
         low, high = (cycle.end(looked_at.values, upper, size).real for upper in (False, True))
         ends = low, high
     centres, rests = stops(cycle, looked_at)
@@ -435,7 +432,7 @@ def _travel(cycle: DriveCycle, output: Output, values: list[float]) -> float:
     """The difference of the largest and the smallest output among its stops and ends."""
     if not values:  # it goes nowhere, or its motion has no end: what the grid shows
         track = transfer_function(cycle, output, cycle.grid)
-        least = _STILL * (1.0 if output.turning else cycle.plan.lower.size)
+        least = _STILL * (1.0 if output.turning else cycle.size)
         return float(np.ptp(track)) if np.ptp(track) > least else 0.0
     return max(values) - min(values)
 

@@ -8,10 +8,10 @@ from math import degrees
 from typing import NamedTuple
 
 from gruebler.analysis.drive_cycle import CycleSpan
-from gruebler.analysis.events import Dwell, GroupChangePoint, OutputDeadCentre
-from gruebler.analysis.transmission import TransmissionExtremes
+from gruebler.analysis.events import Dwell
 from gruebler.assur.forms import form_message
 from gruebler.errors import GrueblerError
+from gruebler.events import ChangePoint, DeadCentre, TransmissionExtremes
 from gruebler.fourbar.extremes import StrokeTimes
 from gruebler.text import Message, joined, message
 
@@ -111,7 +111,7 @@ def output_lines(
         yield message("The output {name} has a stroke of {travel}.", name=name, travel=units.output(travel))
 
 
-def dead_centre_message(units: MeasureUnits, centre: OutputDeadCentre) -> Message:
+def dead_centre_message(units: MeasureUnits, centre: DeadCentre) -> Message:
     """Where the output turns back, or pauses."""
     text = _DEAD_CENTRES["flat" if centre.kind == "flat" else centre.side]
     return text.filled(drive=units.drive(centre.drive), output=units.output(centre.output))
@@ -169,14 +169,14 @@ def motion_share_message(units: MeasureUnits, moving: float, period: float, rati
     )
 
 
-def change_point_lines(units: MeasureUnits, points: Sequence[GroupChangePoint]) -> Iterator[Message]:
+def change_point_lines(units: MeasureUnits, points: Sequence[ChangePoint]) -> Iterator[Message]:
     """Where groups may change their assembly modes; that several curves meet is said once of a place."""
     for point, following in zip_longest(points, points[1:]):
         again = following is not None and following.several and abs(following.drive - point.drive) <= _CONSTANT
         yield _change_point(units, point, several=point.several and not again)
 
 
-def _change_point(units: MeasureUnits, point: GroupChangePoint, *, several: bool) -> Message:
+def _change_point(units: MeasureUnits, point: ChangePoint, *, several: bool) -> Message:
     line = message(
         "Change point of {form} {{{links}}} at {drive}.",
         form=form_message(point.form),

@@ -6,7 +6,7 @@ that point relative to what drives the group. Definitions and proofs: docs/theor
 
 from __future__ import annotations
 
-from math import pi, radians
+from math import pi
 from typing import NamedTuple
 
 import numpy as np
@@ -17,24 +17,21 @@ from gruebler.arrays import Complexes, Reals
 from gruebler.assur import SolvedGroup
 from gruebler.chain.pairs import in_alphabets
 from gruebler.errors import LinkageError
+from gruebler.events import Transmission, TransmissionExtremes
+from gruebler.jets import turn_derivative
 from gruebler.kinematics.motion import Motion
 from gruebler.kinematics.plan import Plan
 from gruebler.kinematics.root_finding import find_zeros
+from gruebler.linkages import LinkPoint
 
 __all__ = [
-    "GOOD",
     "NoTransmissionAngleError",
     "PushingLink",
-    "TransmissionExtremes",
-    "TransmissionExtremum",
     "deviation_angle",
     "measure_transmission",
     "pushing_links",
     "transmission_angle",
 ]
-
-GOOD = radians(40)
-"""The rule of thumb: the transmission angle should not fall below."""
 
 _SLOW = 1e-7  # of the fastest motion in the same pose: a velocity below it has no direction of its own
 _LEAST = 1e-10  # of the natural size: the turning of the force, or the sine of its angle, that is none
@@ -61,38 +58,6 @@ class PushingLink(NamedTuple):
     """The link that it pushes."""
     guide: tuple[str, Element] | None
     """How the pushed link hangs on the frame, if by one joint: R or P, and the joint on the frame."""
-
-
-class TransmissionExtremum(NamedTuple):
-    """The transmission angle somewhere."""
-
-    drive: float
-    mu: float
-    """At most pi/2."""
-    links: tuple[str, ...]
-    """The driving leg."""
-
-    @property
-    def deviation(self) -> float:
-        """The deviation angle alpha, pi/2 less the transmission angle."""
-        return pi / 2 - self.mu
-
-
-class TransmissionExtremes(NamedTuple):
-    """The extremes of the transmission angle."""
-
-    extremes: tuple[TransmissionExtremum, ...]
-    """All local extremes and the values at the ends of a range, leg by leg, in the order of the drive."""
-    smallest: TransmissionExtremum
-    largest: TransmissionExtremum
-    """The largest for the leg that has the smallest."""
-    legs: tuple[tuple[str, ...], ...]
-    """The driving legs; with several the smallest angle counts."""
-
-    @property
-    def good(self) -> bool:
-        """Whether it nowhere falls below 40 degrees."""
-        return self.smallest.mu >= GOOD
 
 
 def pushing_links(plan: Plan, output: Output) -> tuple[PushingLink, ...]:
@@ -149,11 +114,11 @@ def _is_driven(plan: Plan, group: SolvedGroup, body: int) -> bool:
 
 
 def _leg(plan: Plan, group: SolvedGroup, body: int) -> PushingLink | None:
-    mine = [(n, m) for n, m in group.joints if body in m.links]
-    outer, inner = ([(n, m) for n, m in mine if m.outer == side] for side in (True, False))
+    joints = [(n, m) for n, m in group.joints if body in m.links]
+    outer, inner = ([(n, m) for n, m in joints if m.outer == side] for side in (True, False))
     if len(outer) != 1 or len(inner) != 1:
         return None
-    if any(member.pair.name not in ("revolute", "prismatic") for _, member in mine):
+    if any(member.pair.name not in ("revolute", "prismatic") for _, member in joints):
         return None  # a wheel or cam
     links = _bodies(group)
     other = next(k for k in inner[0][1].links if k != body)
@@ -215,28 +180,25 @@ def _lines(motion: Motion, leg: PushingLink) -> _Lines:
 
 def _point(motion: Motion, element: Element) -> tuple[Complexes, Complexes, Complexes]:
     """Position, velocity and acceleration of a joint."""
-    k = motion.plan.lower.mechanism.chain.index(element[0])
-    arm, w = motion.turns[:, k] * element[1], motion.rates[0, :, k]
-    spin = 1j * motion.rates[1, :, k] - w**2
-    return motion.places[0, :, k] + arm, motion.places[1, :, k] + 1j * w * arm, motion.places[2, :, k] + spin * arm
+    place = LinkPoint(element[0], element[1].real, element[1].imag)
+    position, velocity, acceleration = (motion.complex_point(place, order) for order in range(3))
+    return position, velocity, acceleration
 
 
 def _normal(motion: Motion, element: Element) -> tuple[Complexes, Complexes]:
-    k = motion.plan.lower.mechanism.chain.index(element[0])
+    k = motion.link_index(element[0])
     normal = 1j * motion.turns[:, k] * element[2]
-    return normal, 1j * motion.rates[0, :, k] * normal
+    return normal, turn_derivative(motion.rates[:, :, k], 1) * normal
 
 
 def _velocity(motion: Motion, link: str, point: tuple[Complexes, Complexes, Complexes]) -> tuple[Complexes, Complexes]:
     """The velocity of the place of a link where a point is, with its rate; at rest the way it leaves."""
-    k = motion.plan.lower.mechanism.chain.index(link)
+    k = motion.link_index(link)
     w, spin = motion.rates[0, :, k], motion.rates[1, :, k]
     origin, speed, change = (motion.places[m, :, k] for m in range(3))
     way = speed + 1j * w * (point[0] - origin)
     rate = change + 1j * spin * (point[0] - origin) + 1j * w * (point[1] - speed)
-    fastest = np.maximum(
-        np.abs(motion.places[1]).max(axis=1), motion.plan.lower.size * np.abs(motion.rates[0]).max(axis=1)
-    )
+    fastest = np.maximum(np.abs(motion.places[1]).max(axis=1), motion.size * np.abs(motion.rates[0]).max(axis=1))
     rest = np.abs(way) < _SLOW * fastest
     return np.where(rest, rate, way), np.where(rest, 0, rate)
 
@@ -277,19 +239,19 @@ def measure_transmission(cycle: DriveCycle, output: Output) -> TransmissionExtre
     Raises `LinkageError` if there is no transmission angle, with the reason.
     """
     legs = pushing_links(cycle.plan, output)
-    found = []
+    extremes = []
     for leg in legs:
         places, ends = _stationary(cycle, leg)
         values = _folded(_lines(cycle.at(places, 2), leg)) if len(places) else places
-        found += [
-            TransmissionExtremum(cycle.span.wrapped(float(x)), float(mu), leg.links)
+        extremes += [
+            Transmission(cycle.span.wrapped(float(x)), float(mu), leg.links)
             for x, mu in zip(places, values, strict=True)
         ]
-        found += [TransmissionExtremum(x, mu, leg.links) for x, mu in ends]
-    smallest = min(found, key=lambda extreme: extreme.mu)
-    extrema = [extreme for extreme in found if extreme.links == smallest.links]
+        extremes += [Transmission(x, mu, leg.links) for x, mu in ends]
+    smallest = min(extremes, key=lambda extreme: extreme.mu)
+    extrema = [extreme for extreme in extremes if extreme.links == smallest.links]
     largest = max(extrema, key=lambda extreme: extreme.mu)
-    return TransmissionExtremes(tuple(sorted(found)), smallest, largest, tuple(leg.links for leg in legs))
+    return TransmissionExtremes(tuple(sorted(extremes)), smallest, largest, tuple(leg.links for leg in legs))
 
 
 def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[float, float]]]:
@@ -297,8 +259,8 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
 
     def product(motion: Motion) -> Complexes:
         lines = _lines(motion, leg)
-        out: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
-        return out
+        normed: Complexes = np.conj(lines.force) * lines.way / (np.abs(lines.force) * np.abs(lines.way))
+        return normed
 
     def turning(drives: Reals) -> Reals:
         lines = _lines(cycle.at(drives, 2), leg)
@@ -310,7 +272,7 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
     def cosine(drives: Reals) -> Reals:
         return product(cycle.at(drives, 2)).real[None]
 
-    slow = _LEAST / (1 if cycle.turning_drive else cycle.plan.lower.size)
+    slow = _LEAST / cycle.drive_size
     angles = _folded(_lines(cycle.at(cycle.grid, 2), leg))
     constant = not cycle.joints and np.quantile(np.abs(angles - np.median(angles)), 0.9) <= _CONSTANT
     places = [

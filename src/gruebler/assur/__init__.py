@@ -1,7 +1,7 @@
-"""Assur groups: a mechanism taken apart into what can be solved one after another, and all groups there are.
+"""Assur groups: the decomposition of a mechanism into groups that are solved one after another, and lists of groups.
 
-`decompose` takes a mechanism apart; `drive_choices` does so for each choice of drives. `AssurGroup` is a group apart
-from any mechanism, `assur_groups` lists those of turning joints. Definitions and proofs: docs/theory/assur.md.
+`decompose` decomposes a mechanism; `drive_choices` does so for each choice of drives. `AssurGroup` is a group without
+a mechanism, `assur_groups` lists those of turning joints. Definitions and proofs: docs/theory/assur.md.
 """
 
 from gruebler.assur.choices import drive_choices

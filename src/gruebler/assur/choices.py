@@ -1,4 +1,4 @@
-"""How the groups of a mechanism change with its drives."""
+"""The Assur groups of a mechanism for each choice of drives."""
 
 from __future__ import annotations
 
@@ -17,18 +17,18 @@ __all__ = ["drive_choices"]
 def drive_choices(
     chain: Chain, frame: str, *, drives: int | None = None, anywhere: bool = False
 ) -> Iterator[Decomposition]:
-    """The mechanism taken apart for every choice of drives, in the order of the joints; alike ones are not left out.
+    """The decomposition for every choice of drives, in the order of the joints; isomorphic choices are kept.
 
     Args:
         chain: a planar chain.
-        frame: the link that stands still.
+        frame: the fixed link.
         drives: how many freedoms are driven; as many as the chain has (generically) if left out.
         anywhere: whether joints between moving links may be driven too, and not only those at the frame.
 
     Choices that do not fix the motion come with `complete` false. Raises `AssurError` for a chain that does not move.
 
     >>> chain = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)")
-    >>> [found.class_number for found in drive_choices(chain, "4", anywhere=True)]
+    >>> [choice.class_number for choice in drive_choices(chain, "4", anywhere=True)]
     [2, 2, 2, 2, 3, 4, 4]
     """
     chain.index(frame)

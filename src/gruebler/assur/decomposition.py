@@ -1,9 +1,9 @@
-"""A mechanism taken apart: its drives, and the Assur groups in the order in which they can be solved.
+"""The decomposition of a mechanism: its drives, and the Assur groups in the order in which they can be solved.
 
 Lock the drives. A set of links that contains the frame is *tight* if the constraints within it are as many as its
-freedoms. Tight sets are closed under union and intersection, so what comes between neighbouring ones is always the
-same: the groups. Where some bodies of a group are rigid among themselves (a drive between moving links does that), they
-are found first against one of them, and then count as one body. docs/theory/assur.md has the theorems.
+freedoms. Tight sets are closed under union and intersection, so the differences of neighbouring ones are unique:
+the groups. Where some bodies of a group are rigid among themselves (because of a drive between moving links), they
+are solved first relative to one of them, and then count as one body. docs/theory/assur.md has the theorems.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ class SolvedGroup:
     """An Assur group in its mechanism."""
 
     bodies: tuple[tuple[str, ...], ...]
-    """What is found with it: a link, or several that a drive holds against each other."""
+    """The bodies that it determines: a link, or several links that a drive locks together."""
     carried: tuple[tuple[str, ...], ...]
-    """For each body the links that earlier groups have fixed against it, and that are found with it."""
+    """For each body the links that earlier groups have fixed to it, and that move with it."""
     base: tuple[str, ...]
-    """The body against which it is found: the frame's, or one that a later group places with all that it carries."""
+    """The body relative to which it is solved: the frame's, or one that a later group places with its carried links."""
     joints: tuple[tuple[int, GroupJoint], ...]
-    """Its joints: the number of the chain's joint, the pair that drives leave of it, the bodies that carry it."""
+    """Its joints: the number of the chain's joint, the pair with its drives locked, the bodies that carry it."""
     after: tuple[int, ...]
-    """The groups (by place in the decomposition) on which it hangs directly."""
+    """The groups (by place in the decomposition) on which it depends directly."""
 
     @property
     def links(self) -> tuple[str, ...]:
@@ -54,12 +54,12 @@ class SolvedGroup:
 
     @property
     def outer(self) -> tuple[int, ...]:
-        """The joints with what is known before it, by number."""
+        """The joints with bodies that are known before it, by number."""
         return tuple(number for number, member in self.joints if member.outer)
 
     @property
     def members(self) -> tuple[GroupJoint, ...]:
-        """The joints as members of a group without names."""
+        """The joints without their numbers."""
         return tuple(member for _, member in self.joints)
 
     @property
@@ -74,15 +74,15 @@ class SolvedGroup:
 
     @cached_property
     def shape(self) -> AssurGroup:
-        """The group apart from its mechanism; bodies of several links are named ``a+b``."""
+        """The group without its mechanism; bodies of several links are named ``a+b``."""
         names = ["+".join(body) for body in self.bodies]
-        taken = set(names)
+        used_names = set(names)
         joints: list[tuple[Pair, list[str]]] = []
         for member in self.members:
             links = [names[k] for k in member.links]
             if member.outer:
                 place = f"place{len(joints) + 1}"
-                while place in taken:
+                while place in used_names:
                     place += "'"
                 links.insert(0, place)
             joints.append((member.pair, links))
@@ -95,7 +95,7 @@ class SolvedGroup:
 
 @dataclass(frozen=True, slots=True)
 class JointShare:
-    """How often a joint counts in one part: the shares of a joint of k links add up to k - 1."""
+    """The count of a joint in one part: the shares of a joint of k links add up to k - 1."""
 
     joint: int
     part: int | None
@@ -105,7 +105,7 @@ class JointShare:
 
 @dataclass(frozen=True, repr=False)
 class Decomposition(Brief):
-    """Drives, groups in solving order, and what the drives leave undetermined."""
+    """Drives, groups in solving order, and the links that the drives leave undetermined."""
 
     mechanism: Mechanism
     driven: tuple[str, ...]
@@ -114,32 +114,32 @@ class Decomposition(Brief):
     rest: tuple[str, ...]
     """The links in no group; empty exactly if the decomposition is complete."""
     report: DriveReport | None
-    """If it is not complete, what `check_drives` says."""
+    """If it is not complete, the report of `check_drives`."""
     overconstrained: bool
     """Whether constraints or drives work against one another; then nothing is decomposed."""
 
     @property
     def complete(self) -> bool:
-        """Whether every link is found: the drives fix the motion, and nothing is redundant."""
+        """Whether every link is determined: the drives fix the motion, and nothing is redundant."""
         return self.report is None
 
     @property
     def class_number(self) -> int:
-        """The highest class of its groups; 1 if the drives are all there is."""
+        """The highest class of its groups; 1 if there are only drives."""
         return max((group.class_number for group in self.groups), default=1)
 
     @cached_property
     def shares(self) -> tuple[JointShare, ...]:
-        """Which part each joint belongs to, drives first; none for joints of links that are not determined.
+        """The part of each joint, drives first; none for joints of links that are not determined.
 
-        A joint that a drive holds only in part (a roll-slide joint) belongs to its group.
+        A joint that a drive locks only in part (a roll-slide joint) belongs to its group.
         """
-        held = Counter(drive.joint for drive in whole_joint_locks(self.mechanism, {}))
-        out = [JointShare(number, None, count) for number, count in sorted(held.items())]
+        driven_joints = Counter(drive.joint for drive in whole_joint_locks(self.mechanism, {}))
+        shares = [JointShare(number, None, count) for number, count in sorted(driven_joints.items())]
         for part, group in enumerate(self.groups):
             for number, member in group.joints:
-                out.append(JointShare(number, part, len(member.links) - (not member.outer)))
-        return tuple(out)
+                shares.append(JointShare(number, part, len(member.links) - (not member.outer)))
+        return tuple(shares)
 
     def formula(self, lang: str = "en") -> str:
         """The structural formula, such as ``drive R(frame-crank) -> RRR{coupler, rocker}``."""
@@ -154,12 +154,12 @@ class Decomposition(Brief):
         return " -> ".join(formula)
 
     def message(self, lang: str = "en") -> str:
-        """What keeps it from being complete: links left free, drives or constraints against one another; else empty."""
+        """The reason why it is not complete: undetermined links, redundant drives or constraints; else empty."""
         return self.reason.in_language(lang)
 
     @property
     def reason(self) -> Message:
-        """What `message` says, in any language."""
+        """The text of `message`, for any language."""
         return joined(_open_groups_message(self), " ")
 
     def explain(self, lang: str = "en") -> str:
@@ -211,7 +211,7 @@ class Decomposition(Brief):
             highest = roman(self.class_number)
             lines.append(translate("The mechanism has class {group_class}.", lang, group_class=highest))
         elif self.complete:
-            lines.append(translate("The drives are all there is.", lang))
+            lines.append(translate("There are only drives.", lang))
         lines += [line.in_language(lang) for line in _open_groups_message(self)]
         return "\n".join(lines)
 
@@ -219,9 +219,9 @@ class Decomposition(Brief):
 def decompose(mechanism: Mechanism) -> Decomposition:
     """The Assur groups of a planar mechanism, in solving order.
 
-    If the drives do not fix the motion, what they fix is decomposed and the rest named; if constraints or drives work
-    against one another there are no groups. `Decomposition.complete` tells. Among groups that may be solved in any
-    order the one with the earliest link of the chain comes first.
+    If the drives do not fix the motion, the links that they fix are decomposed and the others listed; if constraints or
+    drives work against one another there are no groups (see `Decomposition.complete`). Among groups that may be solved
+    in any order the one with the earliest link of the chain comes first.
 
     Raises `AssurError` for a chain that is not planar. Cost O(links · joints) for simple turning, rolling and
     roll-slide joints; others need one exact rank.
@@ -229,35 +229,35 @@ def decompose(mechanism: Mechanism) -> Decomposition:
     >>> decompose(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-0); drive=R(0-1)")).formula()
     'drive R(0-1) -> RRR{2, 3} -> RRR{4, 5}'
     """
-    rest = lock_drives(mechanism)
-    if rest.counted < 0 or not independent(mechanism, rest):
-        links = tuple(link for body in rest.bodies[1:] for link in body)
-        return Decomposition(mechanism, rest.bodies[0][:0], (), links, check_drives(mechanism), True)
-    bodies = range(len(rest.bodies))
-    first = {k: mechanism.chain.index(rest.bodies[k][0]) for k in bodies}
-    parts, loose = split_into_groups(rest.joints, bodies, 0, first, [k for k in bodies if len(rest.bodies[k]) > 1])
+    locked = lock_drives(mechanism)
+    if locked.counted < 0 or not independent(mechanism, locked):
+        links = tuple(link for body in locked.bodies[1:] for link in body)
+        return Decomposition(mechanism, locked.bodies[0][:0], (), links, check_drives(mechanism), True)
+    bodies = range(len(locked.bodies))
+    first = {k: mechanism.chain.index(locked.bodies[k][0]) for k in bodies}
+    parts, loose = split_into_groups(locked.joints, bodies, 0, first, [k for k in bodies if len(locked.bodies[k]) > 1])
     return Decomposition(
         mechanism,
-        tuple(link for link in rest.bodies[0] if link != mechanism.frame),
-        tuple(_group(rest, part) for part in parts),
-        tuple(link for body in loose for link in rest.bodies[body]),
+        tuple(link for link in locked.bodies[0] if link != mechanism.frame),
+        tuple(_group(locked, part) for part in parts),
+        tuple(link for body in loose for link in locked.bodies[body]),
         check_drives(mechanism) if loose else None,
         False,
     )
 
 
-def _group(rest: LockedMechanism, part: BodyGroup) -> SolvedGroup:
+def _group(locked: LockedMechanism, part: BodyGroup) -> SolvedGroup:
     return SolvedGroup(
-        tuple(rest.bodies[element[0]] for element in part.elements),
-        tuple(tuple(link for body in element[1:] for link in rest.bodies[body]) for element in part.elements),
-        rest.bodies[part.base],
+        tuple(locked.bodies[element[0]] for element in part.elements),
+        tuple(tuple(link for body in element[1:] for link in locked.bodies[body]) for element in part.elements),
+        locked.bodies[part.base],
         part.members,
         part.after,
     )
 
 
 def _open_groups_message(decomposition: Decomposition) -> list[Message]:
-    """What keeps the decomposition from being complete, a sentence or two a line; nothing if it is."""
+    """The reasons why the decomposition is not complete, one or two sentences a line; empty if it is."""
     if decomposition.report is None:
         return []
     lines = [message("Not determined: {links}.", links=_names(decomposition.rest))]
@@ -274,7 +274,7 @@ def _open_groups_message(decomposition: Decomposition) -> list[Message]:
 
 
 def _bodies(group: SolvedGroup) -> str:
-    """The bodies of a group, each with what it carries in square brackets."""
+    """The bodies of a group, each with its carried links in square brackets."""
     return ", ".join(
         "+".join(body) + (f"[{_names(carried)}]" if carried else "")
         for body, carried in zip(group.bodies, group.carried, strict=True)

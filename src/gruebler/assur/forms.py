@@ -1,4 +1,4 @@
-"""What a group is called, and its class.
+"""The name of a group's form, and its class.
 
 Definitions and sources: docs/theory/assur.md, "Form, class, order".
 """
@@ -16,7 +16,7 @@ from gruebler.text import Message
 __all__ = ["DYADS", "GroupJoint", "class_number", "form_message", "form_name", "roman"]
 
 DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
-"""The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP stays loose."""
+"""The five dyads: outer, inner, outer joint. RRP and PRR are one form, RPP and PPR another; PPP is not rigid."""
 
 
 _Vertex = tuple[str, int]  # a link or a joint, with its number
@@ -41,7 +41,7 @@ _RANK = {letter: k for k, letter in enumerate(_PAIRS)}
 
 
 def form_name(links: int, joints: Sequence[GroupJoint], alphabet: Alphabet = Alphabet.INTERNATIONAL) -> str | None:
-    """The name of the form, or None where a form has none and is known by its code only.
+    """The name of the form, or None where a form has only a code.
 
     One link: its joints. Two links: the outer joints of one, the joints between, the outer joints of the other. A link
     that carries the inner ends of binary legs: the legs, each from outside inward, with the link's own outer joints.
@@ -59,16 +59,16 @@ def form_name(links: int, joints: Sequence[GroupJoint], alphabet: Alphabet = Alp
             inner.setdefault((a, b), []).append(letter)
     if links <= 2:
         between = _sorted(inner.get((0, 1), []))
-        ends = [_sorted(mine) for mine in outer]
-        words = [ends[0], between, ends[1]] if links == 2 else ends
-        words = min(words, words[::-1], key=lambda some: [[_RANK[x] for x in word] for word in some])
-        return _joined(words, alphabet)
+        ends = [_sorted(outer_letters) for outer_letters in outer]
+        groups = [ends[0], between, ends[1]] if links == 2 else ends
+        groups = min(groups, groups[::-1], key=lambda some: [[_RANK[x] for x in group] for group in some])
+        return _joined(groups, alphabet)
     return _star(outer, inner, alphabet)
 
 
-def _joined(words: Sequence[Sequence[str]], alphabet: Alphabet) -> str:
-    simple = all(len(word) == 1 for word in words)
-    return ("" if simple else "-").join("".join(_PAIRS[x].symbols.get(alphabet, x) for x in word) for word in words)
+def _joined(groups: Sequence[Sequence[str]], alphabet: Alphabet) -> str:
+    simple = all(len(group) == 1 for group in groups)
+    return ("" if simple else "-").join("".join(_PAIRS[x].symbols.get(alphabet, x) for x in group) for group in groups)
 
 
 def _sorted(letters: Iterable[str]) -> list[str]:
@@ -82,10 +82,10 @@ def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alpha
     hub = hubs.pop()
     legs: Counter[tuple[str, str]] = Counter()
     for (a, b), letters in inner.items():
-        mine = outer[a + b - hub]
-        if len(letters) != 1 or len(mine) != 1:
+        outer_letters = outer[a + b - hub]
+        if len(letters) != 1 or len(outer_letters) != 1:
             return None
-        legs[mine[0], letters[0]] += 1
+        legs[outer_letters[0], letters[0]] += 1
     if legs.total() != len(outer) - 1:
         return None
     parts = [
@@ -96,7 +96,7 @@ def _star(outer: list[list[str]], inner: dict[tuple[int, int], list[str]], alpha
 
 
 def form_message(form: str) -> Message:
-    """The name of a form for a message, in the alphabet of the reader; a code or a joint's name stays what it is.
+    """The name of a form for a message, in the alphabet of the reader; a code or a joint's name is kept.
 
     >>> form_message("2-RR+P").in_language("de"), form_message("c1:0").in_language("de")
     ('2-DD+S', 'c1:0')
@@ -118,27 +118,27 @@ def class_number(links: int, joints: Sequence[GroupJoint]) -> int:
 
 
 def _inner_joints(links: int, joints: Sequence[GroupJoint]) -> list[tuple[int, ...]]:
-    """The links of each inner joint, after every joint of two freedoms has become a link with two joints."""
-    out: list[tuple[int, ...]] = []
-    new = links
+    """The links of each inner joint, with every joint of two freedoms replaced by a link with two joints."""
+    joint_links: list[tuple[int, ...]] = []
+    next_link = links
     for joint in joints:
         if joint.pair.u(Space.PLANAR) == 2:
             if not joint.outer:
-                out.append(joint.links)
+                joint_links.append(joint.links)
             continue
         hub, *others = joint.links
         for other in [*others, None] if joint.outer else others:
-            out.append((hub, new))
+            joint_links.append((hub, next_link))
             if other is not None:
-                out.append((new, other))
-            new += 1
-    return out
+                joint_links.append((next_link, other))
+            next_link += 1
+    return joint_links
 
 
 def _longest_contour(inner: Sequence[tuple[int, ...]]) -> int:
     """The longest loop of a minimum cycle basis, in joints: all such bases have the same lengths.
 
-    Loops live in the graph of links and joints, as sets of (link, joint) incidences, one bit each. Candidates (Horton
+    Loops are sets of (link, joint) incidences, one bit each, in the graph of links and joints. Candidates (Horton
     1987): for each vertex, the loops that edges close with a tree of shortest paths from it. Any loop through the
     vertex is a sum of such candidates that are no longer than itself, so the shortest independent ones are a basis.
     """
@@ -147,31 +147,31 @@ def _longest_contour(inner: Sequence[tuple[int, ...]]) -> int:
     for number, links in enumerate(inner):
         for link in links:
             bit = 1 << len(ends)
-            one, other = ("link", link), ("joint", number)
-            near.setdefault(one, []).append((other, bit))
-            near.setdefault(other, []).append((one, bit))
-            ends.append((one, other, bit))
+            link_vertex, joint_vertex = ("link", link), ("joint", number)
+            near.setdefault(link_vertex, []).append((joint_vertex, bit))
+            near.setdefault(joint_vertex, []).append((link_vertex, bit))
+            ends.append((link_vertex, joint_vertex, bit))
     parts, candidates = 0, set()
-    seen: set[_Vertex] = set()
+    visited: set[_Vertex] = set()
     for start in near:
         path = _paths(near, start)
-        if start not in seen:
+        if start not in visited:
             parts += 1
-            seen |= set(path)
-        for one, other, bit in ends:
-            if one in path:
-                candidates.add(path[one] ^ path[other] ^ bit)
-    wanted = len(ends) - len(near) + parts
+            visited |= set(path)
+        for link_vertex, joint_vertex, bit in ends:
+            if link_vertex in path:
+                candidates.add(path[link_vertex] ^ path[joint_vertex] ^ bit)
+    dimension = len(ends) - len(near) + parts
     basis: list[int] = []
     longest = 0
     for loop in sorted(candidates, key=lambda loop: (loop.bit_count(), loop)):
-        if len(basis) == wanted:
+        if len(basis) == dimension:
             break
-        rest = loop
+        remainder = loop
         for member in basis:
-            rest = min(rest, rest ^ member)
-        if rest:  # an edge of the tree closes no loop
-            basis = sorted([*(min(member, member ^ rest) for member in basis), rest], reverse=True)
+            remainder = min(remainder, remainder ^ member)
+        if remainder:  # an edge of the tree closes no loop
+            basis = sorted([*(min(member, member ^ remainder) for member in basis), remainder], reverse=True)
             longest = loop.bit_count() // 2
     return longest
 
@@ -181,11 +181,11 @@ def _paths(near: dict[_Vertex, list[tuple[_Vertex, int]]], start: _Vertex) -> di
     path = {start: 0}
     queue = deque([start])
     while queue:
-        here = queue.popleft()
-        for there, bit in near[here]:
-            if there not in path:
-                path[there] = path[here] | bit
-                queue.append(there)
+        vertex = queue.popleft()
+        for neighbour, bit in near[vertex]:
+            if neighbour not in path:
+                path[neighbour] = path[vertex] | bit
+                queue.append(neighbour)
     return path
 
 
@@ -195,8 +195,8 @@ def roman(number: int) -> str:
     >>> [roman(k) for k in (2, 3, 4, 9)]
     ['II', 'III', 'IV', 'IX']
     """
-    out = ""
+    figures = ""
     for value, figure in ((10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I")):
-        out += figure * (number // value)
+        figures += figure * (number // value)
         number %= value
-    return out
+    return figures

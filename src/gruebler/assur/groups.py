@@ -1,4 +1,4 @@
-"""The Assur group as a value of its own, apart from any mechanism."""
+"""The Assur group as a value, independent of a mechanism."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ _SEEDS = (1, 2, 3)
 
 @dataclass(frozen=True)
 class AssurGroup:
-    """A minimal set of links that is determined once the places are known where it attaches.
+    """A minimal set of links that is determined when the positions of its outer places are known.
 
     Args:
-        chain: a planar chain in which every link with a single joint stands for a place outside where the group
-            attaches; the other links are the group's. Each place outside has a joint of its own, which more than one
-            link of the group may share.
+        chain: a planar chain in which every link with a single joint represents a place outside to which the group
+            is attached; the other links are the group's. Each place outside has a joint of its own, which more than
+            one link of the group may share.
 
     Raises:
         AssurError: a chain that is not such a group: freedoms and constraints differ in number, or a part of it can
-            be found by itself, or it stays loose although the numbers agree (three sliders).
+            be solved alone, or it is not rigid although the numbers agree (three sliders).
 
     >>> dyad = AssurGroup.parse("R(a-1) R(1-2) P(2-b)")
     >>> dyad.form, dyad.class_number, dyad.order, dyad.links
@@ -44,7 +44,7 @@ class AssurGroup:
 
     @classmethod
     def known(cls, chain: Chain) -> AssurGroup:
-        """The group of a chain that is known to be one, such as a group's chain with other names."""
+        """The group of a chain without a check, such as a group's chain with other names."""
         group = object.__new__(cls)
         object.__setattr__(group, "chain", chain)
         return group
@@ -116,8 +116,8 @@ class AssurGroup:
     def canonical(self) -> AssurGroup:
         """The same structure with its links named 1, 2, ... and its places a, b, ..., in canonical order."""
         ordered = [self.chain.links[i] for i in canonical_order(self.chain).links]
-        own = set(self.links)
-        number = {link: k for k, link in enumerate((x for x in ordered if x in own), 1)}
+        group_links = set(self.links)
+        number = {link: k for k, link in enumerate((x for x in ordered if x in group_links), 1)}
         carriers = {
             place: sorted(number[link] for j in self.chain.joints_of(place) for link in j.links if link != place)
             for place in ordered
@@ -167,18 +167,18 @@ def _check(group: AssurGroup) -> None:
             constraints=constraints,
         )
     if not _rigid(group):
-        raise AssurError("{chain} is no Assur group: with its places held it stays loose", chain=chain)
+        raise AssurError("{chain} is no Assur group: with its places fixed it is not rigid", chain=chain)
     part = _first_part(group)
     if len(part) < len(group.links):
         raise AssurError(
-            "{chain} is no Assur group: the links {part} can be found without the others",
+            "{chain} is no Assur group: the links {part} can be solved without the others",
             chain=chain,
             part=", ".join(part),
         )
 
 
 def _first_part(group: AssurGroup) -> list[str]:
-    """The links of the first part that can be found by itself: all of them if the group is one."""
+    """The links of the first part that can be solved alone: all of them if the group is one."""
     joints = [
         BodyJoint(k, j.pair, (*([0] if j.outer else []), *(link + 1 for link in j.links)))
         for k, j in enumerate(group.joints)
@@ -189,15 +189,15 @@ def _first_part(group: AssurGroup) -> list[str]:
 
 
 def _rigid(group: AssurGroup) -> bool:
-    """Whether the constraints determine the links when the places stand still; a yes is exact (no rank is too high)."""
+    """Whether the constraints determine the links when the places are fixed; a True is exact (no rank is too high)."""
     chain = Chain(group.chain.joints, links=[*group.places, *group.links])
-    held = 3 * (len(group.places) - 1)
-    wanted = 3 * len(group.links)
+    fixed_columns = 3 * (len(group.places) - 1)
+    unknowns = 3 * len(group.links)
     for seed in _SEEDS:
         rows = [
-            {column - held: value for column, value in row.items() if column >= held}
+            {column - fixed_columns: value for column, value in row.items() if column >= fixed_columns}
             for row in random_placement(chain, seed).rows
         ]
-        if echelon(rows, wanted).rank == wanted:
+        if echelon(rows, unknowns).rank == unknowns:
             return True
     return False

@@ -1,8 +1,8 @@
-"""All Assur groups of turning joints with so many links, from the trusses with one link more.
+"""All Assur groups of turning joints with a given number of links, from the trusses with one link more.
 
-Put the places outside of a group together to one link, and it becomes a Baranov truss: a chain with F = 0 in which
-nothing less than the whole is rigid. Take any link of a truss away, and the rest is an Assur group whose outer joints
-are that link's. Links that an automorphism exchanges give the same group, others different ones.
+With its places outside merged to one link, a group becomes a Baranov truss: a chain with F = 0 in which no smaller part
+is rigid. Without any one of its links, a truss is an Assur group whose outer joints are that link's. Links that an
+automorphism exchanges give the same group, others different ones.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def assur_groups(links: int) -> Iterator[AssurGroup]:
     """
     if links < 2 or links % 2:
         raise AssurError("an Assur group of turning joints has 2, 4, 6, ... links, not {links}", links=links)
-    from gruebler.enumeration import chains  # it compiles kernels, which other questions of this room do not need
+    from gruebler.enumeration import chains  # imported only here: it compiles kernels
 
     for truss in chains(links + 1, 0):
         for orbit in symmetry(truss).link_orbits:
@@ -37,7 +37,7 @@ def assur_groups(links: int) -> Iterator[AssurGroup]:
 
 
 def expected_seconds_of_groups(links: int) -> float:
-    """About how long `assur_groups` takes for all of them, to a factor of three.
+    """The estimated time of `assur_groups` for all groups, to a factor of three.
 
     >>> expected_seconds_of_groups(8) < 5, expected_seconds_of_groups(12) > 100
     (True, True)
@@ -52,7 +52,7 @@ def expected_seconds_of_groups(links: int) -> float:
 
 
 def group_of_truss(truss: Chain, link: str) -> AssurGroup:
-    """The group that is left of a truss without this link; each of its joints leads to a place of its own.
+    """The group of a truss without this link; each of the link's joints gets a place of its own.
 
     >>> print(group_of_truss(Chain.parse("R(0-1) R(1-2) R(2-0)"), "0"))
     R(place1-1) R(1-2) R(2-place2)

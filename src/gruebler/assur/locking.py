@@ -1,4 +1,4 @@
-"""What is left of a mechanism when its drives are locked: bodies instead of links, and the joints between them."""
+"""A mechanism with locked drives: bodies instead of links, and the joints between them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["AssurError", "LockedMechanism", "independent", "lock_drives", "whole
 
 
 class AssurError(GrueblerError):
-    """A question about Assur groups that has no answer: not planar, or not a group."""
+    """An input without Assur groups: not planar, or not a group."""
 
 
 class LockedMechanism(NamedTuple):
@@ -26,7 +26,7 @@ class LockedMechanism(NamedTuple):
     """The links that drives lock together, the frame's body first."""
     joints: tuple[BodyJoint, ...]
     clean: bool
-    """Whether no constraint is seen to be redundant already when the bodies are put together."""
+    """Whether merging the links to bodies shows no redundant constraint."""
 
     @property
     def counted(self) -> int:
@@ -66,32 +66,32 @@ def lock_drives(mechanism: Mechanism) -> LockedMechanism:
     place = {link: k for k, body in enumerate(bodies.values()) for link in body}
     joints = []
     for number, joint in enumerate(chain.joints):
-        mine = tuple(dict.fromkeys(place[link] for link in joint.links))
-        clean = clean and joint.count - (len(mine) - 1) == effective[number]
-        if len(mine) > 1:
-            left = joint.pair
+        members = tuple(dict.fromkeys(place[link] for link in joint.links))
+        clean = clean and joint.count - (len(members) - 1) == effective[number]
+        if len(members) > 1:
+            effective_pair = joint.pair
             if number in partial:
-                left = pair(_LEFT[joint.pair.name, partial[number].direction])
-            joints.append(BodyJoint(number, left, mine))
+                effective_pair = pair(_LEFT[joint.pair.name, partial[number].direction])
+            joints.append(BodyJoint(number, effective_pair, members))
     return LockedMechanism(tuple(tuple(body) for body in bodies.values()), tuple(joints), clean)
 
 
-def independent(mechanism: Mechanism, rest: LockedMechanism) -> bool:
+def independent(mechanism: Mechanism, locked: LockedMechanism) -> bool:
     """Whether the constraints of the locked mechanism are generically independent.
 
     Simple turning, rolling and roll-slide joints: by the pebble game on bodies. Otherwise by exact rank.
     """
-    if not rest.clean:
+    if not locked.clean:
         return False
-    if all(len(j.bodies) == 2 and j.pair.name in {"revolute", "rolling", "roll_slide"} for j in rest.joints):
-        edges = [(j.bodies[0], j.bodies[1]) for j in rest.joints for _ in range(j.constraints)]
-        return pebble_rank(len(rest.bodies), edges, 3, 3) == len(edges)
+    if all(len(j.bodies) == 2 and j.pair.name in {"revolute", "rolling", "roll_slide"} for j in locked.joints):
+        edges = [(j.bodies[0], j.bodies[1]) for j in locked.joints for _ in range(j.constraints)]
+        return pebble_rank(len(locked.bodies), edges, 3, 3) == len(edges)
     locks = [LockedFreedom(d.joint, d.direction, d.between) for d in mechanism.drives]
     return generic(mechanism.chain, locks).redundancy == 0
 
 
 def whole_joint_locks(mechanism: Mechanism, partial: dict[int, Drive]) -> list[Drive]:
-    """One drive for each two links that all their drives together hold fast; the others go into `partial`."""
+    """One drive for each two links that their drives lock completely; the others go into `partial`."""
     chain = mechanism.chain
     together: dict[tuple[int, frozenset[str]], list[Drive]] = {}
     for drive in mechanism.drives:

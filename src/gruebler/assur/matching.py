@@ -1,4 +1,4 @@
-"""Orientations of constraints, and the strong components that they leave.
+"""Orientations of constraints, and their strong components.
 
 Every constraint is an edge between two vertices of which exactly one takes it; a vertex takes at most its capacity. A
 vertex depends on the other ends of the edges that it takes. docs/theory/assur.md, "Solving order".
@@ -24,7 +24,7 @@ def orientation(capacities: Sequence[int], edges: Sequence[Edge]) -> list[int] |
     True
     """
     free = list(capacities)
-    held: list[list[int]] = [[] for _ in capacities]
+    assigned: list[list[int]] = [[] for _ in capacities]
     taker = [-1] * len(edges)
     for number, ends in enumerate(edges):
         reached_by = dict.fromkeys(ends, number)
@@ -32,9 +32,9 @@ def orientation(capacities: Sequence[int], edges: Sequence[Edge]) -> list[int] |
         for vertex in queue:
             if free[vertex]:
                 free[vertex] -= 1
-                _hand_over(vertex, number, reached_by, taker, held)
+                _hand_over(vertex, number, reached_by, taker, assigned)
                 break
-            for edge in held[vertex]:
+            for edge in assigned[vertex]:
                 a, b = edges[edge]
                 other = a if b == vertex else b
                 if other not in reached_by:
@@ -45,15 +45,17 @@ def orientation(capacities: Sequence[int], edges: Sequence[Edge]) -> list[int] |
     return taker
 
 
-def _hand_over(vertex: int, new: int, reached_by: dict[int, int], taker: list[int], held: list[list[int]]) -> None:
-    """Let each edge on the path that led to this vertex go to its other end."""
+def _hand_over(
+    vertex: int, target: int, reached_by: dict[int, int], taker: list[int], assigned: list[list[int]]
+) -> None:
+    """Reassign each edge on the path to this vertex to its other end."""
     while True:
         edge = reached_by[vertex]
         before, taker[edge] = taker[edge], vertex
-        held[vertex].append(edge)
-        if edge == new:
+        assigned[vertex].append(edge)
+        if edge == target:
             return
-        held[before].remove(edge)
+        assigned[before].remove(edge)
         vertex = before
 
 
@@ -75,31 +77,31 @@ def components(needs: Sequence[Sequence[int]]) -> list[list[int]]:
     low: dict[int, int] = {}
     pending: list[int] = []
     waiting: set[int] = set()
-    out: list[list[int]] = []
+    strong_components: list[list[int]] = []
     for root in range(len(needs)):
         if root in order:
             continue
         work = [(root, 0)]
         while work:
-            here, step = work.pop()
+            vertex, step = work.pop()
             if step == 0:
-                order[here] = low[here] = len(order)
-                pending.append(here)
-                waiting.add(here)
-            if step < len(needs[here]):
-                there = needs[here][step]
-                work.append((here, step + 1))
-                if there not in order:
-                    work.append((there, 0))
-                elif there in waiting:
-                    low[here] = min(low[here], order[there])
+                order[vertex] = low[vertex] = len(order)
+                pending.append(vertex)
+                waiting.add(vertex)
+            if step < len(needs[vertex]):
+                neighbour = needs[vertex][step]
+                work.append((vertex, step + 1))
+                if neighbour not in order:
+                    work.append((neighbour, 0))
+                elif neighbour in waiting:
+                    low[vertex] = min(low[vertex], order[neighbour])
                 continue
             if work:
                 above = work[-1][0]
-                low[above] = min(low[above], low[here])
-            if low[here] == order[here]:
-                cut = pending.index(here)
+                low[above] = min(low[above], low[vertex])
+            if low[vertex] == order[vertex]:
+                cut = pending.index(vertex)
                 waiting.difference_update(pending[cut:])
-                out.append(sorted(pending[cut:]))
+                strong_components.append(sorted(pending[cut:]))
                 del pending[cut:]
-    return out
+    return strong_components

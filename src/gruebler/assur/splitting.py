@@ -19,7 +19,7 @@ __all__ = ["BodyGroup", "BodyJoint", "GroupSplit", "split_into_groups"]
 
 
 class BodyJoint(NamedTuple):
-    """A joint between bodies: the number of the chain's joint, the pair that its drives leave, the bodies."""
+    """A joint between bodies: the number of the chain's joint, the pair with its drives locked, the bodies."""
 
     joint: int
     pair: Pair
@@ -27,7 +27,7 @@ class BodyJoint(NamedTuple):
 
     @property
     def constraints(self) -> int:
-        """What each further body loses by it."""
+        """The number of freedoms that each further body loses by it."""
         return self.pair.u(Space.PLANAR)
 
 
@@ -38,15 +38,15 @@ class BodyGroup:
     elements: tuple[tuple[int, ...], ...]
     """Its rigid parts: a body alone, or a body with those that earlier parts have fixed against it."""
     base: int
-    """The body against which it is found: the frame's, or the first body of a rigid part of a later group."""
+    """The body relative to which it is solved: the frame's, or the first body of a rigid part of a later group."""
     members: tuple[tuple[int, GroupJoint], ...]
     """Its joints: number of the chain's joint, and the elements that carry it."""
     after: tuple[int, ...]
-    """The parts (by place) on which it hangs directly."""
+    """The parts (by place) on which it depends directly."""
 
 
 class GroupSplit(NamedTuple):
-    """Parts in an order in which they can be found, and the bodies that nothing determines."""
+    """Parts in solving order, and the undetermined bodies."""
 
     parts: list[BodyGroup]
     loose: list[int]
@@ -55,14 +55,14 @@ class GroupSplit(NamedTuple):
 def split_into_groups(
     joints: Sequence[BodyJoint], bodies: Collection[int], base: int, first: Mapping[int, int], driven: Collection[int]
 ) -> GroupSplit:
-    """Split these bodies, seen from one of them.
+    """Split these bodies, relative to one of them.
 
     Args:
         joints: generically independent joints; only their bodies among `bodies` count.
         bodies: the bodies.
         base: the body that is known.
-        first: a rank for each body; of parts that may be found in any order the one with the least comes first.
-        driven: bodies made of links that a drive holds together: preferred as bases of rigid parts.
+        first: a rank for each body; of parts that may be solved in any order the one with the least comes first.
+        driven: bodies of links that a drive locks together: preferred as bases of rigid parts.
     """
     inner = _restricted(joints, bodies)
     blocks, loose = _blocks(inner, bodies, base)
@@ -94,18 +94,18 @@ def split_into_groups(
 def _restricted(joints: Sequence[BodyJoint], bodies: Collection[int]) -> list[BodyJoint]:
     """The joints among these bodies."""
     inside = bodies if isinstance(bodies, set | frozenset) else set(bodies)
-    out = []
+    restricted = []
     for joint in joints:
-        mine = tuple(body for body in joint.bodies if body in inside)
-        if len(mine) == len(joint.bodies):
-            out.append(joint)
-        elif len(mine) > 1:
-            out.append(BodyJoint(joint.joint, joint.pair, mine))
-    return out
+        members = tuple(body for body in joint.bodies if body in inside)
+        if len(members) == len(joint.bodies):
+            restricted.append(joint)
+        elif len(members) > 1:
+            restricted.append(BodyJoint(joint.joint, joint.pair, members))
+    return restricted
 
 
 def _blocks(joints: Sequence[BodyJoint], bodies: Collection[int], base: int) -> tuple[list[list[int]], list[int]]:
-    """What lies between neighbouring tight sets that contain the base, each block after those it needs; and the rest.
+    """The differences of neighbouring tight sets that contain the base, in solving order; and the undetermined bodies.
 
     The vertices of the orientation are the bodies and the joints of more than two bodies.
     """
@@ -121,7 +121,7 @@ def _blocks(joints: Sequence[BodyJoint], bodies: Collection[int], base: int) -> 
             capacities.append(joint.constraints)
     taker = orientation(capacities, edges)
     if taker is None:
-        raise AssertionError("independent constraints can always be shared out among the bodies")
+        raise AssertionError("independent constraints can always be distributed among the bodies")
     needs = dependencies(len(capacities), edges, taker)
     names = list(bodies)
     blocks: list[list[int]] = []
@@ -139,7 +139,7 @@ def _blocks(joints: Sequence[BodyJoint], bodies: Collection[int], base: int) -> 
 def _elements(
     joints: Sequence[BodyJoint], block: list[int], first: Mapping[int, int], driven: Collection[int]
 ) -> tuple[tuple[tuple[int, ...], ...], list[BodyGroup]]:
-    """The maximal rigid parts of a block, and how the bodies of each are found from one of them."""
+    """The maximal rigid parts of a block, and the split of each relative to one of its bodies."""
     inner = _restricted(joints, block)
     if len(block) < 2 or _nowhere_tight(inner, block):
         return tuple((body,) for body in block), []
@@ -156,15 +156,15 @@ def _elements(
             elements.append((body,))
             continue
         candidates = [b for b in rigid if b in driven] or rigid
-        ways = {b: split_into_groups(inner, rigid, b, first, driven).parts for b in candidates}
-        chosen = min(candidates, key=lambda b: (_effort(ways[b]), first[b]))
+        splits = {b: split_into_groups(inner, rigid, b, first, driven).parts for b in candidates}
+        chosen = min(candidates, key=lambda b: (_effort(splits[b]), first[b]))
         elements.append((chosen, *(b for b in rigid if b != chosen)))
-        below += [_moved(part, len(below)) for part in ways[chosen]]
+        below += [_moved(part, len(below)) for part in splits[chosen]]
     return tuple(elements), below
 
 
 def _nowhere_tight(joints: Sequence[BodyJoint], block: list[int]) -> bool:
-    """Whether no two or more of these bodies are surely rigid: then v of them hold 3v - 4 constraints at most.
+    """Whether surely no two or more of these bodies are rigid: then v of them have 3v - 4 constraints at most.
 
     Joints of more than two bodies are left to the search.
     """
@@ -178,31 +178,31 @@ def _nowhere_tight(joints: Sequence[BodyJoint], block: list[int]) -> bool:
 
 
 def _effort(parts: Sequence[BodyGroup]) -> list[tuple[int, int]]:
-    """Classes and sizes, the highest first: what makes one base of a rigid part better than another."""
-    found = (
+    """Classes and sizes, the highest first: the criterion for the best base of a rigid part."""
+    efforts = (
         (class_number(len(part.elements), [member for _, member in part.members]), len(part.elements)) for part in parts
     )
-    return sorted(found, reverse=True)
+    return sorted(efforts, reverse=True)
 
 
 def _members(
     joints: Sequence[BodyJoint], elements: Sequence[tuple[int, ...]], known: Collection[int]
 ) -> tuple[tuple[int, GroupJoint], ...]:
     element = {body: k for k, bodies in enumerate(elements) for body in bodies}
-    out = []
+    members = []
     for joint in joints:
-        mine = tuple(dict.fromkeys(element[body] for body in joint.bodies if body in element))
-        outer = bool(mine) and any(body in known for body in joint.bodies)
-        if outer or len(mine) > 1:
-            out.append((joint.joint, GroupJoint(joint.pair, mine, outer)))
-    return tuple(out)
+        carriers = tuple(dict.fromkeys(element[body] for body in joint.bodies if body in element))
+        outer = bool(carriers) and any(body in known for body in joint.bodies)
+        if outer or len(carriers) > 1:
+            members.append((joint.joint, GroupJoint(joint.pair, carriers, outer)))
+    return tuple(members)
 
 
 def _ends(parts: Sequence[BodyGroup]) -> set[int]:
-    """The parts on which no other part hangs."""
+    """The parts on which no other part depends."""
     return set(range(len(parts))) - {other for part in parts for other in part.after}
 
 
 def _moved(part: BodyGroup, by: int) -> BodyGroup:
-    """The same part, its place counted from further back."""
+    """The same part with its places shifted."""
     return BodyGroup(part.elements, part.base, part.members, tuple(k + by for k in part.after)) if by else part

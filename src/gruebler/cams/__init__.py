@@ -1,6 +1,6 @@
-"""Cams: laws of motion, profiles for given lifts, and the motion that a given contour gives."""
+"""Cams: laws of motion, profiles for given lifts, and follower motions for given contours."""
 
-from gruebler.cams.cam import Cam, CamExtremum, CamReport
+from gruebler.cams.cam import Cam, CamReport
 from gruebler.cams.contour import ArcContour, ContourArc, FollowerMotion, follower_motion, tangent_cam
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import LAWS, CamError, LawPeaks, LawPiece, MotionLaw, boundary_law, motion_law, polynomial_law
@@ -12,7 +12,6 @@ __all__ = [
     "ArcContour",
     "Cam",
     "CamError",
-    "CamExtremum",
     "CamReport",
     "ContourArc",
     "DerivativeJump",

@@ -16,14 +16,15 @@ from gruebler.cams.extremes import extremes
 from gruebler.cams.follower import Flat, Follower, Roller
 from gruebler.cams.laws import CamError, finite_array
 from gruebler.cams.lift import Lift
+from gruebler.events import Extremum
 from gruebler.notebook import Brief
 from gruebler.text import message
 
-__all__ = ["Cam", "CamExtremum", "CamReport"]
+__all__ = ["Cam", "CamReport"]
 
 
 class _Contact(NamedTuple):
-    """What touches, in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""
+    """The contact in the cam's frame: contact point, curvature of the profile there, and signed pressure angle."""
 
     point: Complexes
     shape: Reals
@@ -31,32 +32,25 @@ class _Contact(NamedTuple):
     curvature: Reals
     pressure: Reals
     face: Reals
-    """Where along a flat face the cam touches, from the foot of the normal through the axis, or from the pivot."""
+    """The place of the contact along a flat face, from the foot of the normal through the axis, or from the pivot."""
     centre: Complexes
     """The pitch curve: the roller's centre; for a face the contact itself."""
 
 
-class CamExtremum(NamedTuple):
-    """A value and the cam's angle where it occurs, in radians."""
-
-    value: float
-    at: float
-
-
 @dataclass(frozen=True, slots=True)
 class CamReport:
-    """What decides whether a cam is good; each extreme found exactly, jumps of acceleration taken from both sides."""
+    """The quality measures of a cam; extremes are exact, with one-sided values at jumps of acceleration."""
 
-    pressure: tuple[CamExtremum, CamExtremum]
+    pressure: tuple[Extremum, Extremum]
     """The least and the greatest signed pressure angle in radians: from the follower's motion to the normal."""
-    convex: CamExtremum | None
+    convex: Extremum | None
     """The smallest radius of curvature where the profile is convex."""
-    hollow: CamExtremum | None
-    """The smallest radius of curvature where it is hollow, if it is: no larger grinding wheel has room there."""
-    room: CamExtremum
+    hollow: Extremum | None
+    """The smallest radius of curvature where it is hollow, if it is: the greatest radius of a grinding wheel."""
+    room: Extremum
     """Not positive: undercut. 1 - r k for a roller on a pitch curve of curvature k; for a face the radius."""
-    face: tuple[CamExtremum, CamExtremum]
-    """How far a flat face must reach to both sides (0 for rollers)."""
+    face: tuple[Extremum, Extremum]
+    """The length of a flat face that is needed to both sides (0 for rollers)."""
 
     @property
     def undercut(self) -> bool:
@@ -66,12 +60,12 @@ class CamReport:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Cam(Brief):
-    """A disc cam that gives a follower its lift; the lift is a length, or radians for a swinging follower.
+    """A disc cam for a lift of a follower; the lift is a length, or radians for a swinging follower.
 
     >>> from gruebler.cams import read_lift
     >>> cam = Cam(read_lift("rise 20 90; dwell 90; fall 20 90; dwell"), base=40, follower=Roller(10, offset=5))
-    >>> found = cam.findings()
-    >>> round(math.degrees(found.pressure[1].value), 3), round(found.convex.value, 3), found.undercut
+    >>> report = cam.findings()
+    >>> round(math.degrees(report.pressure[1].value), 3), round(report.convex.value, 3), report.undercut
     (17.693, 30.382, False)
     """
 
@@ -126,21 +120,22 @@ class Cam(Brief):
         return self._at(angle).curvature
 
     def contact_on_face(self, angle: ArrayLike) -> Reals:
-        """Where along a flat face the cam touches (length)."""
+        """The place of the contact along a flat face (length)."""
         return self._at(angle).face
 
     def findings(self) -> CamReport:
         """All extremes over a turn."""
 
-        def both(pick: Callable[[_Contact], Reals], scale: float = 0.0) -> tuple[CamExtremum, CamExtremum]:
-            places: list[CamExtremum] = []
+        def both(pick: Callable[[_Contact], Reals], scale: float = 0.0) -> tuple[Extremum, Extremum]:
+            places: list[tuple[float, float]] = []
             for span in self.lift.spans():
 
                 def value(phi: Reals, span: object = span) -> Reals:
                     return pick(self._contact(phi, *(order(phi) for order in span.orders[:3])))  # type: ignore[attr-defined]
 
-                places += [CamExtremum(y, x) for x, y in extremes(value, span.start, span.end, scale)]
-            return min(places), max(places)
+                places += [(y, x) for x, y in extremes(value, span.start, span.end, scale)]
+            (least, low_at), (most, high_at) = min(places), max(places)
+            return Extremum(low_at, least, "minimum"), Extremum(high_at, most, "maximum")
 
         low, high = both(lambda contact: contact.shape)
         convex, hollow, room = _radii(self.follower, low, high)
@@ -167,16 +162,14 @@ class Cam(Brief):
             return _flat_contact(self.follower, phi, self.start + s, s1, s2)
 
 
-def _radii(
-    follower: Follower, low: CamExtremum, high: CamExtremum
-) -> tuple[CamExtremum | None, CamExtremum | None, CamExtremum]:
-    """The least convex and hollow radius and the room, from the extremes of the shape."""
+def _radii(follower: Follower, low: Extremum, high: Extremum) -> tuple[Extremum | None, Extremum | None, Extremum]:
+    """The least convex and hollow radius and the clearance, from the extremes of the shape."""
     if isinstance(follower, Flat):
         return (low if low.value > 0 else None), None, low
     # The radius 1 / k - r of the profile grows as the pitch curve's curvature k falls, on either side of k = 0.
-    r, room = follower.radius, CamExtremum(1 - follower.radius * high.value, high.at)
-    convex = CamExtremum(1 / high.value - r, high.at) if high.value > 0 and room.value > 0 else None
-    hollow = CamExtremum(r - 1 / low.value, low.at) if low.value < -1e-12 * abs(high.value) else None
+    r, room = follower.radius, Extremum(high.at, 1 - follower.radius * high.value, "minimum")
+    convex = Extremum(high.at, 1 / high.value - r, "minimum") if high.value > 0 and room.value > 0 else None
+    hollow = Extremum(low.at, r - 1 / low.value, "minimum") if low.value < -1e-12 * abs(high.value) else None
     return convex, hollow, room
 
 
@@ -185,7 +178,7 @@ def _roller_contact(roller: Roller, phi: Reals, s: Reals, s1: Reals, s2: Reals) 
     back = np.exp(-1j * phi)
     c, c1, c2 = path.at, path.first * s1, path.first * s2 + path.second * s1**2
     z, z1, z2 = c * back, (c1 - 1j * c) * back, (c2 - 2j * c1 - c) * back
-    # The pitch curve runs clockwise: its outward normal lies to the left of the tangent.
+    # The pitch curve is clockwise: its outward normal lies to the left of the tangent.
     normal = 1j * z1 / np.abs(z1)
     bend = -np.imag(np.conj(z1) * z2) / np.abs(z1) ** 3
     pressure = np.angle(normal / back / path.first)
@@ -212,7 +205,7 @@ def _flat_contact(flat: Flat, phi: Reals, s: Reals, s1: Reals, s2: Reals) -> _Co
     motion = -1j * math.copysign(1.0, flat.distance) * lever / np.abs(lever) if flat.swings else normal
     point = contact * np.exp(-1j * phi)
     along = np.real(contact) if not flat.swings else np.sqrt(np.maximum(np.abs(lever) ** 2 - flat.face**2, 0))
-    # Where the face turns back against the cam there is no regular profile, whatever the radius says.
+    # Where the face turns back against the cam there is no regular profile, whatever the radius.
     shape = np.where(turn < 0, radius, -np.abs(radius)) if flat.swings else radius
     return _Contact(point, shape, 1 / radius, np.angle(normal / motion), along, point)
 

@@ -1,7 +1,7 @@
-"""What a given contour does to a follower: its motion with rates, from the contact and the curvature there.
+"""The motion of a follower on a given contour, with rates, from the contact and the curvature there.
 
-A contour is anything with ``touch``: where it touches a follower at given angles of the cam. Rates follow from the
-contact and the radius of curvature there; docs/theory/cams.md.
+A contour is anything with ``touch``, which gives the contacts with a follower at given angles of the cam. Rates follow
+from the contact and the radius of curvature there; docs/theory/cams.md.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class ContactSamples(NamedTuple):
     """Contacts at cam's angles: the follower's coordinate, and the contour's outward normal in the fixed frame.
 
     ``radius`` is the contour's radius of curvature at the contact: 0 at a corner, infinite on a straight line.
-    ``along`` is where on a flat face it lies, from the foot of the normal through the axis.
+    ``along`` is its place on a flat face, from the foot of the normal through the axis.
     """
 
     coordinate: Reals
@@ -63,13 +63,13 @@ class Contour(Protocol):
 
 
 def follower_motion(contour: Contour, follower: Follower, angle: ArrayLike) -> FollowerMotion:
-    """The motion of a follower that a contour gives, at cam's angles of any shape.
+    """The motion of a follower on a contour, at cam's angles of any shape.
 
     Where the curvature jumps the acceleration is that of one side. Raises CamError if the follower misses the contour.
 
     >>> eccentric = ArcContour([ContourArc(0.0, 10 + 0j, 30.0)])
     >>> moved = follower_motion(eccentric, Flat(), [0.0, math.pi / 2])  # 30 + 10 sin(phi)
-    >>> [one.round(9).tolist() for one in moved]
+    >>> [values.round(9).tolist() for values in moved]
     [[30.0, 40.0], [10.0, 0.0], [0.0, -10.0]]
     """
     phi = finite_array(angle, message("the cam's angles"))
@@ -84,7 +84,7 @@ def follower_motion(contour: Contour, follower: Follower, angle: ArrayLike) -> F
         raise CamError(
             "the follower jams at {stuck:.6g} degrees: the normal lies across its motion, or a corner", stuck=stuck
         )
-    return FollowerMotion(*(one.reshape(phi.shape) for one in (touch.coordinate, *rates)))
+    return FollowerMotion(*(values.reshape(phi.shape) for values in (touch.coordinate, *rates)))
 
 
 def _roller_rates(roller: Roller, touch: ContactSamples) -> tuple[Reals, Reals]:
@@ -94,8 +94,8 @@ def _roller_rates(roller: Roller, touch: ContactSamples) -> tuple[Reals, Reals]:
     along = np.real(np.conj(n) * path.first)
     first = np.real(np.conj(n) * 1j * path.at) / along
     sigma = np.real(np.conj(1j * n) * (path.first * first - 1j * path.at))
-    held = np.real(np.conj(n) * (path.at + path.second * first**2))
-    return first, -(held + 2 * sigma + bend * sigma**2) / along
+    normal_acceleration = np.real(np.conj(n) * (path.at + path.second * first**2))
+    return first, -(normal_acceleration + 2 * sigma + bend * sigma**2) / along
 
 
 def _flat_rates(flat: Flat, touch: ContactSamples) -> tuple[Reals, Reals]:
@@ -153,7 +153,7 @@ class ArcContour:
 
     @classmethod
     def hull(cls, circles: Sequence[tuple[complex, float]]) -> ArcContour:
-        """The contour around circles (centre, radius), as a band would lie: two circles give a tangent cam."""
+        """The convex hull of circles (centre, radius): two circles give a tangent cam."""
         if not circles:
             raise CamError("a contour around circles has at least one circle")
         finite_array([(c.real, c.imag, r) for c, r in circles], message("circles (centre, radius)"))
@@ -177,18 +177,20 @@ class ArcContour:
     def touch(self, follower: Follower, angle: Reals) -> ContactSamples:
         """The outermost contact at each angle; -inf where there is none."""
         turn = np.exp(1j * angle)
-        best = ContactSamples(*(np.full(angle.shape, -np.inf, dtype=kind) for kind in (float, complex, float, float)))
+        outermost = ContactSamples(
+            *(np.full(angle.shape, -np.inf, dtype=kind) for kind in (float, complex, float, float))
+        )
         for arc, after in self._neighbours():
             span = (after.start - arc.start) % math.tau or math.tau
             for samples in _arc_contacts(follower, turn, arc):
                 turned = np.mod(np.angle(samples.normal / turn) - arc.start + 1e-9, math.tau)
-                best = _higher(best, samples, turned <= span + 2e-9)
+                outermost = _higher(outermost, samples, turned <= span + 2e-9)
             normal = complex(np.exp(1j * after.start))
             ends = arc.centre + arc.radius * normal, after.centre + after.radius * normal
             if isinstance(follower, Roller) and ends[0] != ends[1]:
                 for samples, place in _line_contacts(follower, turn, ends, normal):
-                    best = _higher(best, samples, (place >= -1e-9) & (place <= 1 + 1e-9))
-        return best
+                    outermost = _higher(outermost, samples, (place >= -1e-9) & (place <= 1 + 1e-9))
+        return outermost
 
 
 def tangent_cam(base: float, nose: float, distance: float) -> ArcContour:
@@ -196,10 +198,12 @@ def tangent_cam(base: float, nose: float, distance: float) -> ArcContour:
     return ArcContour.hull([(0j, base), (complex(distance), nose)])
 
 
-def _higher(best: ContactSamples, samples: ContactSamples, valid: NDArray[np.bool_]) -> ContactSamples:
+def _higher(outermost: ContactSamples, samples: ContactSamples, valid: NDArray[np.bool_]) -> ContactSamples:
     with np.errstate(invalid="ignore"):
-        better = valid & (samples.coordinate > best.coordinate)
-    return ContactSamples(*(np.where(better, new, old) for new, old in zip(samples, best, strict=True)))
+        higher = valid & (samples.coordinate > outermost.coordinate)
+    return ContactSamples(
+        *(np.where(higher, candidate, current) for candidate, current in zip(samples, outermost, strict=True))
+    )
 
 
 def _arc_contacts(follower: Follower, turn: Complexes, arc: ContourArc) -> Iterator[ContactSamples]:
@@ -242,25 +246,25 @@ def _guide_circle(roller: Roller, middle: Complexes, reach: float) -> Iterator[R
 
 
 def arm_coordinate(roller: Roller, arm: Complexes) -> Reals:
-    """The coordinate of a swinging follower whose arm lies so; NaN below the line of centres."""
+    """The coordinate of a swinging follower with this vector of its arm; NaN below the line of centres."""
     side = math.copysign(1.0, roller.distance)
-    found = -side * np.angle(-side * arm)
-    return np.where(found > 0, found, np.nan)
+    angle = -side * np.angle(-side * arm)
+    return np.where(angle > 0, angle, np.nan)
 
 
 def _line_contacts(
     roller: Roller, turn: Complexes, ends: tuple[complex, complex], normal: complex
 ) -> Iterator[tuple[ContactSamples, Reals]]:
-    """Contacts with a straight line and where on it they are, 0 to 1."""
-    start, way = (ends[0] + roller.radius * normal) * turn, (ends[1] - ends[0]) * turn
+    """Contacts with a straight line and their places on it, 0 to 1."""
+    start, direction = (ends[0] + roller.radius * normal) * turn, (ends[1] - ends[0]) * turn
     flat, zero = np.full(turn.shape, np.inf), np.zeros(turn.shape)
     with np.errstate(invalid="ignore", divide="ignore"):
         if not roller.swings:
-            place = (roller.offset - start.real) / way.real
-            yield ContactSamples((start + place * way).imag, normal * turn, flat, zero), place
+            place = (roller.offset - start.real) / direction.real
+            yield ContactSamples((start + place * direction).imag, normal * turn, flat, zero), place
             return
         lever, length = start - roller.distance, abs(ends[1] - ends[0])
-        foot = -np.real(np.conj(way) * lever) / length**2
-        across = np.sqrt(roller.arm**2 - np.abs(lever + foot * way) ** 2) / length
+        foot = -np.real(np.conj(direction) * lever) / length**2
+        across = np.sqrt(roller.arm**2 - np.abs(lever + foot * direction) ** 2) / length
         for place in (foot + across, foot - across):
-            yield ContactSamples(arm_coordinate(roller, lever + place * way), normal * turn, flat, zero), place
+            yield ContactSamples(arm_coordinate(roller, lever + place * direction), normal * turn, flat, zero), place

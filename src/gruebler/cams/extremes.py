@@ -1,8 +1,8 @@
 """All extremes of a smooth function on an interval, from the roots of its Chebyshev interpolant's derivative.
 
-The interpolant is made of pieces so short that their last coefficients vanish against the first; its derivative's roots
+The interpolant has pieces so short that their last coefficients vanish relative to the first; its derivative's roots
 are eigenvalues of a colleague matrix (Boyd, Solving Transcendental Equations, SIAM 2014, chapters 2 and 3). No root is
-lost between samples, as long as the function is resolved, and that is checked.
+missed between samples, as long as the function is resolved, which is checked.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ def extremes(function: Function, a: float, b: float, scale: float = 0.0) -> list
     """The ends of [a, b] and all places between them where the derivative vanishes, with the values there.
 
     The function takes an array and is smooth on the interval. Values are good to about 1e-12 of the greatest, or of
-    ``scale``: what is smaller than that is noise.
+    ``scale``; smaller differences are noise.
 
     >>> [(round(x, 9), round(y, 9)) for x, y in extremes(np.sin, 0.0, 6.0)]
     [(0.0, 0.0), (1.570796327, 1.0), (4.71238898, -1.0), (6.0, -0.279415498)]
@@ -70,6 +70,6 @@ def _real(c: NDArray[np.float64], a: float, b: float) -> list[float]:
     c = np.asarray(chebyshev.chebtrim(c, 1e-13 * max(np.abs(c).max(), 1e-300)), dtype=np.float64)
     if len(c) < 2:
         return []
-    found = chebyshev.chebroots(c)
-    inside = found.real[(np.abs(found.imag) < 1e-7) & (np.abs(found.real) <= 1)]
+    zeros = chebyshev.chebroots(c)
+    inside = zeros.real[(np.abs(zeros.imag) < 1e-7) & (np.abs(zeros.real) <= 1)]
     return [float((a + b) / 2 + (b - a) / 2 * t) for t in inside]

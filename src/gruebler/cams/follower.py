@@ -1,7 +1,7 @@
-"""Followers: how they are guided and what touches the cam; docs/theory/cams.md.
+"""Followers: their guide and the element that touches the cam; docs/theory/cams.md.
 
 Points of the plane are complex numbers, the cam's axis is 0. A follower's coordinate is its height above the axis or
-its angle (radians). The cam turns counter-clockwise; for the other sense take the mirror image: the opposite offset,
+its angle (radians). The cam turns counter-clockwise; for the other sense use the mirror image: the opposite offset,
 the pivot on the other side.
 """
 
@@ -94,7 +94,7 @@ class Roller:
         return math.acos(cosine)
 
     def gain(self, start: float, lift: Reals) -> Reals:
-        """By how much a lift makes the square of the centre's distance from the axis larger; without cancellation."""
+        """The increase of the square of the centre's distance from the axis by a lift; without cancellation."""
         if not self.swings:
             return np.asarray(lift * (2 * start + lift))
         return np.asarray(4 * self.arm * abs(self.distance) * np.sin(start + lift / 2) * np.sin(lift / 2))
@@ -113,7 +113,7 @@ class Roller:
 class Flat:
     """A flat face across the motion; or, with a pivot on the x axis at ``distance``, one that swings.
 
-    ``face`` is how far the swinging face stands from its pivot, towards the cam.
+    ``face`` is the distance of the swinging face from its pivot, towards the cam.
     """
 
     distance: float = 0.0
@@ -143,7 +143,7 @@ class Flat:
         return math.asin((radius + self.face) / abs(self.distance))
 
     def gain(self, start: float, lift: Reals) -> Reals:
-        """By how much a lift makes the face's distance from the axis larger; without cancellation."""
+        """The increase of the face's distance from the axis by a lift; without cancellation."""
         if not self.swings:
             return np.asarray(lift)
         return np.asarray(2 * abs(self.distance) * np.cos(start + lift / 2) * np.sin(lift / 2))
@@ -151,8 +151,8 @@ class Flat:
     def line(self, s: Reals) -> FaceLine:
         """The face."""
         if not self.swings:
-            one = np.ones_like(s)
-            return FaceLine(math.pi / 2 * one, 0.0, s, one, 0 * one)
+            ones = np.ones_like(s)
+            return FaceLine(math.pi / 2 * ones, 0.0, s, ones, 0 * ones)
         side, d = math.copysign(1.0, self.distance), abs(self.distance)
         return FaceLine(math.pi / 2 - side * s, -side, d * np.sin(s) - self.face, d * np.cos(s), -d * np.sin(s))
 

@@ -1,7 +1,7 @@
 """Laws of motion from rest to rest, normalised to a unit of angle and a unit of lift; docs/theory/cams.md.
 
-Every law is a row of pieces; on a piece the lift is a polynomial plus one sine wave. So all derivatives, integrals and
-continuity come from one place, exact in closed form.
+Every law is a sequence of pieces; on a piece the lift is a polynomial plus one sine wave. So all derivatives, integrals
+and continuity conditions are exact in closed form.
 """
 
 from __future__ import annotations
@@ -36,18 +36,18 @@ __all__ = [
 
 
 class CamError(GrueblerError):
-    """A cam, a law or a contour that cannot be."""
+    """An impossible cam, law or contour."""
 
 
-def finite_array(values: ArrayLike, what: Message) -> Reals:
+def finite_array(values: ArrayLike, quantity: Message) -> Reals:
     """Numbers of any shape as an array; CamError if one is not finite, or none at all."""
     try:
-        found = np.asarray(values, dtype=np.float64)
+        numbers = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        found = np.array(np.nan)
-    if not np.isfinite(found).all():
-        raise CamError("{quantity}: expected finite numbers, not {values!r}", quantity=what, values=values)
-    return found
+        numbers = np.array(np.nan)
+    if not np.isfinite(numbers).all():
+        raise CamError("{quantity}: expected finite numbers, not {values!r}", quantity=quantity, values=values)
+    return numbers
 
 
 class LawPiece(NamedTuple):
@@ -96,15 +96,15 @@ class MotionLaw:
     def at(self, x: ArrayLike, order: int = 0) -> Reals:
         """The lift (order 0) or a derivative at places in [0, 1], of any shape; at a joint of pieces the right one."""
         places = finite_array(x, message("places on a law"))
-        found = np.zeros(places.shape)
+        values = np.zeros(places.shape)
         index = np.searchsorted([piece.start for piece in self.pieces[1:]], places, side="right")
         for k, piece in enumerate(self.pieces):
-            found[index == k] = piece.at(places[index == k], order)
-        return found
+            values[index == k] = piece.at(places[index == k], order)
+        return values
 
     @property
     def joints(self) -> tuple[float, ...]:
-        """Where its pieces begin and end."""
+        """The places where its pieces begin and end."""
         return (*(piece.start for piece in self.pieces), 1.0)
 
     def end(self, order: int) -> float:
@@ -112,12 +112,12 @@ class MotionLaw:
         return float(self.pieces[-1].at(np.array(1.0), order))
 
     def peaks(self) -> LawPeaks:
-        """C_v, C_a, C_j and the peak of C_a C_v (the torque of a mass); jumps of acceleration are no jerk here."""
+        """C_v, C_a, C_j and the peak of C_a C_v (the torque of a mass); without jumps of acceleration."""
 
         def greatest(function: Callable[[LawPiece, Reals], Reals]) -> float:
             spans = zip(self.pieces, self.joints, self.joints[1:], strict=False)
-            found = (extremes(partial(function, piece), a, b) for piece, a, b in spans)
-            return max(abs(value) for places in found for _, value in places)
+            piece_extremes = (extremes(partial(function, piece), a, b) for piece, a, b in spans)
+            return max(abs(value) for places in piece_extremes for _, value in places)
 
         return LawPeaks(
             velocity=greatest(lambda piece, x: piece.at(x, 1)),
@@ -128,7 +128,7 @@ class MotionLaw:
 
 
 def polynomial_law(*powers: int) -> MotionLaw:
-    """The rest-to-rest polynomial with these powers: as many derivatives as there is room for vanish at both ends.
+    """The rest-to-rest polynomial with these powers: as many derivatives as possible vanish at both ends.
 
     For m powers, the lift at the end is 1 and its first m - 1 derivatives vanish there (at the beginning all below the
     lowest power do): coefficients c_i = prod over j != i of p_j / (p_j - p_i). 3-4-5 and 4-5-6-7 are the usual ones.
@@ -164,21 +164,21 @@ def boundary_law(start: Sequence[float], end: Sequence[float]) -> MotionLaw:
 def _hermite(start: Sequence[Fraction], end: Sequence[Fraction]) -> list[Fraction]:
     """The polynomial of least degree with derivatives 0, 1, ... at 0 and at 1, in closed form; docs/theory/cams.md."""
     m, n = len(start), len(end)
-    out = [Fraction(0)] * (m + n)
+    coefficients = [Fraction(0)] * (m + n)
     for k, value in enumerate(start):
         for j in range(m - k):
             for power, c in _bernstein(k + j, n):
-                out[power] += value / math.factorial(k) * math.comb(n - 1 + j, j) * c
+                coefficients[power] += value / math.factorial(k) * math.comb(n - 1 + j, j) * c
     for k, value in enumerate(end):
         for j in range(n - k):
             for power, c in _bernstein(m, k + j):
-                out[power] += (-1) ** k * value / math.factorial(k) * math.comb(m - 1 + j, j) * c
-    return out
+                coefficients[power] += (-1) ** k * value / math.factorial(k) * math.comb(m - 1 + j, j) * c
+    return coefficients
 
 
-def _bernstein(power: int, other: int) -> list[tuple[int, int]]:
+def _bernstein(power: int, complement: int) -> list[tuple[int, int]]:
     """The terms (power, coefficient) of t^power (1 - t)^other."""
-    return [(power + i, (-1) ** i * math.comb(other, i)) for i in range(other + 1)]
+    return [(power + i, (-1) ** i * math.comb(complement, i)) for i in range(complement + 1)]
 
 
 def _from_acceleration(name: str, parts: Sequence[tuple[float, float, float, float, float]]) -> MotionLaw:
@@ -232,7 +232,7 @@ _ALIASES = {
 }
 
 LAWS = MappingProxyType({name: name for name in (*_ACCELERATIONS, *_POLYNOMIALS)} | _ALIASES)
-"""Names of laws, with other names for the same; besides, any powers such as 3-4-5-6 are the name of a polynomial."""
+"""Names of laws and their synonyms; any powers such as 3-4-5-6 also name a polynomial."""
 
 
 @lru_cache(maxsize=64)

@@ -1,4 +1,4 @@
-"""The lift of a follower over a turn of the cam: motions and dwells in a row, and their text form."""
+"""The lift of a follower over a turn of the cam: a sequence of motions and dwells, and its text form."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _LEAST = 1e-9  # radians of a part: the parts must fill a turn to this
 
 
 class LiftSegment(NamedTuple):
-    """A part of the turn: the lift goes on by ``scale`` times the law; angle in radians. A dwell has no law."""
+    """A part of the turn: the lift changes by ``scale`` times the law; angle in radians. A dwell has no law."""
 
     angle: float
     scale: float = 0.0
@@ -32,12 +32,12 @@ class LiftSegment(NamedTuple):
 
     @property
     def change(self) -> float:
-        """By how much the lift differs between its ends."""
+        """The difference of the lift between its ends."""
         return self.scale * (self.law.end(0) - float(self.law.at(0.0))) if self.law else 0.0
 
 
 class DerivativeJump(NamedTuple):
-    """A jump of a derivative at an angle; 1: velocity, a blow; 2: acceleration, infinite jerk."""
+    """A jump of a derivative at an angle; 1: velocity, an impact; 2: acceleration, infinite jerk."""
 
     at: float
     order: int
@@ -45,7 +45,7 @@ class DerivativeJump(NamedTuple):
 
 
 class SmoothSpan(NamedTuple):
-    """A stretch on which the lift is smooth: its ends, and the derivatives, at the ends as seen from within."""
+    """An interval on which the lift is smooth: its ends, and the derivatives, one-sided at the ends."""
 
     start: float
     end: float
@@ -54,7 +54,7 @@ class SmoothSpan(NamedTuple):
 
 
 def dwell(angle: float) -> LiftSegment:
-    """A rest of so many radians."""
+    """A dwell over an angle in radians."""
     return LiftSegment(_angle(angle))
 
 
@@ -104,9 +104,9 @@ class Lift:
         turn = sum(segment.angle for segment in self.segments)
         if abs(turn - math.tau) > _LEAST:
             raise CamError("the parts of a lift fill 360 degrees, not {turn:.6g}", turn=math.degrees(turn))
-        left = sum(segment.change for segment in self.segments)
-        if abs(left) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
-            raise CamError("the lift ends where it began; {left:+.6g} is left over", left=left)
+        remainder = sum(segment.change for segment in self.segments)
+        if abs(remainder) > 1e-9 * max(1e-300, *(abs(segment.change) for segment in self.segments)):
+            raise CamError("the lift ends where it began; {left:+.6g} is left over", left=remainder)
 
     def scaled(self, factor: float) -> Lift:
         """Every lift times a factor, as from degrees to radians."""
@@ -119,7 +119,7 @@ class Lift:
         return tuple(map(float, angles))
 
     def spans(self) -> Iterator[SmoothSpan]:
-        """The stretches on which the lift is smooth, with lift, velocity, acceleration, jerk per radian."""
+        """The intervals on which the lift is smooth, with lift, velocity, acceleration, jerk per radian."""
         lift = 0.0
         for k, (segment, start) in enumerate(zip(self.segments, self.starts, strict=True)):
             if segment.law is None:
@@ -140,27 +140,27 @@ class Lift:
         phi = np.mod(finite_array(angle, message("the cam's angles")), math.tau)
         spans = list(self.spans())
         index = np.searchsorted([span.start for span in spans[1:]], phi, side="right")
-        found = np.zeros(phi.shape)
+        values = np.zeros(phi.shape)
         for k, span in enumerate(spans):
-            found[index == k] = span.orders[order](phi[index == k])
-        return found
+            values[index == k] = span.orders[order](phi[index == k])
+        return values
 
     def jumps(self) -> list[DerivativeJump]:
-        """Where velocity or acceleration jump; below a jump of one order the higher ones are not told."""
+        """The jumps of velocity or acceleration; at each angle only the one of the lowest order."""
         spans = list(self.spans())
         scales = [max(abs(value) for span in spans for _, value in extremes(span.orders[n], *span[:2])) for n in (1, 2)]
-        found = []
+        jumps = []
         for before, after in zip(spans[-1:] + spans[:-1], spans, strict=True):
             for order, scale in zip((1, 2), scales, strict=True):
                 size = float(after.orders[order](np.array(after.start)) - before.orders[order](np.array(before.end)))
                 if abs(size) > 1e-9 * scale:
-                    found.append(DerivativeJump(after.start, order, size))
+                    jumps.append(DerivativeJump(after.start, order, size))
                     break
-        return found
+        return jumps
 
     def extremes(self, order: int) -> list[tuple[float, float]]:
         """All places (angle, value) of extremes of the lift or a derivative, one-sided values at jumps included."""
-        return [one for span in self.spans() for one in extremes(span.orders[order], span.start, span.end)]
+        return [extremum for span in self.spans() for extremum in extremes(span.orders[order], span.start, span.end)]
 
 
 def _constant(value: float) -> Function:
@@ -175,8 +175,8 @@ def _scaled(piece: object, order: int, segment: LiftSegment, start: float, base:
 def read_lift(text: str) -> Lift:
     """Read a lift; lengths as they are (degrees if ``swinging``), angles in degrees, parts between semicolons.
 
-    ``rise LIFT ANGLE [LAW]``, ``fall LIFT ANGLE [LAW]``, ``dwell [ANGLE]``: one dwell may leave its angle out and takes
-    the rest. Instead of a law boundary values may be given, per radian: ``rise 20 60 v0=0 a0=0 v1=5 a1=0``.
+    ``rise LIFT ANGLE [LAW]``, ``fall LIFT ANGLE [LAW]``, ``dwell [ANGLE]``: one dwell may omit its angle and gets
+    the remainder. Boundary values may replace the law, per radian: ``rise 20 60 v0=0 a0=0 v1=5 a1=0``.
 
     >>> lift = read_lift("rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell")
     >>> [round(math.degrees(segment.angle), 9) for segment in lift.segments]
@@ -192,52 +192,54 @@ def read_lift(text: str) -> Lift:
         raise CamError("expected a lift such as 'rise 20 60 3-4-5; dwell 30; fall 20 90 cycloidal; dwell', got nothing")
     if parts.count(None) > 1:
         raise CamError("only one dwell may leave out its angle")
-    rest = math.tau - sum(part.angle for part in parts if part)
-    if None in parts and rest <= 1e-12:
+    remaining = math.tau - sum(part.angle for part in parts if part)
+    if None in parts and remaining <= 1e-12:
         raise CamError("no angle is left for the dwell without one")
-    return Lift(dwell(rest) if part is None else part for part in parts)
+    return Lift(dwell(remaining) if part is None else part for part in parts)
 
 
 def _read_part(statement: str) -> LiftSegment | None:
-    word, *rest = statement.split()
-    if word not in ("rise", "fall", "dwell"):
+    keyword, *arguments = statement.split()
+    if keyword not in ("rise", "fall", "dwell"):
         raise CamError(
             "'{statement}': expected rise, fall or dwell{suggestion}",
             statement=statement,
-            suggestion=nearest(word, ("rise", "fall", "dwell")),
+            suggestion=nearest(keyword, ("rise", "fall", "dwell")),
         )
-    if word == "dwell":
-        if len(rest) > 1:
+    if keyword == "dwell":
+        if len(arguments) > 1:
             raise CamError("'{statement}': a dwell has an angle and nothing else", statement=statement)
-        return dwell(math.radians(_number(rest[0], statement))) if rest else None
-    if len(rest) < 2:
+        return dwell(math.radians(_number(arguments[0], statement))) if arguments else None
+    if len(arguments) < 2:
         raise CamError(
             "'{statement}': expected a lift and an angle in degrees, such as '{word} 20 60 3-4-5'",
             statement=statement,
-            word=word,
+            word=keyword,
         )
-    sign = 1 if word == "rise" else -1
-    change, angle = sign * _number(rest[0], statement), math.radians(_number(rest[1], statement))
-    if len(rest) > 2 and "=" in rest[2]:
-        return LiftSegment(_angle(angle), 1.0, _bounded(change, angle, rest[2:], statement))
-    if len(rest) > 3:
-        raise CamError("'{statement}': one law is enough, not {rest!r}", statement=statement, rest=" ".join(rest[2:]))
-    return motion(change, angle, rest[2] if len(rest) > 2 else "3-4-5")
+    sign = 1 if keyword == "rise" else -1
+    change, angle = sign * _number(arguments[0], statement), math.radians(_number(arguments[1], statement))
+    if len(arguments) > 2 and "=" in arguments[2]:
+        return LiftSegment(_angle(angle), 1.0, _bounded(change, angle, arguments[2:], statement))
+    if len(arguments) > 3:
+        raise CamError(
+            "'{statement}': one law is enough, not {rest!r}", statement=statement, rest=" ".join(arguments[2:])
+        )
+    return motion(change, angle, arguments[2] if len(arguments) > 2 else "3-4-5")
 
 
-def _bounded(change: float, angle: float, words: list[str], statement: str) -> MotionLaw:
+def _bounded(change: float, angle: float, assignments: list[str], statement: str) -> MotionLaw:
     """The polynomial with velocities v0, v1, accelerations a0, a1, jerks j0, j1 per radian; the others are free."""
     ends: tuple[dict[int, float], dict[int, float]] = ({0: 0.0}, {0: change})
-    for word in words:
-        found = re.fullmatch(r"([vaj])([01])=(\S+)", word)
-        if not found:
+    for assignment in assignments:
+        match = re.fullmatch(r"([vaj])([01])=(\S+)", assignment)
+        if not match:
             raise CamError(
                 "'{statement}': expected boundary values such as v0=0 a1=2, not {word!r}",
                 statement=statement,
-                word=word,
+                word=assignment,
             )
-        order = "vaj".index(found[1]) + 1
-        ends[int(found[2])][order] = _number(found[3], statement) * angle**order
+        order = "vaj".index(match[1]) + 1
+        ends[int(match[2])][order] = _number(match[3], statement) * angle**order
     for values, end in zip(ends, "01", strict=True):
         if sorted(values) != list(range(len(values))):
             raise CamError(

@@ -1,4 +1,4 @@
-"""Contours that are given by points or by a function: a periodic spline, its contacts found numerically."""
+"""Contours given by points or by a function: periodic splines with numerical contacts."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ _MOST = 1e70  # of lengths, as for followers: their powers stay finite
 class SmoothContour(Brief):
     """A closed smooth curve, counter-clockwise about the cam's axis; it may be hollow.
 
-    Contacts are bracketed on ``resolution`` places of the curve and bisected to the last bit; a wave of the contour
-    that is shorter than a step of that table can be overlooked. Cost O(angles * resolution).
+    Contacts are bracketed on ``resolution`` places of the curve and bisected to machine precision; a wave of the
+    contour that is shorter than a step of that table can be missed. Cost O(angles * resolution).
     """
 
     spline: Any
@@ -44,7 +44,7 @@ class SmoothContour(Brief):
         >>> angles = np.linspace(0, 2 * math.pi, 60, endpoint=False)
         >>> circle = SmoothContour.through(np.stack([10 + 30 * np.cos(angles), 30 * np.sin(angles)], axis=1))
         >>> from gruebler.cams import Flat, follower_motion
-        >>> [round(float(one), 3) for one in follower_motion(circle, Flat(), 0.5)]
+        >>> [round(float(value), 3) for value in follower_motion(circle, Flat(), 0.5)]
         [34.794, 8.776, -4.793]
         """
         table = finite_array(points, message("points of a contour"))
@@ -115,7 +115,7 @@ class SmoothContour(Brief):
         return ContactSamples(np.where(np.isnan(u), np.nan, s), normal, radius, along)
 
     def _roller_place(self, roller: Roller, turn: Complexes, table: Reals) -> Reals:
-        """Where the offset curve meets the guide of the roller's centre, farthest out."""
+        """The outermost place where the offset curve meets the guide of the roller's centre."""
 
         def offset(u: Reals) -> Complexes:
             tangent = self.at(u, 1)
@@ -132,11 +132,11 @@ class SmoothContour(Brief):
         crossing = (side[:, :-1] <= 0) != (side[:, 1:] <= 0)
         height = np.where(crossing & np.isfinite(s[:, :-1]), s[:, :-1], -np.inf)
         k = np.argmax(height, axis=1)
-        found = _bisected(lambda u: beside(offset(u) * turn), table[k], table[k + 1])
-        return np.where(np.isfinite(height[np.arange(len(turn)), k]), found, np.nan)
+        places = _bisected(lambda u: beside(offset(u) * turn), table[k], table[k + 1])
+        return np.where(np.isfinite(height[np.arange(len(turn)), k]), places, np.nan)
 
     def _flat_place(self, flat: Flat, turn: Complexes, table: Reals) -> Reals:
-        """Where the contour stands out farthest against the face."""
+        """The outermost place of the contour in the direction of the face's normal."""
 
         def climb(u: Reals) -> Reals:
             normal = np.exp(1j * flat.line(face_coordinate(flat, self.at(u) * turn, 0.0)).angle)

@@ -1,4 +1,4 @@
-"""The machines and exercises of the seeds as data, and every claim they make checked."""
+"""The machines and exercises of the teaching documents as data, with a check of every claim."""
 
 from gruebler.catalog.claims import CheckedEntry, WrongClaim, check_claims
 from gruebler.catalog.loader import (

@@ -1,4 +1,4 @@
-"""Every claim of an entry derived again: what is printed against what the library finds."""
+"""The check of an entry's claims: printed values against derived ones."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ class WrongClaim:
 
 @dataclass(frozen=True, slots=True)
 class CheckedEntry:
-    """A chain with its report and the claims made of it."""
+    """A chain with its report and its claims."""
 
     id: str
     origin: str
-    """The file that makes the claims, for messages; empty if there is none."""
+    """The file with the claims, for messages; empty if there is none."""
     report: MobilityReport
     claims: Claims
     wrong: tuple[WrongClaim, ...]
     freedoms: Freedoms | None = None
-    """What the dimensions give, where the entry has any."""
+    """The freedoms at the entry's dimensions, if it has any."""
 
     @property
     def holds(self) -> bool:
@@ -67,11 +67,11 @@ def check_claims(
     origin: str = "",
     linkage: Linkage | SpatialLinkage | None = None,
 ) -> CheckedEntry:
-    """Derive every claim again.
+    """Compare every claim with the derived value.
 
-    A claimed mobility is what special dimensions give. With dimensions it is derived: it must be the finite mobility,
-    and where none is claimed the dimensions must not be special. Structure alone can only say that it must not be less
-    than the generic one. Where it differs from that, a reason must be given.
+    A claimed mobility is that at special dimensions. With dimensions it is derived: it must be the finite mobility,
+    and where none is claimed the dimensions must not be special. The structure alone only shows that it must not be
+    less than the generic one. A claim that differs from the generic mobility needs a reason.
 
     >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
     >>> [str(w) for w in check_claims(four_bar, Claims(n=4, counted=2), id="four-bar").wrong]
@@ -84,14 +84,16 @@ def check_claims(
         for key, value in derived.items()
         if getattr(claims, key) is not None and getattr(claims, key) != value
     ]
-    found = None
+    derived_freedoms = None
     if linkage is not None:
         try:
-            found = freedoms(linkage)
+            derived_freedoms = freedoms(linkage)
         except LinkageError as error:
             wrong.append(WrongClaim("dimensions", message("a linkage that can be assembled"), error))
-    if found is not None and found.mobility != (report.generic if claims.mobility is None else claims.mobility):
-        wrong.append(WrongClaim("claims.mobility", claims.mobility, found.mobility))
+    if derived_freedoms is not None and derived_freedoms.mobility != (
+        report.generic if claims.mobility is None else claims.mobility
+    ):
+        wrong.append(WrongClaim("claims.mobility", claims.mobility, derived_freedoms.mobility))
     elif claims.mobility is not None and claims.mobility < report.generic:
         wrong.append(
             WrongClaim("claims.mobility", claims.mobility, message("at least {mobility}", mobility=report.generic))
@@ -105,7 +107,7 @@ def check_claims(
     idle = tuple(link for freedom in report.idle_freedoms for link in freedom.links)
     if claims.idle and set(claims.idle) != set(idle):
         wrong.append(WrongClaim("claims.idle", ", ".join(claims.idle), ", ".join(idle) or _NONE))
-    return CheckedEntry(id, origin, report, claims, tuple(wrong), found)
+    return CheckedEntry(id, origin, report, claims, tuple(wrong), derived_freedoms)
 
 
 def _joint_counts(count: Count) -> dict[str, object]:

@@ -1,4 +1,4 @@
-"""Searching by access features: what fits a query, what no mechanism can fit, and every structure that does.
+"""Searches by access features: matching entries, contradictory queries, and all matching structures.
 
 docs/theory/access-features.md has the definitions, and the laws that a query may contradict.
 """
@@ -24,12 +24,12 @@ from gruebler.type_synthesis import Requirements, expected_seconds_of_variants, 
 __all__ = ["FeatureQuery", "entry_features", "entry_mechanism", "features_to_json", "read_pairs", "structures"]
 
 _SAME = ("links", "drive_joints", "drive_joints_at_frame", "output_links", "output_links_at_frame")
-_EXCHANGED = ("prismatic", "rolling", "roll_slide")  # what the enumeration puts in the place of revolutes
+_EXCHANGED = ("prismatic", "rolling", "roll_slide")  # the pairs with which the enumeration replaces revolutes
 
 
 @dataclass(frozen=True, slots=True)
 class FeatureQuery:
-    """Access features as they are wanted; None and empty mean: whatever.
+    """Required access features; None and empty mean no requirement.
 
     Raises `GrueblerError` for features that contradict each other.
     """
@@ -42,9 +42,9 @@ class FeatureQuery:
     output_links: int | None = None
     output_links_at_frame: int | None = None
     pairs: tuple[tuple[Pair, int], ...] = ()
-    """Exactly so many joints of these kinds, a joint of k links counted k - 1 times."""
+    """The exact numbers of joints of these kinds, a joint of k links counted k - 1 times."""
     kinds: tuple[tuple[int, int], ...] = ()
-    """Number of joints on a link, exactly so many such links."""
+    """Number of joints on a link, exact number of such links."""
     multiple_joints: int | None = None
 
     def __post_init__(self) -> None:
@@ -78,7 +78,7 @@ class FeatureQuery:
             )
 
     def fits(self, mechanism: Mechanism, features: AccessFeatures) -> bool:
-        """Whether the mechanism with these features is wanted."""
+        """Whether the mechanism with these features satisfies the query."""
         chain = mechanism.chain
         for name in ("drive_joints", "output_links"):
             if (
@@ -127,7 +127,7 @@ def read_pairs(text: str) -> tuple[tuple[Pair, int], ...]:
 
 
 def entry_mechanism(entry: Entry) -> Mechanism:
-    """The mechanism of an entry; where the machine names no drive, the one with which its dimensions are shown."""
+    """The mechanism of an entry; for a machine without a drive with the drive of its dimensions."""
     chain = entry.chain()
     shown = () if entry.dimensions is None else entry.dimensions.shown_drives
     return Mechanism(chain, entry.frame or chain.links[0], entry.drives or shown)
@@ -150,32 +150,32 @@ def features_to_json(features: AccessFeatures) -> dict[str, Any]:
 
 
 def structures(query: FeatureQuery) -> Iterator[DrivenMechanism]:
-    """Every planar mechanism that fits, each once, lazily.
+    """Every planar mechanism that satisfies the query, each once, lazily.
 
-    Inversions if nothing is asked of drives and outputs; else mechanisms with as many drives as their mobility (1 if
-    none is given) that fix the motion, and with an output link if one is asked for. Kinds of joints that are not
-    named do not occur, but for revolutes; joints of more than two links only if asked for.
+    Inversions if the query has no requirement on drives and outputs; else mechanisms with as many drives as their
+    mobility (1 by default) that fix the motion, and with an output link if the query has one. Only revolutes and the
+    kinds of joints named in the query occur, and joints of more than two links only if the query has them.
 
-    Raises `GrueblerError` if no mechanism can fit, and says why.
+    Raises `GrueblerError` with the reason if no mechanism can satisfy the query.
 
     >>> query = FeatureQuery(links=4, drive_joints=1, output_links=1, output_links_at_frame=0, pairs=read_pairs("D:4"))
-    >>> [str(found.mechanism.chain) for found in structures(query)]
+    >>> [str(driven.mechanism.chain) for driven in structures(query)]
     ['R(0-1) R(1-2) R(2-3) R(3-0)', 'R(0-1) R(1-2) R(2-3) R(3-0)']
     """
-    wanted = _requirements(query)
-    _check_roles(query, wanted.mobility)
+    requirements = _requirements(query)
+    _check_roles(query, requirements.mobility)
     return (
         driven
-        for chain in typed_chains(wanted)
-        for driven in _mechanisms(chain, query, wanted.mobility)
+        for chain in typed_chains(requirements)
+        for driven in _mechanisms(chain, query, requirements.mobility)
         if query.fits(driven.mechanism, access_features(driven.mechanism, _outputs(driven)))
     )
 
 
 def structures_time(query: FeatureQuery) -> float:
-    """About how many seconds `structures` takes for all of them."""
-    wanted = _requirements(query)
-    return expected_seconds_of_variants(wanted, mechanisms=True, drives=_about_drives(query))
+    """The estimated time of `structures` for all results, in seconds."""
+    requirements = _requirements(query)
+    return expected_seconds_of_variants(requirements, mechanisms=True, drives=_about_drives(query))
 
 
 def _about_output(query: FeatureQuery) -> bool:
@@ -225,7 +225,7 @@ def _check_roles(query: FeatureQuery, mobility: int) -> None:
 
 
 def _requirements(query: FeatureQuery) -> Requirements:
-    """What the enumeration is asked for; contradictions between links, mobility, joints and kinds of links are said."""
+    """The requirements for the enumeration; raises for contradictory links, mobility, joints and kinds of links."""
     if query.links is None:
         raise GrueblerError("to enumerate mechanisms, the number of links is needed")
     links, mobility = query.links, 1 if query.mobility is None else query.mobility
@@ -242,29 +242,29 @@ def _requirements(query: FeatureQuery) -> Requirements:
                 "planar mechanisms are enumerated with R, P, W and G joints, not with {name}", name=name
             )
     contacts = numbers.get("roll_slide", 0)
-    taken = 3 * (links - 1) - mobility  # 2 g1 + g2
-    asked = {"links": links, "mobility": mobility, "contacts": contacts}
-    if (taken - contacts) % 2:
+    constraints = 3 * (links - 1) - mobility  # 2 g1 + g2
+    request = {"links": links, "mobility": mobility, "contacts": contacts}
+    if (constraints - contacts) % 2:
         raise GrueblerError(
             "{links} links with F = {mobility}: 3(n - 1) - F = 2 g1 + g2 = {taken}, which no g1 gives with g2 "
             "= {contacts} roll-slide joints",
-            taken=taken,
-            **asked,
+            taken=constraints,
+            **request,
         )
-    g1 = (taken - contacts) // 2
-    others = sum(numbers.get(name, 0) for name in ("prismatic", "rolling"))
-    if g1 < others or numbers.get("revolute", g1 - others) != g1 - others:
-        given = others + numbers.get("revolute", 0)
+    g1 = (constraints - contacts) // 2
+    exchanged = sum(numbers.get(name, 0) for name in ("prismatic", "rolling"))
+    if g1 < exchanged or numbers.get("revolute", g1 - exchanged) != g1 - exchanged:
+        requested = exchanged + numbers.get("revolute", 0)
         raise GrueblerError(
             "{links} links with F = {mobility} and {contacts} roll-slide joints have g1 = {g1}, but {given} "
             "such joints are asked for: name the kinds of the other {missing}"
-            if given < g1
+            if requested < g1
             else "{links} links with F = {mobility} and {contacts} roll-slide joints have g1 = {g1}, but {given} such "
             "joints are asked for",
             g1=g1,
-            given=given,
-            missing=g1 - given,
-            **asked,
+            given=requested,
+            missing=g1 - requested,
+            **request,
         )
     _check_kinds(query, g1 + contacts)
     complete = sum(number for _, number in query.kinds) == links

@@ -1,4 +1,4 @@
-"""Access features: by what a collection of mechanisms is ordered and searched, derived from the structure."""
+"""Access features: the criteria for sorting and searching mechanisms, derived from the structure."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["AccessFeatures", "access_features"]
 
 @dataclass(frozen=True, slots=True)
 class AccessFeatures:
-    """How many drive joints, output links, links and joints of which kind; a joint of k links counts k - 1."""
+    """The numbers of drive joints, output links, and links and joints by kind; a joint of k links counts k - 1."""
 
     drive_joints: int
     drive_joints_at_frame: int
@@ -25,13 +25,13 @@ class AccessFeatures:
     """Those of them that are jointed to the frame."""
     links: int
     links_by_joints: tuple[tuple[int, int], ...]
-    """Number of joints on a link, how many such links; ascending."""
+    """Number of joints on a link, number of such links; ascending."""
     joints: int
     joints_by_pair: tuple[tuple[Pair, int], ...]
-    """Kind of joint, how many; the most frequent first."""
+    """Kind of joint, number; the most frequent first."""
 
     def by_symbol(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> tuple[tuple[str, int], ...]:
-        """Symbols of the joints in one alphabet, how many."""
+        """Symbols of the joints in one alphabet, with their numbers."""
         return tuple((kind.symbol(Alphabet(alphabet)), count) for kind, count in self.joints_by_pair)
 
     def described(self, lang: str = "en") -> tuple[tuple[str, str], ...]:
@@ -53,7 +53,7 @@ class AccessFeatures:
 
 
 def _name(kind: Pair, count: int, lang: str) -> str:
-    """The kind of joint; German makes the plural of all of them alike."""
+    """The kind of joint, singular or plural."""
     return kind.german + "e" * (count > 1) if lang == "de" else kind.name.replace("_", "-")
 
 
@@ -63,9 +63,11 @@ def access_features(mechanism: Mechanism, outputs: Iterable[str] = ()) -> Access
     Raises `gruebler.ChainError` for an output that is no link of it.
 
     >>> four_bar = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
-    >>> found = access_features(four_bar, ["2"])
-    >>> found.drive_joints_at_frame, found.output_links_at_frame, found.links_by_joints, found.by_symbol("german")
-    (1, 0, ((2, 4),), (('D', 4),))
+    >>> features = access_features(four_bar, ["2"])
+    >>> features.drive_joints_at_frame, features.output_links_at_frame, features.links_by_joints
+    (1, 0, ((2, 4),))
+    >>> features.by_symbol("german")
+    (('D', 4),)
     """
     chain, frame = mechanism.chain, mechanism.frame
     chosen = tuple(dict.fromkeys(outputs))
@@ -84,5 +86,5 @@ def access_features(mechanism: Mechanism, outputs: Iterable[str] = ()) -> Access
         chain.n,
         tuple(chain.link_kinds.items()),
         sum(counts.values()),
-        tuple(sorted(counts.items(), key=lambda one: (-one[1], one[0].name))),
+        tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0].name))),
     )

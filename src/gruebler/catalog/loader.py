@@ -1,4 +1,4 @@
-"""The catalog that comes with the library: where it lies, what is in it, and how to find something."""
+"""The catalog of the library: its folder, its entries, and searches."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def entries() -> dict[str, Entry]:
 def exercises() -> dict[str, Exercise]:
     """All exercises by id."""
     paths = sorted((catalog_folder() / "exercises").glob("*.toml"))
-    found = {path.stem: _named(read_exercise(path), path) for path in paths}
-    for exercise in found.values():
+    records = {path.stem: _named(read_exercise(path), path) for path in paths}
+    for exercise in records.values():
         for case in exercise.cases:
             if case.machine not in entries():
                 raise CatalogError(
@@ -63,7 +63,7 @@ def exercises() -> dict[str, Exercise]:
                     case=case.id,
                     machine=case.machine,
                 )
-    return found
+    return records
 
 
 def _named(record: Record, path: Path) -> Record:
@@ -101,13 +101,13 @@ def entry(id: str) -> Entry:
 
 
 def check_all() -> list[CheckedEntry]:
-    """Every claim of the catalog derived again: the machines, then the exercises' cases."""
+    """Check every claim of the catalog: the machines, then the exercises' cases."""
     machines = [check_entry(e) for e in entries().values()]
     return machines + [checked_entry for exercise in exercises().values() for checked_entry in check_exercise(exercise)]
 
 
 def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:
-    """Every claim of a machine derived again; ``origin`` is its file, the catalog's own if left out."""
+    """Check every claim of a machine; ``origin`` is its file, by default that of the catalog."""
     where = str(catalog_folder() / "machines" / f"{record.id}.toml") if origin is None else origin
     return check_claims(
         record.chain(), record.claims, id=record.id, frame=record.frame, origin=where, linkage=record.placed()
@@ -115,7 +115,7 @@ def check_entry(record: Entry, origin: str | None = None) -> CheckedEntry:
 
 
 def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedEntry]:
-    """Every claim of an exercise's cases derived again."""
+    """Check every claim of an exercise's cases."""
     where = str(catalog_folder() / "exercises" / f"{record.id}.toml") if origin is None else origin
     checked = []
     for case in record.cases:
@@ -129,7 +129,7 @@ def check_exercise(record: Exercise, origin: str | None = None) -> list[CheckedE
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """What is looked for; None and empty mean: whatever."""
+    """A search; None and empty mean no requirement."""
 
     words: tuple[str, ...] = ()
     """Each must occur in the id, a name, a remark, the source or a link's name, in either language."""
@@ -143,7 +143,7 @@ class Query:
     """Symbol or name of the pair of a driven joint."""
 
     def finds(self, candidate: Entry) -> bool:
-        """Whether the entry answers the query."""
+        """Whether the entry satisfies the query."""
         chain = candidate.chain()
         driven = {chain.joints[k].pair for drive in candidate.drives if (k := chain.find_joint(drive)) is not None}
         present = {joint.pair for joint in chain.joints}
@@ -171,7 +171,7 @@ def _all_text(candidate: Entry) -> str:
 
 
 def search(query: Query) -> list[Entry]:
-    """The machines that answer a query, by id.
+    """The machines that satisfy a query, by id.
 
     >>> [e.id for e in search(Query(words=("Kompressor",), pairs=("P",)))]
     ['compressor', 'vcomp']

@@ -1,4 +1,4 @@
-"""All that is derived of one machine: mobility, what really moves, features, drives, measures, paths of its points."""
+"""All derived properties of a machine: mobility, freedoms, features, drives, measures, paths of its points."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _ROWS = 361
 
 
 class Partial(NamedTuple):
-    """How fast an output goes for each unit of one of several drives, in the position in which the machine is drawn."""
+    """The partial transfer function of an output for one of several drives, in the drawn position."""
 
     output: str
     drive: str
@@ -48,20 +48,20 @@ class GuidedPoint(NamedTuple):
     closed: bool
     length: float
     width: float
-    """How far it goes along x."""
+    """Its extent along x."""
     height: float
-    """How far it goes along y."""
+    """Its extent along y."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MachineReport(Brief):
-    """What `machine_report` found. `explain` says it in words."""
+    """The result of `machine_report`. `explain` returns it as text."""
 
     entry: Entry
     mechanism: Mechanism
     mobility: MobilityReport
     freedoms: Freedoms | None
-    """What the dimensions give; None without dimensions."""
+    """The freedoms at the dimensions; None without dimensions."""
     features: AccessFeatures
     drives: DriveReport | None
     """Whether the drives fix the motion; None for a machine without drives."""
@@ -71,11 +71,11 @@ class MachineReport(Brief):
     """Those of a planar linkage with several drives."""
     points: tuple[GuidedPoint, ...]
     shown_mu: tuple[float, float] | None
-    """The smallest and largest transmission angle in the range that the entry shows, on a grid."""
+    """The smallest and largest transmission angle in the range that the entry states, on a grid."""
 
     @property
     def moves(self) -> int:
-        """What really moves: by the dimensions if there are any, else as claimed, else for almost all sizes."""
+        """The mobility at the dimensions if there are any, else as claimed, else at almost all dimensions."""
         if self.freedoms is not None:
             return self.freedoms.mobility
         claimed = self.entry.claims.mobility
@@ -106,19 +106,19 @@ class MachineReport(Brief):
 
 
 def machine_report(entry: Entry) -> MachineReport:
-    """Everything derived of an entry.
+    """The report of an entry.
 
     Cost: mobility in milliseconds; measures and paths some tenths of a second.
 
     >>> from gruebler.catalog import entry
-    >>> found = machine_report(entry("lambda"))
-    >>> found.moves, found.points[0].name, round(found.points[0].height, 6)
+    >>> report = machine_report(entry("lambda"))
+    >>> report.moves, report.points[0].name, round(report.points[0].height, 6)
     (1, 'C', 17.97959)
     """
     mechanism, placed = entry_mechanism(entry), entry.placed()
     linkage = None if entry.dimensions is None else entry.linkage()
-    one, several = (linkage, None) if len(mechanism.drives) == 1 else (None, linkage if mechanism.drives else None)
-    measures, points = (None, ()) if one is None else _moving(one)
+    single, several = (linkage, None) if len(mechanism.drives) == 1 else (None, linkage if mechanism.drives else None)
+    measures, points = (None, ()) if single is None else _moving(single)
     return MachineReport(
         entry,
         mechanism,
@@ -145,7 +145,7 @@ def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]
     from gruebler.geometry import coupler_curve
 
     try:
-        found = measures(linkage)
+        result = measures(linkage)
     except LinkageError:
         return None, ()
     points = []
@@ -153,11 +153,11 @@ def _moving(linkage: Linkage) -> tuple[Measures | None, tuple[GuidedPoint, ...]]
         curve = coupler_curve(linkage, name)
         extent = (_extent(curve, direction) for direction in (0.0, pi / 2))
         points.append(GuidedPoint(name, place.link, curve.closed, curve.length, *extent))
-    return found, tuple(points)
+    return result, tuple(points)
 
 
 def _partials(linkage: Linkage) -> tuple[Partial, ...]:
-    """Transfer functions of order 1 by each drive, at home."""
+    """Transfer functions of order 1 by each drive, in the reference pose."""
     from gruebler.analysis.outputs import find_output
     from gruebler.kinematics import move
     from gruebler.kinematics.reference_pose import pose_at_reference
@@ -166,31 +166,31 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
     names, plan = linkage.mechanism.drive_names(), cached_plan(linkage)
     if plan.lower.reference_pose is None:
         return ()
-    home = pose_at_reference(plan, np.zeros(len(names))).drives
+    reference = pose_at_reference(plan, np.zeros(len(names))).drives
     output = find_output(linkage)
-    values = [output.values(move(linkage, [home], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
-    return tuple(Partial(output.name, *row) for row in zip(names, home.tolist(), map(float, values), strict=True))
+    values = [output.values(move(linkage, [reference], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
+    return tuple(Partial(output.name, *row) for row in zip(names, reference.tolist(), map(float, values), strict=True))
 
 
-def _shown_transmission(entry: Entry, found: Measures | None) -> tuple[float, float] | None:
-    """Over the range that is shown; the whole motion often begins and ends where the angle is 0."""
-    if found is None or found.transmission is None or entry.dimensions is None or entry.dimensions.range is None:
+def _shown_transmission(entry: Entry, measured: Measures | None) -> tuple[float, float] | None:
+    """The extremes over the stated range; the full motion often begins and ends where the angle is 0."""
+    if measured is None or measured.transmission is None or entry.dimensions is None or entry.dimensions.range is None:
         return None
     from gruebler.analysis.transmission import transmission_angle
     from gruebler.kinematics import move
 
     rows = np.linspace(*entry.dimensions.range, _ROWS)
-    motion = move(found.linkage, np.radians(rows) if found.turning_drive else rows, speed=1.0)
-    angles = transmission_angle(motion, found.output.name)
+    motion = move(measured.linkage, np.radians(rows) if measured.turning_drive else rows, speed=1.0)
+    angles = transmission_angle(motion, measured.output.name)
     return float(angles.min()), float(angles.max())
 
 
 def _extent(curve: CouplerCurve, direction: float) -> float:
-    """How far a path goes along a direction: between two of the points where it turns back, or its ends."""
+    """The extent of a path along a direction: between two of its turning points in that direction, or its ends."""
     along = np.exp(-1j * direction)
     ends = [] if curve.closed else [complex(curve.points[0]), complex(curve.points[-1])]
-    ways = [(along * complex(z)).real for z in [*ends, *(turn.at for turn in curve.turning_points(direction))]]
-    return float(max(ways) - min(ways)) if ways else 0.0
+    positions = [(along * complex(z)).real for z in [*ends, *(turn.at for turn in curve.turning_points(direction))]]
+    return float(max(positions) - min(positions)) if positions else 0.0
 
 
 # --- in words --------------------------------------------------------------------------------------
@@ -226,46 +226,46 @@ _TEXTS = {
 }
 
 
-def _sections(found: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]]:
+def _sections(report: MachineReport, lang: str) -> Iterator[tuple[str, list[str]]]:
     def say(key: str, **values: Any) -> str:
         return _TEXTS[key].filled(**values).in_language(lang).rstrip()
 
-    yield "mobility", found.mobility.explain(lang).splitlines()
-    yield "moves", _moves_lines(found, say, lang)
-    yield "features", [f"{label}: {value}" for label, value in found.features.described(lang)]
+    yield "mobility", report.mobility.explain(lang).splitlines()
+    yield "moves", _moves_lines(report, say, lang)
+    yield "features", [f"{label}: {value}" for label, value in report.features.described(lang)]
     alphabet = Alphabet.of_language(lang)
-    if found.drives is None:
+    if report.drives is None:
         yield "drive", [say("hand")]
     else:
-        names = ", ".join(found.mechanism.drive_names(alphabet))
-        usual = found.moves == found.mobility.generic
-        yield "drive", [names, found.drives.explain(lang) if usual else say("special", moves=found.moves)]
-    if lines := _dimension_lines(found.entry, say):
+        names = ", ".join(report.mechanism.drive_names(alphabet))
+        usual = report.moves == report.mobility.generic
+        yield "drive", [names, report.drives.explain(lang) if usual else say("special", moves=report.moves)]
+    if lines := _dimension_lines(report.entry, say):
         yield "dimensions", lines
-    if found.measures is not None:
-        lines = found.measures.explain(lang).splitlines()
-        if found.shown_mu is not None:
-            small, large = (degrees(mu) for mu in found.shown_mu)
+    if report.measures is not None:
+        lines = report.measures.explain(lang).splitlines()
+        if report.shown_mu is not None:
+            small, large = (degrees(mu) for mu in report.shown_mu)
             lines.append(say("shown", small=small, large=large))
         yield "measures", lines
-    elif found.partials:
-        each = zip(found.partials, found.mechanism.drive_names(alphabet), strict=True)
+    elif report.partials:
+        partials = zip(report.partials, report.mechanism.drive_names(alphabet), strict=True)
         yield (
             "measures",
-            [say("partial", output=partial.output, ratio=partial.value, drive=name) for partial, name in each],
+            [say("partial", output=partial.output, ratio=partial.value, drive=name) for partial, name in partials],
         )
-    if found.measures is not None and found.points:
-        unit = found.measures.linkage.unit
-        yield "points", [say("closed" if p.closed else "open", unit=unit, **p._asdict()) for p in found.points]
+    if report.measures is not None and report.points:
+        unit = report.measures.linkage.unit
+        yield "points", [say("closed" if p.closed else "open", unit=unit, **p._asdict()) for p in report.points]
 
 
-def _moves_lines(found: MachineReport, say: Any, lang: str) -> list[str]:
-    claims = found.entry.claims
-    if found.freedoms is not None:
-        told = found.mobility.count.formula()
-        return [line for line in found.freedoms.explain(lang).splitlines() if not line.endswith(told)]
+def _moves_lines(report: MachineReport, say: Any, lang: str) -> list[str]:
+    claims = report.entry.claims
+    if report.freedoms is not None:
+        formula = report.mobility.count.formula()
+        return [line for line in report.freedoms.explain(lang).splitlines() if not line.endswith(formula)]
     if claims.mobility is None:
-        return [say("generic", mobility=found.moves)]
+        return [say("generic", mobility=report.moves)]
     return [say("claimed", mobility=claims.mobility, reason=claims.reason or "")]
 
 

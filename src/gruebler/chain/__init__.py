@@ -1,4 +1,4 @@
-"""The waist of the house: chains and joints."""
+"""Kinematic chains, joints and pairs: the values on which all other rooms build."""
 
 from gruebler.chain.joint import Joint
 from gruebler.chain.model import Chain

@@ -18,7 +18,7 @@ Joints = list[tuple[str, Sequence[str]]]
 
 def read_graph6(code: str) -> tuple[Joints, list[str]]:
     """Revolute joints and links of a graph6 code."""
-    import networkx as nx  # it takes longer to import than most questions to answer
+    import networkx as nx  # imported only here: the import takes longer than most computations
 
     try:
         graph = nx.from_graph6_bytes(code.encode("ascii"))
@@ -35,8 +35,8 @@ def read_graph6(code: str) -> tuple[Joints, list[str]]:
 def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[str] | None, str | Space]:
     """Joints, links and space of a JSON document, the text or the object already read.
 
-    Joints are objects, or texts such as ``"R(a-b)"``. Of a mobility report (it has a verdict) the chain alone is read,
-    for the rest is derived from it.
+    Joints are objects, or texts such as ``"R(a-b)"``. Of a mobility report (recognised by its verdict) only the chain
+    is read: everything else is derived from it.
     """
     if isinstance(document, str):
         try:
@@ -59,8 +59,8 @@ def read_document(document: str | Mapping[str, Any]) -> tuple[Joints, Sequence[s
     space = document.get("space", Space.PLANAR)
     if joints and all(isinstance(joint, str) for joint in joints):
         return _joints_of_texts(joints, space), links, space
-    made = [_joint_of_json(number, j) for number, j in enumerate(joints, 1)]
-    return made, links, space
+    checked = [_joint_of_json(number, j) for number, j in enumerate(joints, 1)]
+    return checked, links, space
 
 
 def _joints_of_texts(texts: Sequence[str], space: str | Space) -> Joints:

@@ -1,9 +1,8 @@
 """The kinematic chain: links and the joints between them, without frame and without size.
 
-The waist of the house: everything below describes what a chain is made of, everything above asks questions
-of chains. A chain is a value. It is sound or it is not constructed, it never changes, and two chains are
-equal when they have the same space, the same links and the same joints (whatever the order of writing).
-Whether two chains have the same *structure*, names aside, is asked of `gruebler.isomorphism`.
+A chain is an immutable value and is checked when it is constructed. Two chains are equal when they have the same
+space, the same links and the same joints, in any order. `gruebler.isomorphism` compares the *structure* of two chains
+regardless of names.
 """
 
 from __future__ import annotations
@@ -33,8 +32,8 @@ class Chain:
 
     Args:
         joints: each a `Joint` or (pair or its full name, link names). Joints between the same links may repeat.
-        links: the names of the links, if their order matters or a slip in a joint is to be found; otherwise
-            the links are those the joints name, in that order. Numbers serve as names.
+        links: the names of the links, to fix their order or to detect a misspelt name in a joint; by default
+            the links that the joints name, in that order. Numbers serve as names.
         space: ``planar`` (default), ``spherical`` or ``spatial``.
 
     Raises:
@@ -66,14 +65,14 @@ class Chain:
         links: Iterable[str | int] | None = None,
         space: str | Space = Space.PLANAR,
     ) -> None:
-        where = notation.space_of(space)
-        made = tuple(checked_joint(j, where) for j in joints)
-        named = tuple(dict.fromkeys(link for j in made for link in j.links))
-        declared = named if links is None else checked_links(links, named, made)
-        check_connected(declared, made)
+        checked_space = notation.space_of(space)
+        checked = tuple(checked_joint(j, checked_space) for j in joints)
+        named = tuple(dict.fromkeys(link for j in checked for link in j.links))
+        declared = named if links is None else checked_links(links, named, checked)
+        check_connected(declared, checked)
         object.__setattr__(self, "links", declared)
-        object.__setattr__(self, "joints", made)
-        object.__setattr__(self, "space", where)
+        object.__setattr__(self, "joints", checked)
+        object.__setattr__(self, "space", checked_space)
 
     # --- reading and writing -------------------------------------------------------------------------
 
@@ -90,8 +89,8 @@ class Chain:
         """
         if text.lstrip().lower().startswith("g6:"):
             return cls.from_graph6(text.strip()[3:].strip())
-        where, joints = notation.read(text, space)
-        return cls(joints, space=where)
+        read_space, joints = notation.read(text, space)
+        return cls(joints, space=read_space)
 
     @classmethod
     def from_edges(
@@ -253,7 +252,7 @@ class Chain:
         return {link: i for i, link in enumerate(self.links)}
 
     def joint_names(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> tuple[str, ...]:
-        """A text for each joint that tells it from every other: ``R(a-b)``, or ``R(a-b)#2`` where it repeats."""
+        """A unique text for each joint: ``R(a-b)``, or ``R(a-b)#2`` where it repeats."""
         seen: Counter[tuple[str, tuple[str, ...]]] = Counter()
         symbols = notation.symbols_for((j.pair for j in self.joints), self.space, Alphabet(alphabet))
         names = []
@@ -266,28 +265,28 @@ class Chain:
     def find_joint(self, text: str) -> int | None:
         """The number of the joint that a text names, or None.
 
-        Its links may stand in any order and its symbol in any alphabet; a joint that repeats needs its ``#2``.
+        Its links may have any order and its symbol any alphabet; a joint that repeats needs its ``#2``.
 
         >>> Chain.parse("R(0-1) R(1-2) P(2-0)").find_joint("S(0-2)")
         2
         """
-        wanted, _, again = text.partition("#")
-        match = re.fullmatch(r"\s*([^\s()]+)\s*\((.*)\)\s*", wanted)
+        joint_text, _, again = text.partition("#")
+        match = re.fullmatch(r"\s*([^\s()]+)\s*\((.*)\)\s*", joint_text)
         if match is None or not (again or "1").strip().isdecimal():
             return None
         links = sorted(name.strip() for name in notation.split_links(match[2]))
-        found = [
+        numbers = [
             number
             for number, j in enumerate(self.joints)
             if sorted(j.links) == links and match[1] in {j.pair.name, j.pair.german, *j.pair.symbols.values()}
         ]
         place = int(again or 1) - 1
-        return found[place] if 0 <= place < len(found) else None
+        return numbers[place] if 0 <= place < len(numbers) else None
 
     # --- other chains ------------------------------------------------------------------------------
 
     def renamed(self, names: Mapping[str, str | int]) -> Chain:
-        """The same chain with other link names; names that the mapping leaves out stay.
+        """The same chain with other link names; names that the mapping leaves out are kept.
 
         >>> print(Chain.parse("R(0-1) R(1-2) R(2-0)").renamed({"0": "frame"}))
         R(frame-1) R(1-2) R(2-frame)
@@ -307,13 +306,13 @@ class Chain:
         return Chain([*self.joints, (kind, links)], links=[*self.links, *dict.fromkeys(more)], space=self.space)
 
     def without_joint(self, number: int) -> Chain:
-        """The chain without its joint of this number; `ChainError` if what is left is not a chain."""
+        """The chain without its joint of this number; `ChainError` if the remainder is not a chain."""
         if not 0 <= number < len(self.joints):
             raise ChainError(
                 "the chain has joints 0 to {count}, not {number}", count=len(self.joints) - 1, number=number
             )
-        rest = self.joints[:number] + self.joints[number + 1 :]
-        return Chain(rest, links=self.links, space=self.space)
+        remaining = self.joints[:number] + self.joints[number + 1 :]
+        return Chain(remaining, links=self.links, space=self.space)
 
     # --- networkx ----------------------------------------------------------------------------------
 

@@ -29,16 +29,16 @@ _BLANKS = re.compile(r"\s*")
 _PREFIX = re.compile(r"\s*([a-z]\w*)\s*:", re.IGNORECASE)
 
 
-def space_of(word: str | Space) -> Space:
-    """The space of this name; `NotationError` for any other word.
+def space_of(name: str | Space) -> Space:
+    """The space of this name; `NotationError` for any other name.
 
     >>> space_of("planar").b
     3
     """
     try:
-        return Space(word)
+        return Space(name)
     except ValueError:
-        raise NotationError("unknown space {word!r}: expected planar, spherical or spatial", word=word) from None
+        raise NotationError("unknown space {word!r}: expected planar, spherical or spatial", word=name) from None
 
 
 def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple[Pair, tuple[str, ...]]]]:
@@ -47,7 +47,7 @@ def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple
     >>> read("R(0-1) R(1-2) R(2-0)")[1][0]
     (<pair revolute>, ('0', '1'))
 
-    Raises `NotationError` with the place of the first thing that does not fit, `PairError` for a symbol.
+    Raises `NotationError` with the position of the first error, `PairError` for an unsuitable symbol.
     """
     where, position = _read_space(text, space)
     joints: list[tuple[str, tuple[str, ...]]] = []
@@ -65,13 +65,13 @@ def read(text: str, space: str | Space | None = None) -> tuple[Space, list[tuple
 
 def _read_space(text: str, space: str | Space | None) -> tuple[Space, int]:
     prefix = _PREFIX.match(text)
-    wanted = None if space is None else space_of(space)
+    requested = None if space is None else space_of(space)
     if prefix is None:
-        return wanted or Space.PLANAR, 0
+        return requested or Space.PLANAR, 0
     written = space_of(prefix[1].lower())
-    if wanted is not None and wanted is not written:
+    if requested is not None and requested is not written:
         raise NotationError(
-            "the text says {written}, but {wanted} was asked for", written=written.adjective, wanted=wanted.adjective
+            "the text says {written}, but {wanted} was asked for", written=written.adjective, wanted=requested.adjective
         )
     return written, prefix.end()
 
@@ -97,7 +97,7 @@ def _read_joint(text: str, position: int) -> tuple[str, tuple[str, ...], int]:
 
 
 def link_name(text: str) -> str:
-    """The link that a bare or quoted name stands for.
+    """The link that a bare or quoted name denotes.
 
     >>> link_name('"lower wishbone"')
     'lower wishbone'
@@ -130,15 +130,15 @@ def _unquoted(name: str) -> str:
 
 
 def _unreadable(text: str, position: int, expected: Message) -> NotationError:
-    rest = text[position:].strip()
+    remainder = text[position:].strip()
     position = len(text) - len(text[position:].lstrip())
     return NotationError(
         "expected {expected} at character {position}, but found {found!r}"
-        if rest
+        if remainder
         else "expected {expected} at character {position}, but the text ends",
         expected=expected,
         position=position + 1,
-        found=_shortened(rest),
+        found=_shortened(remainder),
     )
 
 
@@ -147,7 +147,7 @@ def _shortened(text: str) -> str:
 
 
 def link_text(name: str) -> str:
-    """A link's name as it stands in a text: bare where possible, else quoted.
+    """A link's name as a text writes it: bare where possible, else quoted.
 
     >>> link_text("crank"), link_text("lower wishbone")
     ('crank', '"lower wishbone"')
@@ -158,8 +158,8 @@ def link_text(name: str) -> str:
 def symbols_for(pairs: Iterable[Pair], space: Space, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> dict[Pair, str]:
     """How to write each of these pairs in one text so that `read` takes it back.
 
-    Symbols of the alphabet where the text as a whole can be read in one way only; otherwise the full name
-    stands for each pair whose symbol has another meaning.
+    Symbols of the alphabet where the text as a whole is unambiguous; otherwise the full name for each pair whose
+    symbol has another meaning.
 
     >>> from gruebler.chain.pairs import pair
     >>> symbols_for([pair("spherical"), pair("revolute")], Space.SPATIAL)
@@ -182,7 +182,7 @@ def _only_meaning(letter: str, pair: Pair, space: Space) -> bool:
 
 
 def joint_text(symbol: str, links: Sequence[str]) -> str:
-    """One joint as it stands in a text.
+    """One joint as a text writes it.
 
     >>> joint_text("R", ["frame", "lower arm"])
     'R(frame-"lower arm")'

@@ -1,14 +1,14 @@
-"""The table of joint kinds: what each lets two links do, and how it is written.
+"""The table of joint kinds: the relative motions that each allows two links, and how it is written.
 
 A pair is described by its *freedoms*: motion directions in the joint's own axes. ``Rz`` is a turn about
 the z axis, ``Tx`` a shift along x, ``Hz`` a screw about z (one freedom that turns and shifts at once).
 A space has ``b`` motion directions; a pair with ``f`` freedoms takes away ``u = b - f`` of them.
 
-Symbols belong to an alphabet, for the same letter means different things: ``S`` is the German
+Symbols belong to an alphabet because the same letter means different pairs: ``S`` is the German
 *Schubgelenk* (prismatic) and the international spherical pair. A text is therefore read as a whole, in one
-alphabet (`read_symbols`); the full name of a pair, English or German, may stand anywhere.
+alphabet (`read_symbols`); the full name of a pair, English or German, is valid everywhere.
 
-Source: table 2.2 of the seeds (documents 000 and 003), reconstructed against ISO 3952; the planar pairs from
+Source: table 2.2 of the teaching documents 000 and 003, reconstructed against ISO 3952; the planar pairs from
 their sections 2.5 and 2.6.
 """
 
@@ -26,7 +26,7 @@ __all__ = ["PAIRS", "Alphabet", "Closure", "Contact", "Pair", "Space", "in_alpha
 
 
 class Space(StrEnum):
-    """Where the links live: in a plane, on a sphere about a fixed point, or in space."""
+    """The space in which the links move: a plane, a sphere about a fixed point, or three-dimensional space."""
 
     PLANAR = "planar"
     SPHERICAL = "spherical"
@@ -44,7 +44,7 @@ class Space(StrEnum):
 
     @property
     def adjective(self) -> Message:
-        """The word for a chain in it, for messages."""
+        """The adjective for a chain in this space, for messages."""
         return _ADJECTIVES[self]
 
     @property
@@ -68,7 +68,7 @@ _ADJECTIVES = {
 
 
 class Alphabet(StrEnum):
-    """A set of symbols that are read together."""
+    """A set of symbols used together in one text."""
 
     GERMAN = "german"
     INTERNATIONAL = "international"
@@ -92,7 +92,7 @@ class Contact(StrEnum):
 
 
 class Closure(StrEnum):
-    """What keeps the two elements together: their form, a force, or the material itself (a flexure)."""
+    """The means that holds the two elements together: their form, a force, or the material itself (a flexure)."""
 
     FORM = "form"
     FORCE = "force"
@@ -110,7 +110,7 @@ class PairTitle(Message):
 
 @dataclass(frozen=True)
 class SymbolText(Message):
-    """A text with joint symbols, in the alphabet that the reader expects; made by `in_alphabets`."""
+    """A text with joint symbols, in the alphabet that the reader expects; constructed by `in_alphabets`."""
 
     def in_language(self, lang: str) -> str:
         """The text in the alphabet of a language."""
@@ -118,7 +118,7 @@ class SymbolText(Message):
 
 
 def in_alphabets(write: Callable[[Alphabet], str]) -> SymbolText:
-    """What a function writes in each alphabet, as one message.
+    """The text that a function writes in each alphabet, as one message.
 
     >>> in_alphabets(pair("prismatic").symbol).in_language("de")
     'S'
@@ -139,7 +139,7 @@ class Pair:
     """The motion directions, for each space in which the pair exists."""
     contact: Contact
     closures: tuple[Closure, ...]
-    """The closures met in practice, the usual one first."""
+    """The closures used in practice, the usual one first."""
     is_group: bool
     """Whether relative motions compose to motions of the same kind, so that more than two links can share it."""
 
@@ -297,20 +297,20 @@ def pair(name: str) -> Pair:
     >>> pair("Gleitwälzgelenk").u(Space.PLANAR)
     1
 
-    Raises `PairError` for any other word, with the nearest name.
+    Raises `PairError` for any other name, with the nearest known name.
     """
-    found = _BY_NAME.get(name) or _BY_FULL_NAME.get(name.replace("-", "_").casefold())
-    if found is None:
+    row = _BY_NAME.get(name) or _BY_FULL_NAME.get(name.replace("-", "_").casefold())
+    if row is None:
         raise PairError("unknown pair {name!r}{suggestion}", name=name, suggestion=nearest(name, _BY_FULL_NAME))
-    return found
+    return row
 
 
 def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
-    """Which pair each symbol of one text means, the text being read in one alphabet.
+    """The pair that each symbol of one text means, with all symbols read in one alphabet.
 
-    Full names, English or German, are understood beside either alphabet. A set of symbols that only one
-    alphabet has, or that both read alike, is accepted; one that mixes alphabets, or that has two sound
-    readings, is refused with both readings.
+    Full names, English or German, are valid in either alphabet. A set of symbols is accepted if only one
+    alphabet has it, or if both give it the same meaning; a set that mixes alphabets, or that has two valid
+    readings, raises an error that states both readings.
 
     >>> read_symbols(["D", "S"], Space.PLANAR)
     {'D': <pair revolute>, 'S': <pair prismatic>}
@@ -320,9 +320,9 @@ def read_symbols(symbols: Iterable[str], space: Space) -> dict[str, Pair]:
     gruebler.errors.PairError: 'S' is ambiguous: prismatic in the German alphabet, spherical in the
     international one; write the full name (prismatic or spherical) or add a joint that only one alphabet has
     """
-    wanted = list(dict.fromkeys(symbols))
-    named = {s: _BY_FULL_NAME[s.casefold()] for s in wanted if s.casefold() in _BY_FULL_NAME}
-    letters = [s for s in wanted if s not in named]
+    distinct_symbols = list(dict.fromkeys(symbols))
+    named = {s: _BY_FULL_NAME[s.casefold()] for s in distinct_symbols if s.casefold() in _BY_FULL_NAME}
+    letters = [s for s in distinct_symbols if s not in named]
     _refuse_unknown(letters)
     readings = {a: r for a in Alphabet if (r := _reading(letters, a, space)) is not None}
     if not readings:
@@ -393,7 +393,7 @@ def _symbol_meaning(symbol: str, pairs: tuple[Pair, ...]) -> Message:
 def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Space) -> PairError:
     alphabet, reading = next(iter(readings.items()))
     symbol = next(s for s, meanings in reading.items() if not meanings)
-    meant = _meanings(symbol, alphabet)[0]
+    meaning = _meanings(symbol, alphabet)[0]
     others = {
         p.name: p.symbol(alphabet)
         for a in Alphabet
@@ -402,14 +402,17 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
         if space in p.freedoms
     }
     other_alphabet = message("; if {name} is meant, as {symbol!r} means in the other alphabet, write {right!r}")
-    hints = [other_alphabet.filled(name=pair(name).title, symbol=symbol, right=right) for name, right in others.items()]
-    freedom = len(next(iter(meant.freedoms.values())))
+    hints = [
+        other_alphabet.filled(name=pair(name).title, symbol=symbol, right=replacement)
+        for name, replacement in others.items()
+    ]
+    freedom = len(next(iter(meaning.freedoms.values())))
     return PairError(
         "{symbol!r} is the {name} pair ({german}, f = {freedom}), which {space} chains do not have: "
         "their joints have at most f = {greatest_freedom} and are {pairs}{hints}",
         symbol=symbol,
-        name=meant.name,
-        german=meant.german,
+        name=meaning.name,
+        german=meaning.german,
         freedom=freedom,
         space=space.adjective,
         greatest_freedom=space.greatest_freedom,
@@ -422,13 +425,12 @@ def _impossible(readings: dict[Alphabet, dict[str, tuple[Pair, ...]]], space: Sp
     )
 
 
-def _two_alphabets(german: dict[str, tuple[Pair, ...]], other: dict[str, tuple[Pair, ...]]) -> PairError:
-    symbol = next(s for s in german if german[s] != other[s])
-    one, two = (joined_by_or([p.title for p in r[symbol]]) for r in (german, other))
+def _two_alphabets(german: dict[str, tuple[Pair, ...]], international: dict[str, tuple[Pair, ...]]) -> PairError:
+    symbol = next(s for s in german if german[s] != international[s])
     return PairError(
-        "{symbol!r} is ambiguous: {one} in the German alphabet, {two} in the international one; write "
-        "the full name ({one} or {two}) or add a joint that only one alphabet has",
+        "{symbol!r} is ambiguous: {german} in the German alphabet, {international} in the international one; write "
+        "the full name ({german} or {international}) or add a joint that only one alphabet has",
         symbol=symbol,
-        one=one,
-        two=two,
+        german=joined_by_or([p.title for p in german[symbol]]),
+        international=joined_by_or([p.title for p in international[symbol]]),
     )

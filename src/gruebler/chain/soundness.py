@@ -1,4 +1,4 @@
-"""What makes a chain sound: names, joints and links that fit, in one piece. Each slip is one clear `ChainError`."""
+"""Checks of a chain's input: names, joints, links and connectedness. Each fault raises a `ChainError`."""
 
 from __future__ import annotations
 
@@ -18,35 +18,35 @@ _MOST_NAMES = 5
 
 
 def checked_joint(raw: Joint | tuple[str | Pair, Sequence[str | int]], space: Space) -> Joint:
-    """A joint as it is given, checked."""
+    """The joint of raw input, checked."""
     kind, links = (raw.pair, raw.links) if isinstance(raw, Joint) else raw
     if isinstance(links, str):
         raise ChainError("the links of a joint are a list of names, not the text {links!r}", links=links)
-    made = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
-    if len(made.links) < 2:
+    joint = Joint(kind if isinstance(kind, Pair) else pair(kind), tuple(_name(link) for link in links))
+    if len(joint.links) < 2:
         raise ChainError(
-            "the joint {joint} has {links}; a joint joins at least two", joint=made, links=_links(len(made.links))
+            "the joint {joint} has {links}; a joint joins at least two", joint=joint, links=_links(len(joint.links))
         )
-    if len(set(made.links)) < len(made.links):
-        twice = next(link for link, k in Counter(made.links).items() if k > 1)
+    if len(set(joint.links)) < len(joint.links):
+        twice = next(link for link, k in Counter(joint.links).items() if k > 1)
         raise ChainError(
-            "the joint {joint} names the link {twice!r} twice; a joint joins different links", joint=made, twice=twice
+            "the joint {joint} names the link {twice!r} twice; a joint joins different links", joint=joint, twice=twice
         )
-    if space not in made.pair.freedoms:
+    if space not in joint.pair.freedoms:
         try:
-            made.pair.f(space)
+            joint.pair.f(space)
         except PairError as error:
-            raise PairError("the joint {joint} is not possible: {error}", joint=made, error=error) from None
-    if len(made.links) > 2 and not made.pair.is_group:
+            raise PairError("the joint {joint} is not possible: {error}", joint=joint, error=error) from None
+    if len(joint.links) > 2 and not joint.pair.is_group:
         raise ChainError(
             "the joint {joint} has {count} links, but a {name} joint ({german}) joins exactly two: such "
             "relative motions do not compose; write one joint for each contact",
-            joint=made,
-            count=len(made.links),
-            name=made.pair.name,
-            german=made.pair.german,
+            joint=joint,
+            count=len(joint.links),
+            name=joint.pair.name,
+            german=joint.pair.german,
         )
-    return made
+    return joint
 
 
 def _name(raw: str | int) -> str:
@@ -90,7 +90,7 @@ def checked_links(links: Iterable[str | int], named: tuple[str, ...], joints: tu
 
 
 def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
-    """Refuse what is too small or in several parts."""
+    """Raise `ChainError` for a chain that is too small or has several parts."""
     if len(links) < 3:
         raise ChainError("a kinematic chain has at least three links, this one has {links}", links=_links(len(links)))
     sets = DisjointSets(links)
@@ -101,7 +101,7 @@ def check_connected(links: tuple[str, ...], joints: tuple[Joint, ...]) -> None:
     if len(parts) > 1:
         sizes = sorted(parts, key=len)
         raise ChainError(
-            "the chain falls into {count} parts: no joint connects {links} with the rest",
+            "the chain falls into {count} parts: no joint connects {links} with the others",
             count=len(parts),
             links=_some(sizes[0]),
         )

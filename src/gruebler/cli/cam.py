@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from gruebler.cams import (
     LAWS,
     Cam,
-    CamExtremum,
     CamReport,
     Flat,
     Follower,
@@ -30,6 +29,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
+from gruebler.events import Extremum
 from gruebler.text import Message, message, number
 
 __all__ = ["add", "run"]
@@ -229,7 +229,7 @@ def _print(cam: Cam, table: list[list[float]] | None, lang: str) -> None:
         print(text.in_language(lang))
     print()
     report = cam.findings()
-    figures: list[tuple[Message, CamExtremum | None, bool]] = [
+    figures: list[tuple[Message, Extremum | None, bool]] = [
         (message("least pressure angle"), report.pressure[0], True),
         (message("greatest pressure angle"), report.pressure[1], True),
         (message("least convex radius of curvature"), report.convex, False),
@@ -272,7 +272,7 @@ def _degrees(angle: float, lang: str) -> str:
 def _document(cam: Cam, table: list[list[float]] | None) -> dict[str, Any]:
     report = cam.findings()
 
-    def item(found: CamExtremum | None, angle: bool = False) -> dict[str, float] | None:
+    def item(found: Extremum | None, angle: bool = False) -> dict[str, float] | None:
         return found and {
             "value": math.degrees(found.value) if angle else found.value,
             "at_deg": math.degrees(found.at),

@@ -73,6 +73,7 @@ GROUPS: tuple[tuple[Message, tuple[Command, ...]], ...] = (
         message("Pictures"),
         (
             Command("draw", message("draw a chain, a mechanism or a linkage to scale")),
+            Command("explore", message("open a page on which a mechanism moves and its joints are dragged")),
             Command("animate", message("animate a linkage: SVG, HTML page with a slider, GIF, WebP, APNG")),
             Command("plot", message("plot transfer functions, transmission angle, hodographs, coupler curves")),
             Command("gallery", message("draw many chains, mechanisms or machines on one page")),

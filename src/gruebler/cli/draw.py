@@ -39,7 +39,6 @@ __all__ = [
     "picture_suffix",
     "run",
     "subject",
-    "told_picture",
     "write_picture",
 ]
 
@@ -152,9 +151,6 @@ def write_picture(figure: Figure, path: Path | None, suffix: str, dark: bool, la
         write_file(path, content, lang)
     for note in notes:
         print(note, file=sys.stderr)
-
-
-told_picture = write_picture
 
 
 def _figure(arguments: argparse.Namespace) -> Figure:

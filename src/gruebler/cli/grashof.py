@@ -158,7 +158,7 @@ def _print(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str) -> None
         else:
             print(translate("swing of the output: {angle:.4f}°", lang, angle=math.degrees(centres.travel)))
         print(translate("time ratio: {ratio:.6f}", lang, ratio=centres.time_ratio))
-    smallest = math.degrees(size.transmission_angle.smallest)
+    smallest = math.degrees(size.transmission_angle.smallest.mu)
     print(translate("smallest transmission angle: {angle:.4f}°", lang, angle=smallest))
 
 
@@ -185,5 +185,5 @@ def _document(size: FourBar | SliderCrank | InvertedSliderCrank) -> dict[str, ob
         document["stroke" if slides else "swing_deg"] = centres.travel if slides else math.degrees(centres.travel)
         document["time_ratio"] = centres.time_ratio
     if size.limits:
-        document["smallest_transmission_angle_deg"] = math.degrees(size.transmission_angle.smallest)
+        document["smallest_transmission_angle_deg"] = math.degrees(size.transmission_angle.smallest.mu)
     return document

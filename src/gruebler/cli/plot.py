@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, told_picture
+from gruebler.cli.draw import entry_of, german, linkage_and_range, picture_suffix, write_picture
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, with_points
 from gruebler.cli.parser import Parser
 from gruebler.drawing.canvas import Figure
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     record = entry_of(arguments.linkage)
     name = "" if record is None else record.name.in_language(arguments.lang)
     figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))
-    told_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
+    write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)
     return 0
 
 

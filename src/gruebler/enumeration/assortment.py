@@ -82,9 +82,9 @@ def assortments(links: int, mobility: int = 1, *, fractionated: bool = False) ->
         mobility: F >= 0.
         fractionated: whether to allow the larger degrees that only fractionated chains (F >= 2) have.
 
-    Every assortment in the list has a contracted graph; whether it has a chain that is nowhere rigid only the
-    enumeration tells (with F = 0 often not). Their number grows like exp(2.6 sqrt(n)): `assortment_number` tells it
-    at once, and `each_assortment` gives them one by one.
+    Every assortment in the list has a contracted graph; only the enumeration shows whether it has a chain without a
+    rigid part (with F = 0 often not). Their number grows like exp(2.6 sqrt(n)): `assortment_number` computes it
+    directly, and `each_assortment` yields them one by one.
 
     Raises:
         GrueblerError: links < 1 or mobility < 0.
@@ -106,7 +106,7 @@ def each_assortment(links: int, mobility: int = 1, *, fractionated: bool = False
     loops, largest = loop_count(links, mobility), largest_degree(links, mobility, fractionated=fractionated)
     if loops is None or largest is None:
         return
-    # A link of i joints is a part i - 2 of 2(L - 1); what has no part is a binary link.
+    # A link of i joints is a part i - 2 of 2(L - 1); a link without a part is binary.
     total = 2 * (loops - 1)
     for length in range(total, -1, -1):
         for partition in partitions_of_length(total, length, largest - 2):
@@ -114,7 +114,7 @@ def each_assortment(links: int, mobility: int = 1, *, fractionated: bool = False
 
 
 def numbers_of(first: int, partition: Partition) -> Assortment:
-    """The number ``first``, then how often each part 1, 2, ... occurs.
+    """The number ``first``, then the multiplicity of each part 1, 2, ...
 
     >>> numbers_of(7, ((1, 1), (3, 2)))
     (7, 1, 0, 2)
@@ -126,7 +126,7 @@ def numbers_of(first: int, partition: Partition) -> Assortment:
 
 
 def assortment_number(links: int, mobility: int = 1, *, fractionated: bool = False) -> int:
-    """How many assortments `assortments` lists, without listing them: a number of partitions; O(n^1.5).
+    """The number of assortments that `assortments` lists, as a number of partitions; O(n^1.5).
 
     >>> assortment_number(8), assortment_number(100)
     (3, 117343357)

@@ -1,4 +1,4 @@
-"""Finished pieces of work on disk, and directories from which a killed run goes on."""
+"""Finished pieces of work on disk, and checkpoint directories from which a killed run resumes."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ _LAYOUT = 3  # of the checkpoint directory
 class PieceFiles:
     """A directory with a file for each finished piece: a line of plain data, then bytes.
 
-    Each file is sealed with a digest of its content, its number and its task, so that a piece of another number or
-    another task is no piece here.
+    Each file contains a digest of its content, its number and its task, so that a piece of another number or
+    another task is rejected.
 
     Args:
-        directory: where they are.
+        directory: the directory of the files.
         durable: whether each file is flushed to the disk before it counts.
-        task: what the pieces belong to, as plain data.
+        task: the task of the pieces, as plain data.
     """
 
     def __init__(self, directory: Path, *, durable: bool, task: Mapping[str, Any] | None = None) -> None:
@@ -35,21 +35,21 @@ class PieceFiles:
         self.task = json.dumps(task, sort_keys=True)
 
     def save(self, number: int, head: Mapping[str, Any], body: bytes = b"") -> None:
-        """Keep a piece: some plain data and bytes."""
+        """Store a piece: some plain data and bytes."""
         with atomic_file(self._path(number), durable=self.durable, tidy=False) as file:
             file.write(json.dumps({**head, **self._seal(number, head, body)}).encode() + b"\n" + body)
 
     def head(self, number: int) -> dict[str, Any] | None:
-        """The plain data of a piece kept before, or None; a damaged file counts as none.
+        """The plain data of a stored piece, or None; a damaged file counts as none.
 
         Raises:
             RunError: the file cannot be read.
         """
         try:
             line, _, body = self._path(number).read_bytes().partition(b"\n")
-            found = json.loads(line)
-            kept = {key: found.pop(key) for key in ("bytes", "sha256")}
-            return found if kept == self._seal(number, found, body) else None
+            content = json.loads(line)
+            seal = {key: content.pop(key) for key in ("bytes", "sha256")}
+            return content if seal == self._seal(number, content, body) else None
         except FileNotFoundError:
             return None
         except OSError as error:
@@ -60,7 +60,7 @@ class PieceFiles:
             return None  # no JSON, a number of thousands of digits, nested without end, no object, no seal
 
     def body(self, number: int) -> bytes:
-        """The bytes of a piece kept before; `RunError` if they cannot be read."""
+        """The bytes of a stored piece; `RunError` if they cannot be read."""
         try:
             return self._path(number).read_bytes().partition(b"\n")[2]
         except OSError as error:
@@ -69,33 +69,33 @@ class PieceFiles:
             ) from None
 
     def remove(self, number: int) -> None:
-        """Forget a piece."""
+        """Delete a piece."""
         self._path(number).unlink()
 
     def tidy(self) -> None:
-        """Remove what killed processes left incomplete."""
+        """Remove the incomplete files of killed processes."""
         remove_abandoned_files(self.directory)
 
     def _path(self, number: int) -> Path:
         return self.directory / f"{number:07d}.piece"
 
     def _seal(self, number: int, head: Mapping[str, Any], body: bytes) -> dict[str, Any]:
-        """What distinguishes this piece as it was written from a damaged, changed or exchanged one."""
+        """Size and digest, which detect a damaged, changed or exchanged piece."""
         digest = hashlib.sha256(f"{self.task}\n{number}\n{json.dumps(head, sort_keys=True)}\n".encode())
         digest.update(body)
         return {"bytes": len(body), "sha256": digest.hexdigest()}
 
 
 class Checkpoint(PieceFiles):
-    """A directory that keeps finished pieces, so that a run killed at any moment can be gone on with.
+    """A directory that keeps finished pieces, so that a run killed at any moment can resume.
 
-    Each piece is an atomic file; a manifest says what was asked and which version answered. Temporary files that killed
-    runs left here are removed.
+    Each piece is an atomic file; a manifest records the task and the version. Temporary files of killed runs are
+    removed.
 
     Args:
-        directory: made if it is not there.
-        task: what is asked, as plain data.
-        version: the version that does the work.
+        directory: created if it does not exist.
+        task: the request, as plain data.
+        version: the version of this library.
 
     Raises:
         RunError: the directory belongs to another task or version, is something else, or cannot be used.
@@ -127,22 +127,22 @@ class Checkpoint(PieceFiles):
             raise RunError("{path} cannot be read; remove the directory to begin again", path=path) from None
 
 
-def _compare(directory: Path, found: object, wanted: Mapping[str, Any]) -> None:
-    """`RunError` if a manifest is not the one wanted; `ValueError` if it is none."""
-    if found == wanted:
+def _compare(directory: Path, manifest: object, expected: Mapping[str, Any]) -> None:
+    """Raise `RunError` for a manifest other than the expected one, `ValueError` for anything else."""
+    if manifest == expected:
         return
-    if not isinstance(found, dict):
+    if not isinstance(manifest, dict):
         raise ValueError("no manifest")
-    if found.get("task") == wanted["task"]:
+    if manifest.get("task") == expected["task"]:
         raise RunError(
             "{directory} keeps pieces of version {other} of gruebler, this is version {version}; give another "
             "directory or remove this one",
             directory=directory,
-            other=found.get("version"),
-            version=wanted["version"],
+            other=manifest.get("version"),
+            version=expected["version"],
         )
     raise RunError(
         "{directory} keeps pieces of another task, {task}; give another directory or remove this one",
         directory=directory,
-        task=json.dumps(found.get("task")),
+        task=json.dumps(manifest.get("task")),
     )

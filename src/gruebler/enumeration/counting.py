@@ -1,4 +1,4 @@
-"""How many chains there are, and how many mechanisms come from them, without building a chain."""
+"""The numbers of chains and of their mechanisms, counted without building a chain."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["ChainCount", "count_simple_chains"]
 
 @dataclass(frozen=True)
 class ChainCount:
-    """What there is of chains with n links and mobility F."""
+    """The numbers of chains with n links and mobility F, and of their mechanisms."""
 
     links: int
     mobility: int
@@ -36,10 +36,10 @@ class ChainCount:
         >>> count_simple_chains(6).to_json()
         {'links': 6, 'mobility': 1, 'chains': 2, 'by_assortment': {'4,2': 2}}
         """
-        found: dict[str, Any] = {"links": self.links, "mobility": self.mobility, "chains": self.chains}
-        found["by_assortment"] = {",".join(map(str, a)): k for a, k in self.by_assortment.items()}
+        document: dict[str, Any] = {"links": self.links, "mobility": self.mobility, "chains": self.chains}
+        document["by_assortment"] = {",".join(map(str, a)): k for a, k in self.by_assortment.items()}
         orbits = {"inversions": self.inversions, "drives": self.drives, "joint_orbits": self.joint_orbits}
-        return found | {name: number for name, number in orbits.items() if number is not None}
+        return document | {name: number for name, number in orbits.items() if number is not None}
 
 
 def count_simple_chains(
@@ -57,7 +57,7 @@ def count_simple_chains(
         mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
         assortment: count only chains with these numbers of binary, ternary, ... links.
         orbits: whether to count inversions, drives and joint orbits too; costs a few per cent.
-        executor: where to do the pieces of the work; here if there is none.
+        executor: runs the pieces of the work; by default this process.
 
     Definition and proofs: docs/theory/enumeration.md. Cost on one core: 0.02 s for 14 links, 0.25 s for 16,
     10 s for 18, besides 0.5 s to load the kernels (once 15 s to compile them).
@@ -77,7 +77,7 @@ def count_simple_chains(
 
 
 def add_counts(links: int, mobility: int, counts: Iterable[PieceCount], orbits: bool) -> ChainCount:
-    """The counts of pieces, in any order, in one."""
+    """The sum of the counts of pieces, in any order."""
     by_assortment: dict[Assortment, int] = {}
     chains = inversions = drives = joint_orbits = 0
     for count in counts:

@@ -1,6 +1,6 @@
-"""How much a request will give and how long it will take, told before it is begun.
+"""Estimates of the number of chains, the time and the bytes of a request, before it runs.
 
-Where the number of chains is known it is used; beyond, the known numbers are continued by their growth, which itself
+A known number of chains is used as it is; beyond, the known numbers are extrapolated by their growth, which itself
 grows slowly, so that an estimate is good to a factor of two or three for the next size. The numbers were counted with
 this library; those for F = 1 are also OEIS A233288, and the smaller ones have independent sources
 (tests/enumeration).
@@ -39,7 +39,7 @@ _BUILT = {"simple": 1e-3, "multiple": 2e-3}
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """What a request will take, to about a factor of three."""
+    """The estimated cost of a request, to about a factor of three."""
 
     chains: int
     exact: bool
@@ -64,12 +64,12 @@ def expected_chains(request: Request) -> tuple[int, bool]:
         number, exact = _continued(_ANY_JOINTS, f, loops)
         return number, exact and request.joints_range == (0, None) and request.fractionated == "all"
     tables = {"none": _NOT_FRACTIONATED, "link": _LINK, "joint": _JOINT}
-    found = [_continued(tables[kind], f, loops) for kind in request.classes]
-    return sum(n for n, _ in found), all(exact for _, exact in found) and request.assortment is None
+    class_estimates = [_continued(tables[kind], f, loops) for kind in request.classes]
+    return sum(n for n, _ in class_estimates), all(exact for _, exact in class_estimates) and request.assortment is None
 
 
 def _continued(table: _Table, mobility: int, loops: int) -> tuple[int, bool]:
-    """An entry of the table, or what the growth before it leads to; another mobility is taken as the nearest one."""
+    """An entry of the table, or its extrapolation; for a mobility without entries the nearest one is used."""
     row = table[min(max(mobility, min(table)), max(table))]
     known = mobility in table
     if loops <= len(row):
@@ -86,7 +86,7 @@ def estimate(request: Request, form: str | None) -> Estimate:
     """Chains, time and bytes of a request.
 
     Args:
-        request: what is asked.
+        request: the request.
         form: ``text``, ``graph6`` or ``json``; None for a count.
 
     >>> estimate(Request(18), "graph6").bytes // 10**9

@@ -1,9 +1,9 @@
 """Chains that fall apart at a link or at a joint, composed of the chains that do not.
 
-Mobility adds up over the blocks of the link graph, and a chain is one of the enumeration exactly if each of its blocks
-is one, with a mobility of at least 1, or a bridge (one joint between two links, F = 1) that does not end in a link
-without another joint. So the fractionated chains are trees of blocks. Each is built once: from the rest by adding
-its smallest leaf block, the block at one of its links, the rest at one of its own. Nothing is remembered.
+Mobility adds up over the blocks of the link graph. The enumeration contains a chain exactly if each of its blocks
+is an enumerated chain of mobility at least 1, or a bridge (one joint between two links, F = 1) that does not end in a
+link without another joint. So the fractionated chains are trees of blocks. Each is built once, by adding its smallest
+leaf block to the remainder: a link of the block is identified with a link of the remainder. Nothing is stored.
 
 Theorems and proofs: docs/theory/fractionation.md.
 """
@@ -20,50 +20,50 @@ from gruebler.isomorphism import code, symmetry
 __all__ = ["BlockAddition", "Plain", "block_additions", "fractionated_chains"]
 
 Plain = Callable[[int, int], Iterator[Chain]]
-"""The chains of so many links and this mobility that do not fall apart, each once."""
+"""The chains of given links and mobility that are not fractionated, each once."""
 
 _Edges = tuple[tuple[int, int], ...]
 
 
 @dataclass(frozen=True, slots=True)
 class BlockAddition:
-    """One way in which the last block can be added; the chains of different ones are different."""
+    """Sizes of the chain and of its last block; different sizes give different chains."""
 
     links: int
     mobility: int
     bridges: int
-    """Number of bridges in the whole chain."""
+    """Number of bridges in the chain."""
     last_links: int
     last_mobility: int
     """The smallest leaf block."""
 
 
 def block_additions(links: int, mobility: int, kind: str) -> list[BlockAddition]:
-    """All the ways, as independent pieces of work.
+    """All sizes of the last block, as independent pieces of work.
 
     Args:
-        links: number of links of the whole chain.
-        mobility: F of the whole chain.
+        links: number of links of the chain.
+        mobility: F of the chain.
         kind: ``link``: some link separates the chain and no joint does; ``joint``: some joint does.
 
     >>> [(p.last_links, p.last_mobility) for p in block_additions(9, 2, "link")]
     [(4, 1)]
     """
-    found = []
+    additions = []
     for bridges in [0] if kind == "link" else range(1, mobility - 1):
         for h in range(4, (links + 1) // 2 + 1):
             for f in range(1, min(mobility - bridges - 1, h - 3) + 1):
                 # The other leaf is not smaller, and blocks share one link where no bridge is between them.
                 if (3 * (h - 1) - f) % 2 == 0:
-                    found.append(BlockAddition(links, mobility, bridges, h, f))
-    return found
+                    additions.append(BlockAddition(links, mobility, bridges, h, f))
+    return additions
 
 
 def fractionated_chains(plain: Plain, links: int, mobility: int, kind: str) -> Iterator[Chain]:
     """The chains that fall apart at a link only (kind ``link``) or at some joint (``joint``), each once, lazily.
 
-    `plain` gives the chains they are made of. Cost: about two canonical forms for each link at which a block can
-    be added, and two for each chain found.
+    `plain` gives the chains that are not fractionated. Cost: about two canonical forms for each link at which a block
+    can be added, and two for each resulting chain.
     """
     for part in block_additions(links, mobility, kind):
         for compound in composed(plain, part):
@@ -98,15 +98,15 @@ class Compound:
     @cached_property
     def leaves(self) -> dict[int, int]:
         """The number of each leaf block, and the one link that it shares with others; a block alone has none."""
-        found = {}
+        shared_links = {}
         for k, block in enumerate(self.blocks):
             shared = [v for v in block if any(v in other for m, other in enumerate(self.blocks) if m != k)]
             if len(shared) == 1:
-                found[k] = shared[0]
-        return found
+                shared_links[k] = shared[0]
+        return shared_links
 
     def open_bridges(self) -> int:
-        """How many bridges end in a link that carries no other joint."""
+        """The number of bridges that end in a link without another joint."""
         return sum(len(self.blocks[k]) == 2 for k in self.leaves)
 
     def inside(self, k: int) -> _Edges:
@@ -134,14 +134,14 @@ _BRIDGE = _Rooted(2, ((0, 1),), 0, "")
 
 
 def _rooted(plain: Plain, links: int, mobility: int) -> list[_Rooted]:
-    found = []
+    rooted_blocks = []
     for chain in plain(links, mobility):
         edges = _edges(chain)
-        found += [
+        rooted_blocks += [
             _Rooted(links, edges, chain.index(orbit[0]), code(chain, frame=orbit[0]))
             for orbit in symmetry(chain).link_orbits
         ]
-    return found
+    return rooted_blocks
 
 
 def _edges(chain: Chain) -> _Edges:
@@ -149,7 +149,7 @@ def _edges(chain: Chain) -> _Edges:
 
 
 def _compounds(plain: Plain, links: int, mobility: int, bridges: int, most_open: int) -> Iterator[Compound]:
-    """All trees of blocks with so many bridges, at most a few of them open, each once.
+    """All trees of blocks with this number of bridges, at most `most_open` of them open, each once.
 
     An open bridge, one that ends in a link without another joint, is the smallest leaf a tree can have.
     """
@@ -159,8 +159,8 @@ def _compounds(plain: Plain, links: int, mobility: int, bridges: int, most_open:
         for chain in plain(links, mobility):
             yield Compound(links, _edges(chain), (frozenset(range(links)),))
     elif most_open:
-        rest = _compounds(plain, links - 1, mobility - 1, bridges - 1, most_open)
-        yield from _attached(rest, [_BRIDGE], most_open)
+        remainders = _compounds(plain, links - 1, mobility - 1, bridges - 1, most_open)
+        yield from _attached(remainders, [_BRIDGE], most_open)
     for h in range(4, links - 2):
         for f in range(1, mobility):
             blocks = _rooted(plain, h, f) if (3 * (h - 1) - f) % 2 == 0 else []
@@ -168,18 +168,18 @@ def _compounds(plain: Plain, links: int, mobility: int, bridges: int, most_open:
                 yield from _attached(_compounds(plain, links - h + 1, mobility - f, bridges, 1), blocks, 0)
 
 
-def _attached(rest: Iterator[Compound], blocks: list[_Rooted], most_open: int) -> Iterator[Compound]:
-    """The compounds whose smallest leaf is one of these blocks, what is left without it being one of the rest."""
-    for old in rest:
-        for place in old.places:
+def _attached(remainders: Iterator[Compound], blocks: list[_Rooted], most_open: int) -> Iterator[Compound]:
+    """The compounds whose smallest leaf is one of these blocks and whose remainder is one of `remainders`."""
+    for remainder in remainders:
+        for place in remainder.places:
             for block in blocks:
-                new = _joined(old, place, block)
-                if new.open_bridges() <= most_open and _is_smallest(new, block.code):
-                    yield new
+                compound = _joined(remainder, place, block)
+                if compound.open_bridges() <= most_open and _is_smallest(compound, block.code):
+                    yield compound
 
 
 def _joined(old: Compound, place: int, block: _Rooted) -> Compound:
-    """Both with the root of the block on a link; the block is the last one of the new compound."""
+    """The remainder with the root of the block on one of its links; the block is the last of the new compound."""
     name = {block.root: place}
     for v in range(block.links):
         if v != block.root:
@@ -189,13 +189,13 @@ def _joined(old: Compound, place: int, block: _Rooted) -> Compound:
 
 
 def _is_smallest(compound: Compound, rooted_code: str) -> bool:
-    """Whether no leaf comes before the last block, by size, then rooted code, then the code of the rest.
+    """Whether no leaf comes before the last block, by size, then rooted code, then the code of the remainder.
 
-    Two leaves equal in all three are exchanged by an automorphism, so the compound has one smallest leaf up to that.
+    An automorphism exchanges two leaves that are equal in all three, so the smallest leaf is unique up to symmetry.
     """
     last = len(compound.blocks) - 1
     size = _size(compound, last)
-    rest: str | None = None
+    rest_code: str | None = None
     for k, shared in compound.leaves.items():
         if k == last or (other := _size(compound, k)) > size:
             continue
@@ -206,9 +206,9 @@ def _is_smallest(compound: Compound, rooted_code: str) -> bool:
             continue
         if other_code < rooted_code:
             return False
-        if rest is None:
-            rest = _code(compound.outside(last), compound.leaves[last])
-        if _code(compound.outside(k), shared) < rest:
+        if rest_code is None:
+            rest_code = _code(compound.outside(last), compound.leaves[last])
+        if _code(compound.outside(k), shared) < rest_code:
             return False
     return True
 

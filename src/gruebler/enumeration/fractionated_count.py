@@ -1,8 +1,9 @@
-"""How many chains fall apart at a link or at a joint, without building one: Pólya's theorem on trees of blocks.
+"""The number of chains that fall apart at a link or at a joint, without building them: Pólya's theorem on block trees.
 
 The tree of the links and the blocks of a chain has one more vertices than edges, and so have the orbits of its
 symmetry, so that chains = (chains with a link marked) + (with a block marked) - (with both, the link in the block).
-Each of the three is a sum over the blocks of cycle indices, into which the series of what hangs on a link is put.
+Each of the three is a sum over the blocks of cycle indices, into which the series of the subtrees at a link is
+substituted.
 docs/theory/fractionation.md has the equations. Sources: G. Pólya, Acta Math. 68 (1937); R. Otter, Ann. Math. 49
 (1948) for the difference; R. Z. Norman and F. Harary for blocks (Harary and Palmer, Graphical Enumeration, 1973).
 """
@@ -64,7 +65,7 @@ class CountSeries:
         return CountSeries(moved, self.links, self.mobility)
 
     def stretched(self, k: int) -> CountSeries:
-        """x^k and y^k put in for x and y: k equal things instead of one."""
+        """The series with x^k and y^k for x and y: k equal objects instead of one."""
         return CountSeries({(k * n, k * f): c for (n, f), c in self.terms.items()}, self.links, self.mobility)
 
     def sets(self) -> CountSeries:
@@ -92,10 +93,10 @@ def cycle_types(chains: Iterable[Chain]) -> Types:
     """
     total: dict[tuple[int, ...], Fraction] = {}
     for chain in chains:
-        found = symmetry(chain)
-        for element in _group(chain.n, [g.links for g in found.generators]):
+        symmetries = symmetry(chain)
+        for element in _group(chain.n, [g.links for g in symmetries.generators]):
             kind = _cycles(element)
-            total[kind] = total.get(kind, Fraction(0)) + Fraction(1, found.order)
+            total[kind] = total.get(kind, Fraction(0)) + Fraction(1, symmetries.order)
     return total
 
 
@@ -109,12 +110,12 @@ def _group(n: int, generators: list[tuple[int, ...]]) -> set[tuple[int, ...]]:
 
 
 def _cycles(element: tuple[int, ...]) -> tuple[int, ...]:
-    seen: set[int] = set()
+    visited: set[int] = set()
     lengths = []
     for start in range(len(element)):
         length, i = 0, start
-        while i not in seen:
-            seen.add(i)
+        while i not in visited:
+            visited.add(i)
             i = element[i]
             length += 1
         if length:
@@ -133,9 +134,9 @@ def count_fractionated(
     Args:
         links: number of links.
         mobility: F.
-        plain: the chains of so many links and a mobility that do not fall apart, each once; asked for up to
+        plain: the chains of given links and mobility that are not fractionated, each once; called up to
             mobility F - 2.
-        plain_count: their number and the number of their link orbits (inversions); asked for mobility F - 1, for
+        plain_count: their number and the number of their link orbits (inversions); called for mobility F - 1, for
             which no chain is built.
 
     Cost: for F = 2 that of `plain_count` up to links - 3 links.
@@ -148,7 +149,7 @@ def count_fractionated(
             if f < mobility - 1:
                 blocks[h, f] = cycle_types(plain(h, f))
             else:
-                # One freedom is left for the rest: only the number of link orbits matters (see the theory).
+                # One freedom remains for the other blocks: only the number of link orbits matters (see the theory).
                 chains, orbits = plain_count(h, f)
                 blocks[h, f] = {(): Fraction(chains - orbits), (1,): Fraction(orbits)}
     separate = _composed(links, mobility, blocks, bridges=False)
@@ -159,7 +160,7 @@ def count_fractionated(
 def _composed(links: int, mobility: int, blocks: Mapping[tuple[int, int], Types], *, bridges: bool) -> int:
     """The number of trees of two or more blocks, no bridge ending in a link without another joint."""
     unit = unit_series(links, mobility)
-    hung = unit  # what hangs on a link, the link itself not counted
+    hung = unit  # the subtrees at a link, the link itself not counted
     for _ in range(mobility):
         below = _marked(blocks, hung, root=True)
         if bridges:
@@ -171,9 +172,9 @@ def _composed(links: int, mobility: int, blocks: Mapping[tuple[int, int], Types]
         at_link -= grown.shifted(2, 1)
         at_block += (grown * grown + grown.stretched(2)).scaled(Fraction(1, 2)).shifted(2, 1)
         at_both += (grown * grown).shifted(2, 1)
-    found = (at_link + at_block - at_both).terms.get((links, mobility), Fraction(0))
-    assert found.denominator == 1  # it counts orbits
-    return int(found)
+    number = (at_link + at_block - at_both).terms.get((links, mobility), Fraction(0))
+    assert number.denominator == 1  # it counts orbits
+    return int(number)
 
 
 def _product(cycles: Iterable[int], hung: CountSeries) -> CountSeries:
@@ -186,7 +187,7 @@ def _product(cycles: Iterable[int], hung: CountSeries) -> CountSeries:
 
 
 def _whole(blocks: Mapping[tuple[int, int], Types], hung: CountSeries) -> CountSeries:
-    """A block with something hung on each of its links."""
+    """A block with subtrees at each of its links."""
     total = CountSeries({}, hung.links, hung.mobility)
     for (h, f), types in blocks.items():
         for cycles, weight in types.items():
@@ -195,14 +196,14 @@ def _whole(blocks: Mapping[tuple[int, int], Types], hung: CountSeries) -> CountS
 
 
 def _marked(blocks: Mapping[tuple[int, int], Types], hung: CountSeries, *, root: bool) -> CountSeries:
-    """A block with one link marked; as a root that link is not counted and nothing hangs on it."""
+    """A block with one link marked; as a root that link is not counted and has no subtrees."""
     total = CountSeries({}, hung.links, hung.mobility)
     for (h, f), types in blocks.items():
         for cycles, weight in types.items():
             fixed = cycles.count(1)
             if fixed:
-                rest = list(cycles)
+                unmarked_cycles = list(cycles)
                 if root:
-                    rest.remove(1)
-                total += _product(rest, hung).scaled(fixed * weight).shifted(h - root, f)
+                    unmarked_cycles.remove(1)
+                total += _product(unmarked_cycles, hung).scaled(fixed * weight).shifted(h - root, f)
     return total

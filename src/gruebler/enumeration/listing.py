@@ -19,7 +19,7 @@ def chains(
     assortment: Sequence[int] | None = None,
     multiple_joints: int | str = 0,
 ) -> Iterator[Chain]:
-    """Planar chains of revolute joints without any rigid part, each once, lazily and always in the same order.
+    """Planar chains of revolute joints without any rigid part, each once, lazily and in a fixed order.
 
     Args:
         links: number of links, n >= 3.
@@ -27,9 +27,9 @@ def chains(
         fractionated: ``none``: chains that do not fall apart; ``link``, ``joint``: those that fall apart at a link
             only, at some joint; ``all``: the three classes in this order.
         assortment: only chains with these numbers of binary, ternary, ... links.
-        multiple_joints: exactly so many joints of more than two links, a range such as ``0-2``, or ``any``.
+        multiple_joints: the number of joints of more than two links, a range such as ``0-2``, or ``any``.
 
-    Raises `RequestError` for a request that makes no sense, and `GrueblerError` for more loops than can be worked on.
+    Raises `RequestError` for an invalid request, and `GrueblerError` for more loops than the kernels can process.
     Cost: about 50 us for a chain that is not fractionated and has simple joints, 1 ms for others.
 
     >>> len(list(chains(8))), len(list(chains(9, 2, fractionated="all"))), len(list(chains(6, multiple_joints="any")))
@@ -37,8 +37,8 @@ def chains(
     """
     from gruebler.enumeration.work_units import chains_of_request
 
-    wanted = None if assortment is None else tuple(assortment)
-    return chains_of_request(Request(links, mobility, fractionated, wanted, multiple_joints))
+    numbers = None if assortment is None else tuple(assortment)
+    return chains_of_request(Request(links, mobility, fractionated, numbers, multiple_joints))
 
 
 def count_chains(
@@ -51,7 +51,7 @@ def count_chains(
     orbits: bool = False,
     executor: Executor | None = None,
 ) -> RequestCount:
-    """How many chains `chains` gives, by assortment and by class, and how many mechanisms they give.
+    """The number of chains that `chains` gives, by assortment and by class, and of their mechanisms.
 
     Args:
         links: number of links, n >= 3.
@@ -60,7 +60,7 @@ def count_chains(
         assortment: as for `chains`.
         multiple_joints: as for `chains`.
         orbits: whether to count inversions, driven mechanisms and joint orbits too.
-        executor: where to do the pieces of the work; here if there is none.
+        executor: runs the pieces of the work; by default this process.
 
     Chains that are not fractionated and have simple joints are counted without being built.
 
@@ -70,6 +70,6 @@ def count_chains(
     from gruebler.enumeration.work_units import PieceCounter, add_tallies, work_units
     from gruebler.enumeration.worker_pool import run_work
 
-    wanted = None if assortment is None else tuple(assortment)
-    request = Request(links, mobility, fractionated, wanted, multiple_joints)
+    numbers = None if assortment is None else tuple(assortment)
+    request = Request(links, mobility, fractionated, numbers, multiple_joints)
     return add_tallies(request, orbits, run_work(PieceCounter(request, orbits), work_units(request), executor))

@@ -1,9 +1,9 @@
 """Chains with multiple joints, grown from the chains with simple joints by merging joints.
 
 Splitting a joint of k >= 3 links into one of k - 1 and a simple one that shares a link with it keeps every condition,
-so every chain with multiple joints is reached from a chain with simple ones by merging a joint with a simple joint at
-one of its links, again and again. Each chain is kept only where it grows from its canonical split, so the search is a
-tree: nothing is remembered, and the branches of different simple chains are independent pieces of work.
+so every chain with multiple joints is reached from a chain with simple ones by repeatedly merging a joint with a simple
+joint at one of its links. Each chain is kept only where it grows from its canonical split, so the search is a
+tree: nothing is stored, and the branches of different simple chains are independent pieces of work.
 
 Theorems and proofs: docs/theory/multiple-joints.md. The tree is the canonical construction path of B. D. McKay,
 Isomorph-free exhaustive generation, J. Algorithms 26 (1998) 306-324.
@@ -38,7 +38,7 @@ def with_multiple_joints(
         largest: leave out chains with a joint of more links than this.
 
     Order: every chain before those that grow from it, these in the order of their codes. Cost: a table of 2^n
-    numbers for each chain, and three canonical forms for each chain met.
+    numbers and three canonical forms for each chain visited.
 
     >>> stephenson = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(0-4) R(4-5) R(5-2)")
     >>> len(list(with_multiple_joints([stephenson], fewest=1)))
@@ -64,10 +64,10 @@ def _grown(chain: Chain, name: str, fewest: int, most: int | None, largest: int 
 
 
 def merge_joints(chain: Chain, *, preferred: bool = False) -> Iterator[Chain]:
-    """Every chain that merging a joint with a simple joint at one of its links gives, conditions kept; with doubles.
+    """The valid chains after merging a joint with a simple joint at one of its links; may contain duplicates.
 
-    Merging the joint J with the simple joint {a, b}, a in J, takes two from d(S) exactly where S holds b and a link of
-    J but not a, so d(S) >= 3 is asked of these sets. With `preferred`, merges are left out that undo a split which
+    Merging the joint J with the simple joint {a, b}, a in J, takes two from d(S) exactly where S contains b and a link
+    of J but not a, so these sets need d(S) >= 3. With `preferred`, merges are left out that undo a split which
     `split_multiple_joints` would certainly not choose. Cost O(2^n) for each two joints that share a link.
     """
     n = chain.n
@@ -90,13 +90,13 @@ def merge_joints(chain: Chain, *, preferred: bool = False) -> Iterator[Chain]:
 
 
 def _room(sets: NDArray[np.int64], freedoms: NDArray[np.int32], big: int, a: int, b: int) -> bool:
-    """Whether d(S) >= 3 for every S that holds link b and a link of the joint, but not link a."""
+    """Whether d(S) >= 3 for every S that contains link b and a link of the joint, but not link a."""
     concerned = (sets & (1 << a | 1 << b) == 1 << b) & (sets & big != 0)
     return int(freedoms.min(where=concerned, initial=3)) >= 3
 
 
 def _neighbours(n: int, joints: Sequence[int]) -> list[int]:
-    """For each link the set of the links it shares a joint with."""
+    """For each link the set of the links that share a joint with it."""
     near = [0] * n
     for joint in joints:
         for i in _members(joint):
@@ -117,9 +117,9 @@ def _merge(chain: Chain, k: int, m: int, link: str) -> Chain:
 
 
 def _best_splits(n: int, joints: Sequence[int]) -> list[tuple[int, int, int]]:
-    """The splits (joint, link a that keeps both joints, link b that leaves the joint) that numbers prefer.
+    """The preferred splits (joint, link a that keeps both joints, link b that leaves the joint).
 
-    The preference counts links and joints only, so that no numbering shows in it.
+    The preference counts links and joints only, so it does not depend on the numbering.
     """
     members = [_members(joint) for joint in joints]
     degree = [0] * n
@@ -131,18 +131,18 @@ def _best_splits(n: int, joints: Sequence[int]) -> list[tuple[int, int, int]]:
         square = sum(degree[i] * degree[i] for i in links)
         for i in links:
             around[i] += square
-    best: tuple[int, ...] = ()
-    found: list[tuple[int, int, int]] = []
+    best_key: tuple[int, ...] = ()
+    splits: list[tuple[int, int, int]] = []
     for joint, links in zip(joints, members, strict=True):
         if len(links) < 3:
             continue
         for a, b in permutations(links, 2):
             key = (len(links), degree[a], around[a], degree[b], around[b])
-            if key > best:
-                best, found = key, []
-            if key == best:
-                found.append((joint, a, b))
-    return found
+            if key > best_key:
+                best_key, splits = key, []
+            if key == best_key:
+                splits.append((joint, a, b))
+    return splits
 
 
 def split_multiple_joints(chain: Chain) -> Chain:
@@ -164,6 +164,6 @@ def split_multiple_joints(chain: Chain) -> Chain:
     joint, a, b = min(_best_splits(chain.n, joints), key=canonical)
     k = joints.index(joint)
     kind, leaving = chain.joints[k].pair, chain.links[b]
-    rest = Joint(kind, tuple(link for link in chain.joints[k].links if link != leaving))
-    changed = [rest if i == k else joint for i, joint in enumerate(chain.joints)]
+    reduced_joint = Joint(kind, tuple(link for link in chain.joints[k].links if link != leaving))
+    changed = [reduced_joint if i == k else joint for i, joint in enumerate(chain.joints)]
     return Chain([*changed, Joint(kind, (chain.links[a], leaving))], links=chain.links)

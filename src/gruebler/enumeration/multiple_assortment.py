@@ -1,4 +1,4 @@
-"""Number synthesis with multiple joints: how many links of which degree, how many joints of how many links."""
+"""Number synthesis with multiple joints: the numbers of links by degree and of joints by their number of links."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ __all__ = ["JointAssortment", "each_joint_assortment", "joint_assortment_number"
 
 
 class JointAssortment(NamedTuple):
-    """One way to share out links and joints."""
+    """The numbers of links by degree and of joints by size."""
 
     links: Assortment
     """(n_2, n_3, ...): how many links have two, three, ... joints, a multiple joint being one joint of its links."""
@@ -24,10 +24,10 @@ def joint_assortments(links: int, mobility: int = 1, *, fractionated: bool = Fal
     """All link and joint assortments of chains with joints of two or more links, the simple ones first.
 
     Sum n_i = n, sum (k - 1) g_k = g, sum i n_i = sum k g_k; no link has more joints, and no joint more links, than a
-    link of a simple chain can have joints. Whether there is such a chain only the enumeration tells.
+    link of a simple chain can have joints. Only the enumeration shows whether such a chain exists.
 
-    >>> for found in joint_assortments(6):
-    ...     print(found.links, found.joints)
+    >>> for assortment in joint_assortments(6):
+    ...     print(assortment.links, assortment.joints)
     (4, 2) (7,)
     (5, 1) (5, 1)
     (6,) (3, 2)
@@ -50,13 +50,13 @@ def each_joint_assortment(links: int, mobility: int = 1, *, fractionated: bool =
             simple = joints - merged - _length(together)
             if simple < 0:
                 continue
-            # Every link has two joints; what is left of the joints' elements is shared out one by one.
+            # Every link has two joints; the remaining elements of the joints are distributed one by one.
             for more in partitions(total - merged, largest - 2):
                 yield JointAssortment(numbers_of(links - _length(more), more), numbers_of(simple, together))
 
 
 def joint_assortment_number(links: int, mobility: int = 1, *, fractionated: bool = False) -> int:
-    """How many assortments `joint_assortments` lists, without listing them; docs/theory/multiple-joints.md.
+    """The number of assortments that `joint_assortments` lists, counted directly; docs/theory/multiple-joints.md.
 
     >>> joint_assortment_number(6), joint_assortment_number(100)
     (3, 930512111350)
@@ -72,12 +72,12 @@ def joint_assortment_number(links: int, mobility: int = 1, *, fractionated: bool
         """Partitions with a part (or, by conjugation, a number of parts) above the bound, at least half of ``of``."""
         return sums[max(0, of - bound)]
 
-    found = 0
+    number = 0
     for merged in range(total + 1):
-        rest = total - merged
+        unmerged = total - merged
         together = numbers[merged] - above(merged, largest - 2) - above(merged, joints - merged)
-        found += together * (numbers[rest] - above(rest, largest - 2))
-    return found
+        number += together * (numbers[unmerged] - above(unmerged, largest - 2))
+    return number
 
 
 def _length(partition: Partition) -> int:

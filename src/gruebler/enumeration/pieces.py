@@ -1,8 +1,8 @@
-"""The work of an enumeration, cut into pieces that know nothing of each other.
+"""The work of an enumeration, divided into independent pieces.
 
-A piece is plain data: some contracted graphs and what is asked of them. `count_piece` and `list_piece` are pure
-functions of a piece, so a piece can be sent to any worker, done twice or done again; the pieces of a task and
-their order are always the same.
+A piece is plain data: some contracted graphs and the numbers of links and freedoms. `count_piece` and `list_piece` are
+pure functions of a piece, so any worker can run a piece, and run it again; the pieces of a task and their order are
+always the same.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ class WorkPiece(NamedTuple):
     graphs: Packed
     """int64[k, nodes], packed and canonical."""
     work: int
-    """About how many string assignments there are to go through; counting takes a nanosecond for each."""
+    """The approximate number of string assignments to test; counting takes a nanosecond for each."""
 
 
 class PieceCount(NamedTuple):
-    """The chains of one assortment in a piece, and the orbits on them (0 if not asked for)."""
+    """The chains of one assortment in a piece, and the orbits on them (0 if not requested)."""
 
     assortment: Assortment
     chains: int
@@ -52,7 +52,7 @@ class PieceCount(NamedTuple):
 
 
 def refuse_too_large(links: int, mobility: int) -> None:
-    """Raise `GrueblerError` for more loops or freedoms than the kernels can hold."""
+    """Raise `GrueblerError` for more loops or freedoms than the kernels can process."""
     loops = loop_count(links, mobility)
     if loops is not None and (loops > MOST_LOOPS or mobility > MOST_FREEDOMS):
         raise GrueblerError(
@@ -74,13 +74,13 @@ def pieces(
     Args:
         links: number of links, n.
         mobility: F.
-        assortment: (n_2, n_3, ...), if only chains of this assortment are wanted.
+        assortment: (n_2, n_3, ...), to restrict the chains to this assortment.
         size: the work of a piece, as `WorkPiece.work`; a contracted graph is not divided.
 
     Chains of one loop have no contracted graph and no piece; impossible numbers give no piece either.
 
     Raises:
-        GrueblerError: numbers that make no sense, or more loops or freedoms than the kernels can hold.
+        GrueblerError: invalid numbers, or more loops or freedoms than the kernels can process.
     """
     loops = loop_count(links, mobility)
     if loops is None or loops < 2:
@@ -115,19 +115,19 @@ def _cut(links: int, mobility: int, assortment: Assortment | None, size: int) ->
 def _strings(rows: Packed) -> NDArray[np.int64]:
     """int64[k, nodes, nodes]: the numbers of strings between nodes."""
     nodes = np.arange(rows.shape[1])
-    found: NDArray[np.int64] = rows[:, :, None] >> (4 * nodes) & 15
-    return found
+    strings: NDArray[np.int64] = rows[:, :, None] >> (4 * nodes) & 15
+    return strings
 
 
 def _work(rows: Packed) -> NDArray[np.int64]:
-    """For each graph the ways to give c = 0, 1, 2 to its bundles with the sum 3V - 4, and a fixed cost.
+    """For each graph the number of assignments of c = 0, 1, 2 to its bundles with the sum 3V - 4, and a fixed cost.
 
-    That is what the assignments would be if no set of nodes could be rigid, one to five times too many. For the
+    That is the number of assignments if no set of nodes could be rigid, one to five times too many. For the
     graphs that take most of the time counting costs 0.7 to 1.7 ns for each (seven and eight loops, F = 1).
     """
     bundles = np.count_nonzero(_strings(rows), axis=(1, 2)) // 2
-    found: NDArray[np.int64] = _trinomials()[bundles, 3 * np.count_nonzero(rows, axis=1) - 4] + 5000
-    return found
+    assignments: NDArray[np.int64] = _trinomials()[bundles, 3 * np.count_nonzero(rows, axis=1) - 4] + 5000
+    return assignments
 
 
 @cache
@@ -143,17 +143,17 @@ def _trinomials() -> NDArray[np.int64]:
 
 
 def _has_degrees(rows: Packed, assortment: Assortment) -> NDArray[np.bool_]:
-    """Which of the graphs have so many nodes of three, four, ... strings; their degrees fall."""
-    wanted = [i for i, k in enumerate(assortment, 2) if i > 2 for _ in range(k)][::-1]
-    if len(wanted) > rows.shape[1]:
+    """Whether each graph has these numbers of nodes of three, four, ... strings; its degrees are descending."""
+    degrees = [i for i, k in enumerate(assortment, 2) if i > 2 for _ in range(k)][::-1]
+    if len(degrees) > rows.shape[1]:
         return np.zeros(len(rows), np.bool_)
-    row = np.array(wanted + [0] * (rows.shape[1] - len(wanted)), np.int64)
-    found: NDArray[np.bool_] = (_strings(rows).sum(axis=2) == row).all(axis=1)
-    return found
+    row = np.array(degrees + [0] * (rows.shape[1] - len(degrees)), np.int64)
+    matches: NDArray[np.bool_] = (_strings(rows).sum(axis=2) == row).all(axis=1)
+    return matches
 
 
 def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...]:
-    """The numbers of chains of a piece by assortment, with orbits if asked for.
+    """The numbers of chains of a piece by assortment, with orbits if requested.
 
     Raises:
         OverflowError: a number beyond 64 bits.
@@ -167,16 +167,16 @@ def count_piece(piece: WorkPiece, orbits: bool = False) -> tuple[PieceCount, ...
     table = np.zeros((len(piece.graphs), COLUMNS), np.int64)
     count = for_work(take_census, census(len(piece.graphs)))
     count(np.ascontiguousarray(piece.graphs), piece.mobility, orbits, make_census_memory(loops, piece.mobility), table)
-    found = []
+    counts = []
     for code in np.unique(table[:, DEGREES]):
         higher = []
-        rest = int(code)
-        while rest:
-            higher.append(rest & ((1 << DIGITS) - 1))
-            rest >>= DIGITS
+        remaining = int(code)
+        while remaining:
+            higher.append(remaining & ((1 << DIGITS) - 1))
+            remaining >>= DIGITS
         sums = [sum(column) for column in table[table[:, DEGREES] == code, DEGREES + 1 :].T.tolist()]
-        found.append(PieceCount((piece.links - sum(higher), *higher), *sums))
-    return tuple(found)
+        counts.append(PieceCount((piece.links - sum(higher), *higher), *sums))
+    return tuple(counts)
 
 
 def list_piece(piece: WorkPiece, form: str = "edges") -> NDArray[np.uint8]:
@@ -198,42 +198,42 @@ def _blocks(piece: WorkPiece, form: str) -> Iterator[NDArray[np.uint8]]:
     loops, joints = loop_count(piece.links, piece.mobility), joint_count(piece.links, piece.mobility)
     assert loops is not None
     assert joints is not None
-    desk = make_list_memory(loops, piece.mobility)
+    memory = make_list_memory(loops, piece.mobility)
     graphs = np.ascontiguousarray(piece.graphs)
-    room = max(256, min(65536, piece.work // 4))
+    capacity = max(256, min(65536, piece.work // 4))
     listed = for_work(list_chains, census(len(graphs)))
     while True:
-        edges = np.empty((room, joints, 2), np.uint8)
-        found = listed(graphs, piece.mobility, desk, edges)
-        edges = edges[:found]
+        edges = np.empty((capacity, joints, 2), np.uint8)
+        count = listed(graphs, piece.mobility, memory, edges)
+        edges = edges[:count]
         if form == "graph6":
-            lines = np.empty((found, line_length(piece.links)), np.uint8)
-            for_work(write_graph6, writing(found, piece.links))(edges, piece.links, lines)
+            lines = np.empty((count, line_length(piece.links)), np.uint8)
+            for_work(write_graph6, writing(count, piece.links))(edges, piece.links, lines)
             yield lines
         else:
             yield edges
-        if found < room:
+        if count < capacity:
             return
 
 
 def run_pieces(
     function: Callable[[P], R], work: Iterable[P], executor: Executor | None = None, ahead: int = 64
 ) -> Iterator[R]:
-    """The results of a function for every piece, in order; at most `ahead` pieces are out at a time.
+    """The results of a function for every piece, in order; at most `ahead` pieces are pending at a time.
 
-    Without an executor the work is done here. What a piece raises is raised; pieces not yet begun are then,
-    or when the iterator is closed, taken back.
+    Without an executor the work runs in this process. An error of a piece is raised; pieces not yet started are then,
+    or when the iterator is closed, cancelled.
     """
     if executor is None:
         yield from map(function, work)
         return
     source = iter(work)
-    out: deque[Future[R]] = deque(executor.submit(function, piece) for piece in islice(source, ahead))
+    pending: deque[Future[R]] = deque(executor.submit(function, piece) for piece in islice(source, ahead))
     try:
-        while out:
-            result = out.popleft().result()
-            out.extend(executor.submit(function, piece) for piece in islice(source, 1))
+        while pending:
+            result = pending.popleft().result()
+            pending.extend(executor.submit(function, piece) for piece in islice(source, 1))
             yield result
     finally:
-        for future in out:
+        for future in pending:
             future.cancel()

@@ -1,4 +1,4 @@
-"""One front for everything that is enumerated: what is asked, and the chains or their numbers as the answer."""
+"""Requests for an enumeration, and the numbers that answer them."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class RequestError(GrueblerError):
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What is to be enumerated: planar chains of revolute joints without any rigid part.
+    """The parameters of an enumeration of planar chains of revolute joints without any rigid part.
 
     Raises:
-        RequestError: a value that makes no sense, said in one sentence.
+        RequestError: an invalid value.
 
     >>> Request(8, multiple_joints="0-2").joints_range
     (0, 2)
@@ -40,7 +40,7 @@ class Request:
     assortment: tuple[int, ...] | None = None
     """Numbers of binary, ternary, ... links."""
     multiple_joints: int | str = 0
-    """How many joints of more than two links: exactly so many, a range such as ``0-2``, or ``any``."""
+    """The number of joints of more than two links, a range such as ``0-2``, or ``any``."""
 
     def __post_init__(self) -> None:
         for name in ("links", "mobility"):
@@ -68,14 +68,14 @@ class Request:
     @property
     def joints_range(self) -> tuple[int, int | None]:
         """The smallest and largest number of multiple joints; None: no limit."""
-        wanted = self.multiple_joints
-        if isinstance(wanted, int) and not isinstance(wanted, bool) and wanted >= 0:
-            return wanted, wanted
-        if wanted == "any":
+        number = self.multiple_joints
+        if isinstance(number, int) and not isinstance(number, bool) and number >= 0:
+            return number, number
+        if number == "any":
             return 0, None
-        if isinstance(wanted, str) and (match := re.fullmatch(r"(\d+)(?:-(\d+))?", wanted)):
+        if isinstance(number, str) and (match := re.fullmatch(r"(\d+)(?:-(\d+))?", number)):
             return int(match[1]), int(match[2] or match[1])
-        raise RequestError("multiple joints are a number, a range such as 0-2 or 'any', not {wanted!r}", wanted=wanted)
+        raise RequestError("multiple joints are a number, a range such as 0-2 or 'any', not {wanted!r}", wanted=number)
 
     @property
     def only_simple(self) -> bool:
@@ -84,12 +84,12 @@ class Request:
 
     @property
     def classes(self) -> tuple[str, ...]:
-        """The classes asked for, in their order; chains with F < 2 are never fractionated."""
-        asked = CLASSES if self.fractionated == "all" else (self.fractionated,)
-        return tuple(c for c in asked if self.mobility >= {"none": 0, "link": 2, "joint": 3}[c])
+        """The requested classes, in their order; chains with F < 2 are never fractionated."""
+        classes = CLASSES if self.fractionated == "all" else (self.fractionated,)
+        return tuple(c for c in classes if self.mobility >= {"none": 0, "link": 2, "joint": 3}[c])
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data, equal for requests that ask the same."""
+        """Plain data, equal for equivalent requests."""
         fewest, most = self.joints_range
         return {
             "links": self.links,
@@ -101,32 +101,32 @@ class Request:
 
 
 def _assortment(numbers: Sequence[int], links: int) -> tuple[int, ...]:
-    kept = list(numbers)
-    if any(not isinstance(k, int) or isinstance(k, bool) or k < 0 for k in kept):
+    counts = list(numbers)
+    if any(not isinstance(k, int) or isinstance(k, bool) or k < 0 for k in counts):
         raise RequestError(
             "an assortment gives the numbers of binary, ternary, ... links, not {numbers}", numbers=tuple(numbers)
         )
-    if sum(kept) != links:
+    if sum(counts) != links:
         raise RequestError(
             "the assortment {assortment} has {count} links in all, not {links}",
-            assortment=",".join(map(str, kept)),
-            count=sum(kept),
+            assortment=",".join(map(str, counts)),
+            count=sum(counts),
             links=links,
         )
-    while kept[-1] == 0:
-        kept.pop()
-    return tuple(kept)
+    while counts[-1] == 0:
+        counts.pop()
+    return tuple(counts)
 
 
 @dataclass(frozen=True)
 class RequestCount(ChainCount):
-    """What there is of the chains asked for. A drive of a multiple joint is the joint and the link it drives."""
+    """The numbers of the requested chains. A drive of a multiple joint is the joint and the link it drives."""
 
     by_fractionation: dict[str, int] = field(default_factory=dict)
-    """Chains of each class asked for: ``none``, ``link``, ``joint``."""
+    """Chains of each requested class: ``none``, ``link``, ``joint``."""
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data; by_fractionation only if more than one class was asked for."""
+        """Plain data; by_fractionation only if more than one class was requested."""
         document = ChainCount.to_json(self)
         if len(self.by_fractionation) > 1:
             document["by_fractionation"] = dict(self.by_fractionation)

@@ -1,4 +1,4 @@
-"""A request answered piece by piece: with workers, progress and a directory for what is finished."""
+"""A request processed piece by piece: with workers, progress and a directory for finished pieces."""
 
 from __future__ import annotations
 
@@ -40,36 +40,37 @@ def run_count(
     progress: Callable[[Progress], None] | None = None,
     expected: int | None = None,
 ) -> RequestCount:
-    """Count what is asked for.
+    """Count the requested chains.
 
     Args:
-        request: what is asked for.
+        request: the request.
         orbits: whether to count inversions, driven mechanisms and joint orbits too.
-        executor: see `runs.perform`.
-        checkpoint: a directory for finished pieces; a run with the same request goes on there.
-        progress: told after every piece.
+        executor: see `worker_pool.run_work`.
+        checkpoint: a directory for finished pieces; a run with the same request resumes there.
+        progress: called after every piece.
         expected: the number of chains, if it is known or estimated, for the progress.
 
-    Raises `RunError` where workers or the directory fail, and `GrueblerError` for more loops than can be worked on.
+    Raises `RunError` where workers or the directory fail, and `GrueblerError` for more loops than the kernels can
+    process.
     """
     watch = ProgressCounter(progress, expected)
     store = _store(checkpoint, request, {"count": True, "orbits": orbits})
 
     def known(number: int) -> list[PieceTally] | None:
-        kept = store.head(number) if store is not None else None
+        head = store.head(number) if store is not None else None
         try:
             piece_tallies = [
-                PieceTally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (kept or {})["tallies"]
+                PieceTally(kind, tuple(sizes), *numbers) for kind, sizes, *numbers in (head or {})["tallies"]
             ]
         except (KeyError, TypeError, ValueError):  # none, or not the head of a counted piece
             return None
         watch.add(sum(tally.chains for tally in piece_tallies), fresh=False)
         return piece_tallies
 
-    def finished(number: int, found: list[PieceTally]) -> None:
+    def finished(number: int, tallies: list[PieceTally]) -> None:
         if store is not None:
-            store.save(number, {"tallies": found})
-        watch.add(sum(tally.chains for tally in found), fresh=True)
+            store.save(number, {"tallies": tallies})
+        watch.add(sum(tally.chains for tally in tallies), fresh=True)
 
     size = _COUNTED_LONG if (loop_count(request.links, request.mobility) or 0) > 7 else _COUNTED
     results = run_work(
@@ -90,9 +91,9 @@ def run_list(
     progress: Callable[[Progress], None] | None = None,
     expected: int | None = None,
 ) -> Generator[PieceListing, None, None]:
-    """The chains asked for, written out in a format piece by piece; arguments as for `run_count`.
+    """The requested chains, written out in a format piece by piece; arguments as for `run_count`.
 
-    Raises as `run_count`, while it is gone through.
+    Raises as `run_count`, during the iteration.
     """
     watch = ProgressCounter(progress, expected)
     store = _store(checkpoint, request, {"format": form})
@@ -117,7 +118,7 @@ _Head = list[tuple[str, int, int]]
 
 @dataclass(frozen=True, slots=True)
 class _ListToFile:
-    """What a worker does to list a piece: the text goes into a file, only its head is handed back."""
+    """Lists a piece in a worker: the text goes into a file, only its head is returned."""
 
     lister: PieceLister
     files: PieceFiles
@@ -158,7 +159,7 @@ def _filed(
             files.remove(number)
 
 
-def _store(checkpoint: Path | None, request: Request, how: dict[str, object]) -> Checkpoint | None:
+def _store(checkpoint: Path | None, request: Request, settings: dict[str, object]) -> Checkpoint | None:
     from gruebler import __version__
 
-    return None if checkpoint is None else Checkpoint(checkpoint, request.to_json() | how, __version__)
+    return None if checkpoint is None else Checkpoint(checkpoint, request.to_json() | settings, __version__)

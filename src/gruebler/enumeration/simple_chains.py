@@ -1,4 +1,4 @@
-"""The chains themselves: one after another, or millions at a time.
+"""Chains with simple joints, one by one or in blocks.
 
 The order is always the same: contracted graphs as `contracted.packed_graphs` yields them, the chains of each in
 lexicographic order of the weights of its bundles. Each chain appears once; its links are the nodes of the
@@ -21,7 +21,7 @@ from gruebler.enumeration.pieces import WorkPiece, list_piece, pieces, run_piece
 
 __all__ = ["chains_of", "edge_blocks", "graph6_blocks", "simple_chains"]
 
-_LAZY = 100_000  # work of a piece when chains are asked for one by one: a few thousand chains
+_LAZY = 100_000  # work of a piece when chains are requested one by one: a few thousand chains
 _BULK = 200_000  # ... and in bulk: some ten thousand chains, a megabyte or two
 
 
@@ -38,13 +38,13 @@ def simple_chains(
         links: number of links, n.
         mobility: F >= 0; with F = 0 the chains are the Baranov trusses.
         assortment: only chains with these numbers of binary, ternary, ... links.
-        executor: where to do the pieces of the work; here if there is none.
+        executor: runs the pieces of the work; by default this process.
 
-    Lazy: the first chains come at once. Building the `Chain` objects takes most of the time, some 50 us each;
-    `edge_blocks` and `graph6_blocks` are there for millions.
+    Lazy: the first chains are available immediately. Building the `Chain` objects takes most of the time, some 50 us
+    each; use `edge_blocks` or `graph6_blocks` for millions of chains.
 
     Raises:
-        GrueblerError: links < 1, mobility < 0, or more loops than can be worked on.
+        GrueblerError: links < 1, mobility < 0, or more loops than the kernels can process.
 
     >>> for chain in simple_chains(6):
     ...     print(chain)
@@ -93,7 +93,7 @@ def graph6_blocks(
 ) -> Iterator[NDArray[np.uint8]]:
     r"""The same chains in bulk as graph6: arrays uint8[k, bytes of a line], line ends included.
 
-    A block can be written to a file as it is (`block.tofile(file)`). Cost about 350 ns for each chain on one
+    A block can be written directly to a file (`block.tofile(file)`). Cost about 350 ns for each chain on one
     core: 16 links, 19.8 million lines of 22 bytes, take 7 s.
 
     >>> b"".join(block.tobytes() for block in graph6_blocks(6))
@@ -113,8 +113,8 @@ def _blocks(
 
 def _ring(links: int, form: str) -> NDArray[np.uint8]:
     """The chain of one loop, in a block of its own."""
-    here = np.arange(links)
-    edges = np.stack([here, (here + 1) % links], axis=1).astype(np.uint8)[None]
+    link = np.arange(links)
+    edges = np.stack([link, (link + 1) % links], axis=1).astype(np.uint8)[None]
     if form == "edges":
         return edges
     from gruebler._numeric.compiling import for_work

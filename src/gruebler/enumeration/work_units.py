@@ -1,6 +1,6 @@
-"""The work that answers a request, cut into pieces: plain data, in an order that is always the same.
+"""The work of a request, divided into pieces: plain data, in a fixed order.
 
-A piece holds contracted graphs (chains that are not fractionated), a way to add the last block (fractionated ones) or
+A piece contains contracted graphs (chains that are not fractionated), sizes of the last block (fractionated ones) or
 some chains with simple joints (multiple joints grow from them). `PieceCounter` and `PieceLister` are pure functions of
 a piece and can be sent to any worker.
 """
@@ -57,7 +57,7 @@ Work = WorkPiece | RingPiece | BlockAddition | MultipleJointPiece
 
 
 class PieceTally(NamedTuple):
-    """The chains of one class and assortment in a piece, and the orbits on them (0 if not asked for)."""
+    """The chains of one class and assortment in a piece, and the orbits on them (0 if not requested)."""
 
     kind: str
     assortment: Assortment
@@ -80,8 +80,8 @@ def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
     """The pieces of work, lazily.
 
     Args:
-        request: what is asked.
-        size: work of a piece of contracted graphs, see `pieces.Piece`.
+        request: the request.
+        size: work of a piece of contracted graphs, see `pieces.WorkPiece`.
     """
     if not request.only_simple:
         simple = chains_of_request(Request(request.links, request.mobility, "all"))
@@ -99,7 +99,7 @@ def work_units(request: Request, *, size: int = 50_000_000) -> Iterator[Work]:
 
 
 def chains_of_request(request: Request) -> Iterator[Chain]:
-    """The chains asked for, lazily, in the order of the pieces of work."""
+    """The requested chains, lazily, in the order of the pieces of work."""
     if request.only_simple and request.classes == ("none",):
         yield from plain_chains(request.links, request.mobility, assortment=request.assortment)
         return
@@ -116,7 +116,7 @@ def chains_of_request(request: Request) -> Iterator[Chain]:
 
 
 def _chains(request: Request, work: Work) -> Iterator[tuple[str, Chain]]:
-    """The chains of a piece with their classes; a piece of contracted graphs is never asked."""
+    """The chains of a piece with their classes, for pieces without contracted graphs."""
     if isinstance(work, RingPiece):
         yield "none", Chain.from_edges([(i, (i + 1) % work.links) for i in range(work.links)])
     elif isinstance(work, BlockAddition):
@@ -138,7 +138,7 @@ def _edges(chain: Chain) -> Edges:
 
 @dataclass(frozen=True, slots=True)
 class PieceCounter:
-    """What a worker does to count a piece."""
+    """Counts a piece in a worker."""
 
     request: Request
     orbits: bool
@@ -157,7 +157,7 @@ class PieceCounter:
 
 def _orbits(chain: Chain) -> tuple[int, int, int]:
     """Orbits of links, of joints, and of (frame, joint at it, link that the joint drives)."""
-    found = symmetry(chain)
+    symmetries = symmetry(chain)
     drives = [
         (i, number, j)
         for number, joint in enumerate(chain.joints)
@@ -165,16 +165,16 @@ def _orbits(chain: Chain) -> tuple[int, int, int]:
         for j in map(chain.index, joint.links)
         if i != j
     ]
-    images = [{(i, k, j): (g.links[i], g.joints[k], g.links[j]) for i, k, j in drives} for g in found.generators]
-    return len(found.link_orbits), len(found.joint_orbits), len(orbits_of(drives, images))
+    images = [{(i, k, j): (g.links[i], g.joints[k], g.links[j]) for i, k, j in drives} for g in symmetries.generators]
+    return len(symmetries.link_orbits), len(symmetries.joint_orbits), len(orbits_of(drives, images))
 
 
-def add_tallies(request: Request, orbits: bool, found: Iterable[Iterable[PieceTally]]) -> RequestCount:
-    """The numbers of all pieces in one."""
+def add_tallies(request: Request, orbits: bool, tallies_of_pieces: Iterable[Iterable[PieceTally]]) -> RequestCount:
+    """The sum of the numbers of all pieces."""
     by_assortment: dict[Assortment, int] = {}
     by_kind = dict.fromkeys(request.classes if request.fractionated != "all" else ("none", "link", "joint"), 0)
     sums = [0, 0, 0, 0]
-    for tallies in found:
+    for tallies in tallies_of_pieces:
         for tally in tallies:
             if tally.chains:
                 by_assortment[tally.assortment] = by_assortment.get(tally.assortment, 0) + tally.chains
@@ -195,7 +195,7 @@ def add_tallies(request: Request, orbits: bool, found: Iterable[Iterable[PieceTa
 
 @dataclass(frozen=True, slots=True)
 class PieceLister:
-    """What a worker does to write out a piece in a format: graph6, text or json."""
+    """Writes out a piece in a worker, in a format: graph6, text or json."""
 
     request: Request
     format: str
@@ -205,10 +205,12 @@ class PieceLister:
         if isinstance(work, WorkPiece) and self.format == "graph6":
             block = list_piece(work, "graph6")
             return [PieceListing("none", len(block), block.tobytes())]
-        found: dict[str, list[str]] = {}
+        lines_by_kind: dict[str, list[str]] = {}
         for kind, joints in self._joints(work):
-            found.setdefault(kind, []).append(self._written(kind, joints))
-        return [PieceListing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(found.items())]
+            lines_by_kind.setdefault(kind, []).append(self._written(kind, joints))
+        return [
+            PieceListing(kind, len(lines), "".join(lines).encode()) for kind, lines in sorted(lines_by_kind.items())
+        ]
 
     def _joints(self, work: Work) -> Iterator[tuple[str, Iterable[Iterable[int]]]]:
         if isinstance(work, WorkPiece):
@@ -224,8 +226,8 @@ class PieceLister:
             return _graph6(self.request.links, joints)
         label = {"fractionation": kind} if self.request.fractionated == "all" else {}
         names = [str(i) for i in range(self.request.links)]
-        made = [{"pair": "revolute", "links": [names[i] for i in links]} for links in joints]
-        return json.dumps({**label, "space": "planar", "links": names, "joints": made}) + "\n"
+        joint_documents = [{"pair": "revolute", "links": [names[i] for i in links]} for links in joints]
+        return json.dumps({**label, "space": "planar", "links": names, "joints": joint_documents}) + "\n"
 
 
 def _graph6(links: int, joints: Iterable[Iterable[int]]) -> str:

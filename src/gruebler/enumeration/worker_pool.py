@@ -1,6 +1,6 @@
-"""Long runs: pieces of work done by workers that may die.
+"""Long runs: pieces of work in worker processes, with recovery when workers are lost.
 
-A piece is done by a pure function, so it may be done twice. Nothing is printed here; `Progress` says how far a run is.
+A pure function processes a piece, so it may run twice. Nothing is printed here; `Progress` reports the state of a run.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ R = TypeVar("R")
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """How far a run is."""
+    """The state of a run."""
 
     pieces: int
     """Finished pieces, those of an earlier run included."""
@@ -47,7 +47,7 @@ class Progress:
 
     @property
     def seconds_left(self) -> float | None:
-        """Estimated from the rate; None where nothing can be said yet.
+        """Estimated from the rate; None before there is a rate.
 
         >>> Progress(3, 500, 500, 2.0, 1500).seconds_left
         4.0
@@ -58,10 +58,10 @@ class Progress:
 
 
 class ProcessPools:
-    """Makes process pools, one after another, whose workers end when this process does.
+    """Creates process pools, one after another, whose workers end when this process does.
 
-    Workers ignore the interrupt key; each watches a pipe that only this process holds open, so that neither a kill
-    nor an interrupt leaves workers behind. `stop` ends them at once, whatever they are doing.
+    Workers ignore the interrupt key; each watches a pipe that only this process keeps open, so that neither a kill
+    nor an interrupt leaves workers behind. `stop` terminates them immediately.
     """
 
     def __init__(self, jobs: int) -> None:
@@ -71,7 +71,7 @@ class ProcessPools:
         self._line: Connection | None = None
 
     def __call__(self) -> ProcessPoolExecutor:
-        """A fresh pool; the workers of the one before are ended."""
+        """A new pool; the workers of the previous one are terminated."""
         self.stop()
         # Forking is quick and inherits loaded kernels, but is safe only where no other thread runs.
         alone = sys.platform == "linux" and threading.active_count() == 1
@@ -82,7 +82,7 @@ class ProcessPools:
         )
 
     def stop(self) -> None:
-        """End the workers of the last pool."""
+        """Terminate the workers of the last pool."""
         if self._line is not None:
             self._line.close()
             self._line = None
@@ -95,7 +95,7 @@ def _begin_work(watched: Connection, line: Connection) -> None:
 
 
 def _end_with(watched: Connection) -> None:
-    """Wait until nobody holds the other end of the pipe, then end this process."""
+    """Wait until the other end of the pipe is closed, then end this process."""
     try:
         watched.recv_bytes()
     except (EOFError, OSError):
@@ -117,28 +117,28 @@ def run_work(
     Args:
         function: a pure function of a piece; for processes, function, pieces and results can be pickled.
         work: the pieces, taken lazily.
-        executor: where to do them: an executor, a function that makes one (it is then shut down here), or here if None.
-        known: gives the result of the piece of a number if it need not be done any more.
-        finished: called with number and result as soon as a piece is done here, in any order.
-        ahead: how many pieces may be out or waiting for an earlier one.
-        retries: how often in a row workers may be lost before anything is finished again.
+        executor: an executor, a function that creates one (this function then shuts it down), or None for this process.
+        known: returns the result of a piece, by its number, if an earlier run has finished it.
+        finished: called with number and result as soon as a piece is finished, in any order.
+        ahead: the largest number of pieces that are pending or waiting for an earlier one.
+        retries: the number of successive losses of workers that is tolerated without a finished piece between them.
 
-    Results that travel between processes should be small (some kilobytes): a worker killed while it sends a large one
-    leaves half of it in the pipe, and the pool waits for the rest without end. Large results go through
+    Results that are sent between processes should be small (some kilobytes): a worker killed while it sends a large one
+    leaves half of it in the pipe, and the pool waits for the remainder without end. Large results go through
     `checkpoint.PieceFiles`.
 
-    A piece lost with its worker is done again on a fresh pool. A broken `ProcessPoolExecutor` that was given is
-    replaced by one of its kind for the rest.
+    A piece lost with its worker runs again on a new pool. A broken `ProcessPoolExecutor` from the caller is
+    replaced by one of its kind.
 
     Raises:
-        RunError: workers are lost again and again, or an executor broke that cannot be made anew.
-        Whatever the function raises.
+        RunError: workers are lost repeatedly, or an executor broke and cannot be replaced.
+        Any error of the function.
     """
-    kept = known if known is not None else _nothing
-    told = finished if finished is not None else _nothing
+    earlier_result = known if known is not None else _nothing
+    report = finished if finished is not None else _nothing
     if executor is None:
-        return _done_here(function, work, kept, told)
-    return _done_by(lambda: _Workers(function, executor, retries), work, kept, told, ahead)
+        return _done_here(function, work, earlier_result, report)
+    return _done_by(lambda: _Workers(function, executor, retries), work, earlier_result, report, ahead)
 
 
 def _nothing(*_: object) -> None:
@@ -192,95 +192,96 @@ def _done_by(
 
 
 class _Workers(Generic[P, R]):
-    """An executor with the pieces that are out, and their rescue when workers are lost."""
+    """An executor with its pending pieces, which are sent again when workers are lost."""
 
     def __init__(self, function: Callable[[P], R], executor: Executor | Callable[[], Executor], retries: int) -> None:
         self.function = function
-        self.given = executor
-        self.own = not isinstance(executor, Executor)
+        self.source = executor
+        self.owned = not isinstance(executor, Executor)
         self.executor = executor if isinstance(executor, Executor) else executor()
         self.retries = retries
         self.losses = 0
-        self.out: dict[Future[R], tuple[int, P]] = {}
-        self.again: list[tuple[int, P]] = []
+        self.pending: dict[Future[R], tuple[int, P]] = {}
+        self.lost: list[tuple[int, P]] = []
 
     def __len__(self) -> int:
-        return len(self.out) + len(self.again)
+        return len(self.pending) + len(self.lost)
 
     def send(self, number: int, piece: P) -> None:
         try:
-            self.out[self.executor.submit(self.function, piece)] = number, piece
+            self.pending[self.executor.submit(self.function, piece)] = number, piece
         except BrokenExecutor:
-            self.again.append((number, piece))
+            self.lost.append((number, piece))
 
     def collect(self) -> list[tuple[int, R]]:
-        """Wait for something to be finished; everything finished now."""
-        found = []
-        done = wait(self.out, return_when=FIRST_COMPLETED).done if self.out else set()
+        """Wait until a piece is finished; the results of all pieces that are finished then."""
+        results = []
+        done = wait(self.pending, return_when=FIRST_COMPLETED).done if self.pending else set()
         for future in done:
-            number, piece = self.out.pop(future)
+            number, piece = self.pending.pop(future)
             try:
-                found.append((number, future.result()))
+                results.append((number, future.result()))
             except BrokenExecutor:
-                self.again.append((number, piece))
-        if found:
+                self.lost.append((number, piece))
+        if results:
             self.losses = 0
-        if self.again:
+        if self.lost:
             self._renew()
-        return sorted(found, key=lambda item: item[0])
+        return sorted(results, key=lambda item: item[0])
 
     def _renew(self) -> None:
-        """Put a fresh executor in the place of a broken one, and send out again what was lost."""
+        """Replace a broken executor by a new one, and send the lost pieces again."""
         self.losses += 1
-        self.again += self.out.values()
-        self.out.clear()
+        self.lost += self.pending.values()
+        self.pending.clear()
         if self.losses > self.retries:
             raise RunError(
                 "workers were lost {losses} times in a row without finishing a piece of work; is there enough "
                 "memory for so many of them?",
                 losses=self.losses,
             )
-        if self.own:
+        if self.owned:
             self.executor.shutdown(wait=True, cancel_futures=True)
-        if callable(self.given):
-            self.executor = self.given()
-        elif isinstance(self.given, ProcessPoolExecutor):
-            self.given = ProcessPools(getattr(self.given, "_max_workers", None) or os.cpu_count() or 1)
-            self.executor, self.own = self.given(), True
+        if callable(self.source):
+            self.executor = self.source()
+        elif isinstance(self.source, ProcessPoolExecutor):
+            self.source = ProcessPools(getattr(self.source, "_max_workers", None) or os.cpu_count() or 1)
+            self.executor, self.owned = self.source(), True
         else:
             raise RunError(
-                "the {name} broke and cannot be made anew; give a function that can", name=type(self.given).__name__
+                "the {name} broke and cannot be replaced; pass a function that creates executors",
+                name=type(self.source).__name__,
             )
-        lost, self.again = sorted(self.again, key=lambda item: item[0]), []
-        for number, piece in lost:
+        resent, self.lost = sorted(self.lost, key=lambda item: item[0]), []
+        for number, piece in resent:
             self.send(number, piece)
 
     def dismiss(self) -> None:
-        if isinstance(self.given, ProcessPools) and self.out:
-            self.given.stop()
-        elif not self.own:
-            for future in self.out:
+        if isinstance(self.source, ProcessPools) and self.pending:
+            self.source.stop()
+        elif not self.owned:
+            for future in self.pending:
                 future.cancel()
-        if self.own:
+        if self.owned:
             self.executor.shutdown(wait=True, cancel_futures=True)
-        if isinstance(self.given, ProcessPools):
-            self.given.stop()
+        if isinstance(self.source, ProcessPools):
+            self.source.stop()
 
 
 class ProgressCounter:
-    """Counts what is finished and tells how far the run is."""
+    """Counts finished pieces and reports the progress of the run."""
 
-    def __init__(self, tell: Callable[[Progress], None] | None, expected: int | None = None) -> None:
-        self._tell = tell
+    def __init__(self, report: Callable[[Progress], None] | None, expected: int | None = None) -> None:
+        self._report = report
         self._expected = expected
         self._begun = monotonic()
         self._pieces = self._chains = self._fresh = 0
 
     def add(self, chains: int, *, fresh: bool) -> None:
-        """One more piece with so many chains, done in this run or kept from an earlier one."""
+        """One more piece with this number of chains, from this run or an earlier one."""
         self._pieces += 1
         self._chains += chains
         self._fresh += chains * fresh
-        if self._tell is not None:
+        if self._report is not None:
             seconds = monotonic() - self._begun
-            self._tell(Progress(self._pieces, self._chains, self._fresh, seconds, self._expected))
+            self._report(Progress(self._pieces, self._chains, self._fresh, seconds, self._expected))

@@ -1,8 +1,8 @@
-"""Exercises solved step by step, fresh tasks with solutions, answers marked, and tables for teaching.
+"""Exercises solved step by step, generated tasks with solutions, graded answers, and tables for teaching.
 
-A *solution* is a function of the given quantities (`methods`, one module for each theory), so that it solves the
-exercises of the seeds, the worked examples and fresh tasks alike; what is printed is compared with it and never stored
-as a result. docs/theory/exercises.md has the conventions and the misprints with the computed values.
+A *solution* is a function of the given quantities (`methods`, one module for each theory). The same function solves
+the exercises of the teaching documents, the worked examples and generated tasks; printed results are compared with it
+and never stored as results. docs/theory/exercises.md has the conventions and the misprints with the computed values.
 """
 
 from gruebler.exercises.generation import KINDS, LEVELS, generate

@@ -1,4 +1,4 @@
-"""Answers as people write them: 60, 7,2 cm, 78.5°, ± 78,5; read, and brought to the unit that is asked for."""
+"""Answers as people write them: 60, 7,2 cm, 78.5°, ± 78,5; read, and converted to the unit of the result."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["GivenAnswer", "read_answer", "unit_scale"]
 
 _NUMBER = re.compile(r"\s*(±?)\s*([-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d{1,2})?)\s*(.*?)\s*", re.ASCII)
 _SPELT = {"deg": "°", "degree": "°", "degrees": "°", "grad": "°", "rad/s": "1/s", "s^-1": "1/s", "rad/s²": "1/s²"}
-_WORTH = {
+_UNITS = {
     **{f"{name}{per}": (worth, f"length{per}") for name, worth in (("mm", 1.0), ("cm", 10.0), ("m", 1000.0))
        for per in ("", "/s", "/s²")},
     "°": (1.0, "angle"),
@@ -24,22 +24,22 @@ _WORTH = {
     "1/s": (1.0, "rate"),
     "1/s²": (1.0, "rate of a rate"),
 }  # fmt: skip
-"""What a unit is worth in the first of its kind, and the kind."""
+"""Each unit in the first unit of its kind, and the kind."""
 
 
 class GivenAnswer(NamedTuple):
-    """A number that was answered, in the unit of the result."""
+    """The number of an answer, in the unit of the result."""
 
     number: float
     place: float
-    """What one unit of the last written digit is worth."""
+    """The value of one unit of the last written digit."""
     has_unit: bool
 
 
 def read_answer(answer: str, result: Result) -> GivenAnswer:
-    """The number of an answer; without a unit it is taken in that of the result.
+    """The number of an answer; without a unit it has that of the result.
 
-    Raises `GrueblerError` for what is no number and for a unit that does not measure the result.
+    Raises `GrueblerError` for an answer without a number and for a unit of another kind.
 
     >>> from gruebler.text import message
     >>> read_answer("7,2 cm", Result("H", message("stroke"), 72.0, "mm")).number
@@ -66,14 +66,14 @@ def read_answer(answer: str, result: Result) -> GivenAnswer:
 
 
 def unit_scale(unit: str, target: str) -> float | None:
-    """What a unit is worth in another one of the same kind; None if it is of another kind, or unknown.
+    """A unit in terms of another one of the same kind; None if it is of another kind, or unknown.
 
     >>> unit_scale("cm/s^2", "mm/s²"), unit_scale("s", "mm")
     (10.0, None)
     """
     plain = re.sub(r"\^?2$", "²", unit.replace(" ", ""))
     plain = _SPELT.get(plain.casefold(), plain)
-    mine, other = _WORTH.get(plain), _WORTH.get(target)
-    if mine is None or other is None or mine[1] != other[1]:
+    source_unit, target_unit = _UNITS.get(plain), _UNITS.get(target)
+    if source_unit is None or target_unit is None or source_unit[1] != target_unit[1]:
         return None
-    return mine[0] / other[0]
+    return source_unit[0] / target_unit[0]

@@ -28,7 +28,7 @@ BY_SOLVER = message("Largest distance of the path from that of the general solve
 
 
 def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points: Reals, branch: str) -> None:
-    """The path against the general solver's, whose point is ``C``."""
+    """Check the path against that of the general solver, whose point is ``C``."""
     moved = move(linkage, drives, branch=branch)
     apart = (
         float(np.abs(moved.complex_point("C") - (points[:, 0] + 1j * points[:, 1])).max()) if moved.complete else 1.0
@@ -38,7 +38,7 @@ def check_path(builder: SolutionBuilder, linkage: Linkage, drives: Reals, points
 
 def _read_points(points: str) -> list[tuple[float, float]]:
     try:
-        pairs = [tuple(float(x) for x in word.split(",")) for word in points.split(";")]
+        pairs = [tuple(float(x) for x in text.split(",")) for text in points.split(";")]
     except ValueError:
         pairs = []
     if not pairs or any(len(pair) != 2 for pair in pairs):
@@ -49,8 +49,8 @@ def _read_points(points: str) -> list[tuple[float, float]]:
 def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 15, unit: str = "mm") -> Solution:
     """The paths of coupler points ``u,v; u,v`` of a four-bar over a turn, B above the line A-B0.
 
-    >>> found = four_bar(30, 90, 100, 120, "45,40")
-    >>> [round(x, 6) for x in found.tables[0].rows[0]]
+    >>> solution = four_bar(30, 90, 100, 120, "45,40")
+    >>> [round(x, 6) for x in solution.tables[0].rows[0]]
     [0.0, 10.267581, 56.882613]
     """
     size = FourBar(a, b, c, d)
@@ -65,15 +65,15 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
         )
     chosen = _read_points(points)
     as_step(step)
-    way = SolutionBuilder(unit)
-    way.say(
+    builder = SolutionBuilder(unit)
+    builder.say(
         message(
             "A0 = (0, 0), B0 = (d, 0). The crank gives A; B is where the circle of radius b about A meets that "
             "of radius c about B0, above the line A-B0:"
         ),
         "A = a·(cos φ, sin φ), |AB| = b, |B0B| = c",
     )
-    way.say(
+    builder.say(
         message("The coupler point lies u along A-B and v to its left; θ is the direction from A to B:"),
         "K = A + u·(cos θ, sin θ) + v·(-sin θ, cos θ)",
     )
@@ -82,20 +82,20 @@ def four_bar(a: float, b: float, c: float, d: float, points: str, step: float = 
     paths = [motion.point(u, v).value for u, v in chosen]
     names = [f"K{k}" if len(chosen) > 1 else "K" for k in range(1, len(chosen) + 1)]
     for name, (u, v) in zip(names, chosen, strict=True):
-        way.say(message("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit))
+        builder.say(message("{name}: u = {u}, v = {v} {unit}", name=name, u=figure(u), v=figure(v), unit=unit))
     columns = ["φ [°]", *(f"{name}_{axis}" for name in names for axis in "xy")]
     rows = [(round(degrees(phi), 9), *(float(x) for path in paths for x in path[k])) for k, phi in enumerate(drives)]
-    way.table(PATH, columns, rows)
+    builder.table(PATH, columns, rows)
     for (u, v), path in zip(chosen, paths, strict=True):
-        check_path(way, size.linkage({"C": (u, v)}), drives, path, "+")
-    return way.done()
+        check_path(builder, size.linkage({"C": (u, v)}), drives, path, "+")
+    return builder.done()
 
 
 def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -> Solution:
     """The conchoid linkage: a coupler of length b through a block that swivels at B0, path of its end C.
 
-    >>> found = conchoid(30, 50, 90)
-    >>> [round(x, 6) for x in found.tables[0].rows[1][:4]]
+    >>> solution = conchoid(30, 50, 90)
+    >>> [round(x, 6) for x in solution.tables[0].rows[1][:4]]
     [30.0, 102.317779, -32.672422, 28.318259]
     """
     size = InvertedSliderCrank(a, d)
@@ -124,7 +124,7 @@ def conchoid(a: float, d: float, b: float, step: float = 30, unit: str = "mm") -
 
 
 def _add_straight(builder: SolutionBuilder, path: Path, by_solver: Path, band: float) -> None:
-    """The longest stretch that keeps within a band."""
+    """The longest part of the path within a band."""
     unit = builder.unit
     piece = longest_in_band(path, 0.0, pi, band)
     builder.say(
@@ -140,34 +140,36 @@ def _add_straight(builder: SolutionBuilder, path: Path, by_solver: Path, band: f
     )
     builder.keep(
         "length",
-        message("length of the nearly straight stretch"),
+        message("length of the nearly straight part"),
         piece.length,
         unit=unit,
         symbol="L",
     )
     again = path_piece(by_solver, piece.start, piece.end, piece.direction, samples=2001)
-    builder.check(message("Length of this stretch, by the general solver"), piece.length, again.length)
-    width = message("Width of this stretch, by the general solver, and the band")
+    builder.check(message("Length of this part, by the general solver"), piece.length, again.length)
+    width = message("Width of this part, by the general solver, and the band")
     builder.check(width, band, again.band, tolerance=STRIP)
 
 
-def _add_swing(way: SolutionBuilder, size: InvertedSliderCrank) -> None:
+def _add_swing(builder: SolutionBuilder, size: InvertedSliderCrank) -> None:
     a, d = size.a, size.d
     name = message("swing of the coupler")
     text = message("swing: in the dead centres the crank is at right angles to the coupler")
-    swing = way.find(
+    swing = builder.find(
         "swing", name, "2·arcsin(a/d)", 2 * degrees(asin(a / d)), unit="°", symbol="ψ_H", text=text, a=a, d=d
     )
     name = message("crank angle of the dead centres")
-    dead = way.find("φ_T", name, "± arccos(a/d)", degrees(acos(a / d)), unit="°", either_sign=True, a=a, d=d)
+    dead = builder.find("φ_T", name, "± arccos(a/d)", degrees(acos(a / d)), unit="°", either_sign=True, a=a, d=d)
     name = message("ratio of the times of both swings")
-    way.find("time_ratio", name, "(360° - 2·φ_T)/(2·φ_T)", (180 - dead) / dead, unit="", symbol="k", φ_T=angle(dead))
-    found = measures(size.linkage())
+    builder.find(
+        "time_ratio", name, "(360° - 2·φ_T)/(2·φ_T)", (180 - dead) / dead, unit="", symbol="k", φ_T=angle(dead)
+    )
+    measured = measures(size.linkage())
 
     def between(quantity: Message) -> Message:
         return message("{quantity}, between the dead centres of the solved motion", quantity=quantity)
 
-    way.check(between(message("Swing")), swing, degrees(found.travel or 0.0), "°")
-    way.check(between(message("Ratio of the times")), (180 - dead) / dead, found.time_ratio or 0.0, "")
-    half = 180 - degrees(found.phi_max or 0.0) / 2
-    way.check(between(message("Crank angle of the dead centres")), dead, half, "°")
+    builder.check(between(message("Swing")), swing, degrees(measured.travel or 0.0), "°")
+    builder.check(between(message("Ratio of the times")), (180 - dead) / dead, measured.time_ratio or 0.0, "")
+    half = 180 - degrees(measured.phi_max or 0.0) / 2
+    builder.check(between(message("Crank angle of the dead centres")), dead, half, "°")

@@ -20,14 +20,14 @@ _OUTER = message("outer dead centre, crank and connecting rod stretched")
 _INNER = message("inner dead centre, crank and connecting rod overlapping")
 _STROKE = message("stroke, the distance of the dead centres")
 _RATIO = message("crank-conrod ratio")
-_LONGER = message("longer way of the crank between the dead centres")
-_SHORTER = message("shorter way of the crank between the dead centres")
+_LONGER = message("larger crank angle between the dead centres")
+_SHORTER = message("smaller crank angle between the dead centres")
 _TIMES = message("ratio of the times at constant speed")
 _SWING = message("swing of the rocker")
 
 
 def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Solution:
-    """Dead centres and stroke of a slider-crank; of an eccentric one the division of the crank's turn too.
+    """Dead centres and stroke of a slider-crank; for an eccentric one also the division of the crank's turn.
 
     >>> round(slider_crank(1.7, 6, 1.5).number("H"), 6)
     3.522595
@@ -50,15 +50,15 @@ def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
         outer = builder.find("l_a", _OUTER, "√((a + b)² - e²)", sqrt((a + b) ** 2 - e**2), a=a, b=b, e=e)
         inner = builder.find("l_i", _INNER, "√((b - a)² - e²)", sqrt((b - a) ** 2 - e**2), a=a, b=b, e=e)
     stroke = builder.find("H", _STROKE, "l_a - l_i", outer - inner, l_a=outer, l_i=inner)
-    found = measures(size.linkage())
+    measured = measures(size.linkage())
     builder.check(
         message("Stroke, from the extremes of the solved motion"),
         stroke,
-        found.travel or 0.0,
+        measured.travel or 0.0,
     )
-    for key, centre in (("l_a", found.outer), ("l_i", found.inner)):
-        there = abs(centre.output) if centre else 0.0
-        builder.check(message("{key} of the solved motion", key=key), builder.number(key), there)
+    for key, centre in (("l_a", measured.outer), ("l_i", measured.inner)):
+        position = abs(centre.output) if centre else 0.0
+        builder.check(message("{key} of the solved motion", key=key), builder.number(key), position)
     builder.mistake("H", a, message("The stroke is twice the crank, not once."))
     builder.mistake(
         "H",
@@ -71,11 +71,11 @@ def _add_dead_centres(builder: SolutionBuilder, size: SliderCrank) -> None:
         message("e is a side of the right triangle at the slider's line, so e² is taken off, not added."),
     )
     if e:
-        _add_division(builder, a, b, e, found)
+        _add_division(builder, a, b, e, measured)
 
 
 def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measures: Measures) -> None:
-    """How the eccentricity divides the turn of the crank."""
+    """The division of the crank's turn by the eccentricity."""
     name = message("inclination of the stretched linkage")
     phi_a = builder.find("φ_a", name, "arcsin(e/(a + b))", degrees(asin(e / (a + b))), unit="°", a=a, b=b, e=e)
     name = message("inclination of the overlapping linkage")
@@ -98,7 +98,7 @@ def _add_division(builder: SolutionBuilder, a: float, b: float, e: float, measur
     builder.mistake(
         "difference",
         phi_i - phi_a,
-        message("Asked is φ_max - φ_min = 2·Δφ: one way is longer by Δφ, the other shorter by it."),
+        message("The task asks for φ_max - φ_min = 2·Δφ: one stroke is longer by Δφ, the other shorter by it."),
     )
 
 
@@ -110,7 +110,7 @@ def _add_times(builder: SolutionBuilder, delta: float, angles: dict[str, str], f
     ratio = longer / shorter
     values = {"φ_max": angle(longer), "φ_min": angle(shorter)}
     builder.find("time_ratio", _TIMES, "φ_max/φ_min", ratio, unit="", symbol="k", values=values)
-    hint = message("Both ways together are a full turn; φ_max is more than 180°, φ_min less.")
+    hint = message("Both angles together are a full turn; φ_max is more than 180°, φ_min less.")
     builder.mistake("φ_max", shorter, hint)
     builder.mistake("φ_min", longer, hint)
     builder.mistake("time_ratio", shorter / longer, message("The longer time is divided by the shorter."))
@@ -122,8 +122,8 @@ def stroke_table(
 ) -> Solution:
     """The transfer function s(φ) of a slider-crank in steps from the outer dead centre, with stroke and division.
 
-    The crank turns left. The table has the crank angle from the dead centre and from the slider's line, the way s from
-    below the crank's pivot, and the way made from the outer dead centre.
+    The crank turns counter-clockwise. The table has the crank angle from the dead centre and from the slider's line,
+    the slider's displacement s from below the crank's pivot, and its displacement from the outer dead centre.
     """
     as_step(step)
     builder = SolutionBuilder(unit)
@@ -131,8 +131,8 @@ def stroke_table(
     size = SliderCrank(a, rod, e)
     _add_dead_centres(builder, size)
     centres = size.dead_centres
-    assert centres is not None  # _add_dead_centres has refused the others
-    start = centres.outer.phi if centres.outer.phi < pi else centres.outer.phi - 2 * pi
+    assert centres is not None  # _add_dead_centres raises for the others
+    start = centres.outer.drive if centres.outer.drive < pi else centres.outer.drive - 2 * pi
     low = "" if not e else " - e" if e > 0 else " + e"
     builder.say(
         message("The slider's way at every crank angle, counted from below the crank's pivot:"),
@@ -146,7 +146,7 @@ def stroke_table(
     title = message("Transfer function s(φ), from the outer dead centre")
     headers = ("Δφ [°]", "φ [°]", f"s [{unit}]", f"l_a - s [{unit}]")
     builder.table(title, headers, rows, decimals=3)
-    inner = (centres.inner.phi - centres.outer.phi) % (2 * pi)
+    inner = (centres.inner.drive - centres.outer.drive) % (2 * pi)
     name = message("crank angle from the outer to the inner dead centre")
     builder.keep("inner_at", name, degrees(inner), unit="°", symbol="Δφ(Ti)")
     moved = move(size.linkage(), [radians(row[1]) for row in rows])
@@ -171,10 +171,10 @@ def _rod(builder: SolutionBuilder, a: float, b: float | None, ratio: float | Non
 
 
 def stroke_middle(a: float, b: float | None = None, ratio: float | None = None, unit: str = "mm") -> Solution:
-    """A central slider-crank in the middle of its stroke, and how far from the middle of the time that is.
+    """A central slider-crank in the middle of its stroke, and its distance from the middle of the time.
 
-    >>> found = stroke_middle(20, 50)
-    >>> round(found.number("φ_H2"), 4), round(found.number("μ_H2"), 4)
+    >>> solution = stroke_middle(20, 50)
+    >>> round(solution.number("φ_H2"), 4), round(solution.number("μ_H2"), 4)
     (78.463, 66.9261)
     """
     builder = SolutionBuilder(unit)
@@ -239,16 +239,16 @@ def _add_middle_mistakes(builder: SolutionBuilder, phi: float, alpha: float) -> 
         90.0,
         message("At 90° the crank is in the middle of the time, not of the way: the slider is already beyond H/2."),
     )
-    builder.mistake("φ_H2", 180 - phi, message("Counted from the inner dead centre; asked is the outer."))
-    builder.mistake("φ_i_H2", phi, message("Counted from the outer dead centre; asked is the inner."))
+    builder.mistake("φ_H2", 180 - phi, message("Counted from the inner dead centre; the answer counts from the outer."))
+    builder.mistake("φ_i_H2", phi, message("Counted from the outer dead centre; the answer counts from the inner."))
     builder.mistake("μ_H2", alpha, message("That is the deviation angle α; μ = 90° - α."))
 
 
 def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = None, unit: str = "mm") -> Solution:
-    """Dead centres, swing and division of the crank's turn of a crank-rocker; with a speed the times.
+    """Dead centres, swing and division of the crank's turn of a crank-rocker; with a speed also the times.
 
-    >>> found = crank_rocker(2, 7, 4.5, 5.5, rpm=300, unit="cm")
-    >>> round(found.number("φ_max"), 4), round(found.number("T_min"), 4)
+    >>> solution = crank_rocker(2, 7, 4.5, 5.5, rpm=300, unit="cm")
+    >>> round(solution.number("φ_max"), 4), round(solution.number("T_min"), 4)
     (207.287, 84.8405)
     """
     size = FourBar(a, b, c, d)
@@ -261,33 +261,35 @@ def crank_rocker(a: float, b: float, c: float, d: float, rpm: float | None = Non
             d=d,
             type=in_every_language(size.type.name),
         )
-    way = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit)
     lengths = {"a": number(a), "b": number(b), "c": number(c), "d": number(d)}
-    phi_i, phi_a = _dead_centre_angles(way, size, lengths)
-    way.say(
+    phi_i, phi_a = _dead_centre_angles(builder, size, lengths)
+    builder.say(
         message(
             "Between the dead centres the crank's line turns by the difference; the crank itself makes half a "
             "turn more or less."
         ),
     )
     angles = {"φ_i": angle(phi_i), "φ_a": angle(phi_a)}
-    way_angle = _add_times(way, abs(phi_i - phi_a), angles, "φ_i - φ_a" if phi_i >= phi_a else "φ_a - φ_i")
-    _add_swing(way, size, lengths)
-    found = measures(size.linkage(), rpm)
+    way_angle = _add_times(builder, abs(phi_i - phi_a), angles, "φ_i - φ_a" if phi_i >= phi_a else "φ_a - φ_i")
+    _add_swing(builder, size, lengths)
+    measured = measures(size.linkage(), rpm)
 
     def between(quantity: object) -> Message:
         return message("{quantity}, between the dead centres of the solved motion", quantity=quantity)
 
-    way.check(between(message("Longer crank angle")), way_angle, degrees(found.phi_max or 0), "°")
-    way.check(between(message("Swing")), way.number("ψ_H"), degrees(found.travel or 0), "°")
-    for key, centre in (("i", found.inner), ("a", found.outer)):
+    builder.check(between(message("Longer crank angle")), way_angle, degrees(measured.phi_max or 0), "°")
+    builder.check(between(message("Swing")), builder.number("ψ_H"), degrees(measured.travel or 0), "°")
+    for key, centre in (("i", measured.inner), ("a", measured.outer)):
         rocker, crank = (degrees(centre.output), degrees(centre.drive)) if centre else (0.0, 0.0)
-        way.check(between(f"ψ_{key}"), way.number(f"ψ_{key}"), rocker, "°")
+        builder.check(between(f"ψ_{key}"), builder.number(f"ψ_{key}"), rocker, "°")
         line = crank % 180 if key == "i" else crank
-        way.check(between(f"φ_{key}"), way.number(f"φ_{key}"), line, "°", tolerance=FLAT)
+        builder.check(between(f"φ_{key}"), builder.number(f"φ_{key}"), line, "°", tolerance=FLAT)
     if rpm is not None:
-        _add_durations(way, abs(rpm), 180 + abs(phi_i - phi_a), found.times.longest * 1000 if found.times else 0.0)
-    return way.done()
+        _add_durations(
+            builder, abs(rpm), 180 + abs(phi_i - phi_a), measured.times.longest * 1000 if measured.times else 0.0
+        )
+    return builder.done()
 
 
 def _dead_centre_angles(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> tuple[float, float]:
@@ -298,7 +300,7 @@ def _dead_centre_angles(builder: SolutionBuilder, size: FourBar, lengths: dict[s
             "the side b - a (inner) or b + a (outer). The cosine rule gives the angle at A0."
         ),
     )
-    found = []
+    angles = []
     for key, sign, name in (
         ("φ_i", "-", message("inner dead centre, direction of the coupler's line")),
         ("φ_a", "+", message("outer dead centre, direction of the coupler's line")),
@@ -306,13 +308,13 @@ def _dead_centre_angles(builder: SolutionBuilder, size: FourBar, lengths: dict[s
         side = b - a if sign == "-" else b + a
         value = degrees(acos((side**2 + d**2 - c**2) / (2 * side * d)))
         formula = f"arccos(((b {sign} a)² + d² - c²)/(2·(b {sign} a)·d))"
-        found.append(builder.find(key, name, formula, value, unit="°", values=lengths))
-    return found[0], found[1]
+        angles.append(builder.find(key, name, formula, value, unit="°", values=lengths))
+    return angles[0], angles[1]
 
 
 def _add_swing(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str]) -> None:
     a, b, c, d = size.a, size.b, size.c, size.d
-    found = []
+    angles = []
     for key, sign, name in (
         ("ψ_i", "-", message("angle of the rocker in the inner dead centre")),
         ("ψ_a", "+", message("angle of the rocker in the outer dead centre")),
@@ -320,8 +322,8 @@ def _add_swing(builder: SolutionBuilder, size: FourBar, lengths: dict[str, str])
         side = b - a if sign == "-" else b + a
         value = 180 - degrees(acos((c**2 + d**2 - side**2) / (2 * c * d)))
         formula = f"180° - arccos((c² + d² - (b {sign} a)²)/(2·c·d))"
-        found.append(builder.find(key, name, formula, value, unit="°", values=lengths))
-    inner, outer = found
+        angles.append(builder.find(key, name, formula, value, unit="°", values=lengths))
+    inner, outer = angles
     swing = builder.find("ψ_H", _SWING, "ψ_i - ψ_a", inner - outer, unit="°", ψ_i=angle(inner), ψ_a=angle(outer))
     builder.mistake(
         "ψ_H",
@@ -335,8 +337,8 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     period = builder.find("T", name, "(60000 ms/min)/n", 60000 / rpm, unit="ms", n=f"({number(rpm)}/min)")
     times = []
     for key, name, angle_name, part in (
-        ("T_max", message("time of the slower way"), "φ_max", longer),
-        ("T_min", message("time of the quicker way"), "φ_min", 360 - longer),
+        ("T_max", message("time of the slower stroke"), "φ_max", longer),
+        ("T_min", message("time of the quicker stroke"), "φ_min", 360 - longer),
     ):
         values = {angle_name: angle(part), "T": f"{number(period)} ms"}
         times.append(builder.find(key, name, f"{angle_name}/360°·T", part / 360 * period, unit="ms", values=values))
@@ -345,7 +347,7 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     shown = {"T_max": f"{number(slow)} ms", "T_min": f"{number(quick)} ms"}
     builder.find("ΔT", name, "T_max - T_min", slow - quick, unit="ms", values=shown)
     builder.check(
-        message("Time of the slower way, by the solved motion"),
+        message("Time of the slower stroke, by the solved motion"),
         slow,
         by_motion,
         "ms",
@@ -353,25 +355,25 @@ def _add_durations(builder: SolutionBuilder, rpm: float, longer: float, by_motio
     builder.mistake(
         "ΔT",
         (slow - quick) / 2,
-        message("That is the distance from T/2; the ways differ by twice it."),
+        message("That is the distance from T/2; the strokes differ by twice it."),
     )
 
 
 def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solution:
-    """The frame that makes a crank-rocker central, its swing, ratio and smallest transmission angle.
+    """The frame length of a central crank-rocker, its swing, ratio and smallest transmission angle.
 
-    >>> found = central_crank_rocker(30, 75, 60)
-    >>> round(found.number("d"), 6), round(found.number("μ_min"), 6)
+    >>> solution = central_crank_rocker(30, 75, 60)
+    >>> round(solution.number("d"), 6), round(solution.number("μ_min"), 6)
     (91.241438, 52.535031)
     """
     size = FourBar.central(a=a, b=b, c=c)
-    way = SolutionBuilder(unit)
+    builder = SolutionBuilder(unit)
     text = message("frame: in both dead centres B lies on one line through A0, so the chord of the swing is 2a long")
     name = message("length of the frame")
-    way.find("d", name, "√(b² + c² - a²)", sqrt(b**2 + c**2 - a**2), text=text, a=a, b=b, c=c)
+    builder.find("d", name, "√(b² + c² - a²)", sqrt(b**2 + c**2 - a**2), text=text, a=a, b=b, c=c)
     d = size.d
-    way.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
-    swing = way.find("ψ_H", _SWING, "2·arcsin(a/c)", 2 * degrees(asin(a / c)), unit="°", a=a, c=c)
+    builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
+    swing = builder.find("ψ_H", _SWING, "2·arcsin(a/c)", 2 * degrees(asin(a / c)), unit="°", a=a, c=c)
     name = message("smallest transmission angle")
     text = message(
         "smallest transmission angle: both frame positions give the same one (one acute, one obtuse), for "
@@ -379,18 +381,18 @@ def central_crank_rocker(a: float, b: float, c: float, unit: str = "mm") -> Solu
     )
     value = degrees(acos((b**2 + c**2 - (d - a) ** 2) / (2 * b * c)))
     formula = "arccos((b² + c² - (d - a)²)/(2·b·c))"
-    mu = way.find("μ_min", name, formula, value, unit="°", text=text, a=a, b=b, c=c, d=d)
-    found = measures(size.linkage())
-    way.check(message("Swing, from the solved motion"), swing, degrees(found.travel or 0), "°")
-    smallest = found.transmission.smallest.mu if found.transmission else 0.0
-    way.check(message("Smallest transmission angle, from the solved motion"), mu, degrees(smallest), "°")
-    way.check(message("Time ratio, 1 for a central linkage"), 1.0, found.time_ratio or 0, "")
-    way.mistake(
+    mu = builder.find("μ_min", name, formula, value, unit="°", text=text, a=a, b=b, c=c, d=d)
+    measured = measures(size.linkage())
+    builder.check(message("Swing, from the solved motion"), swing, degrees(measured.travel or 0), "°")
+    smallest = measured.transmission.smallest.mu if measured.transmission else 0.0
+    builder.check(message("Smallest transmission angle, from the solved motion"), mu, degrees(smallest), "°")
+    builder.check(message("Time ratio, 1 for a central linkage"), 1.0, measured.time_ratio or 0, "")
+    builder.mistake(
         "d",
         hypot(b, c),
         message("b² + c² is still a² too much: the triangle has its right angle elsewhere."),
     )
-    way.mistake("d", sqrt(a**2 + b**2 + c**2), message("a² is taken off, not added."))
-    way.mistake("μ_min", 180 - mu, message("μ is folded to at most 90°."))
-    way.mistake("λ", b / a, message("λ is the crank by the connecting rod."))
-    return way.done()
+    builder.mistake("d", sqrt(a**2 + b**2 + c**2), message("a² is taken off, not added."))
+    builder.mistake("μ_min", 180 - mu, message("μ is folded to at most 90°."))
+    builder.mistake("λ", b / a, message("λ is the crank by the connecting rod."))
+    return builder.done()

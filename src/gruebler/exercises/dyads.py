@@ -1,4 +1,4 @@
-"""Chains extended by a dyad or a coupler: how F changes, and how many different chains there are, step by step."""
+"""Chains extended by a dyad or a coupler: the change of F and the number of different chains, step by step."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _CHANGES = {0: message("unchanged"), -1: message("lowered by one")}
 
 
 def dyad(chain: str, form: str = "RRR") -> Solution:
-    """A chain extended by a dyad in every essentially different way.
+    """All essentially different extensions of a chain by a dyad.
 
     >>> dyad("R(1-2) R(2-3) R(3-4) R(1-4)")["chains"]
     2
@@ -50,7 +50,7 @@ def dyad(chain: str, form: str = "RRR") -> Solution:
 
 
 def coupler(chain: str) -> Solution:
-    """A chain extended by a coupler in every essentially different way; those that lock a loop are told apart.
+    """All essentially different extensions of a chain by a coupler; those that lock a loop are listed separately.
 
     >>> coupler("R(1-2) R(2-3) R(3-4) R(4-5) R(1-5)")["F_after"]
     1
@@ -85,7 +85,7 @@ def coupler(chain: str) -> Solution:
 
 
 def _numbered(start: Chain, extended: Chain) -> Chain:
-    """With new links that go on counting, where the links are numbers."""
+    """The extended chain with the next numbers for its new links, where the links are numbers."""
     if not all(link.isdigit() for link in start.links):
         return extended
     last = max(map(int, start.links))
@@ -106,8 +106,8 @@ def _add_before(builder: SolutionBuilder, start: Chain) -> int:
     return counted(start)
 
 
-def _add_after(builder: SolutionBuilder, start: Chain, found: list[Extension]) -> None:
-    first = found[0].chain
+def _add_after(builder: SolutionBuilder, start: Chain, extensions: list[Extension]) -> None:
+    first = extensions[0].chain
     parts = count_freedoms(first).formula().removeprefix("F = ").split(" = ")
     builder.parts.append(SolutionStep(_AFTER, f"F = {parts[0]}", parts[1], counted(first)))
     builder.keep("F_after", _AFTER, counted(first), symbol="F'")
@@ -115,50 +115,50 @@ def _add_after(builder: SolutionBuilder, start: Chain, found: list[Extension]) -
     builder.keep("change", message("change of F"), _CHANGES.get(change, str(change)), symbol="ΔF")
     builder.keep("n", message("links after"), first.n)
     builder.keep("g1", message("joints with f = 1 after"), first.joints_by_freedom.get(1, 0))
-    builder.keep("chains", message("essentially different chains"), len(found), symbol="k")
+    builder.keep("chains", message("essentially different chains"), len(extensions), symbol="k")
     rows: list[tuple[Value, ...]] = []
-    for extension in found:
+    for extension in extensions:
         name = family(Mechanism(extension.chain, extension.chain.links[0]))
         shown = _numbered(start, extension.chain)
         rows.append((name.split()[0] if name else "", _written(shown), len(extension.places)))
-    agreeing = sum(counted(extension.chain) == mobility_report(extension.chain).generic for extension in found)
+    agreeing = sum(counted(extension.chain) == mobility_report(extension.chain).generic for extension in extensions)
     builder.check(
         message("Chains, and those whose F agrees with the rank of the constraints at random sizes"),
-        float(len(found)),
+        float(len(extensions)),
         float(agreeing),
         "",
     )
     builder.check(
         message("Different chains by canonical codes, and by comparing graphs pair by pair"),
-        float(len(found)),
-        float(_classes(found)),
+        float(len(extensions)),
+        float(_classes(extensions)),
         "",
     )
     headers = (message("name"), message("chain"), message("places"))
     builder.table(message("The different chains"), headers, rows)
 
 
-def _add_places(builder: SolutionBuilder, found: list[Extension]) -> None:
+def _add_places(builder: SolutionBuilder, extensions: list[Extension]) -> None:
     builder.mistake(
         "chains",
-        sum(len(extension.places) for extension in found),
+        sum(len(extension.places) for extension in extensions),
         message("Many places give the same chain up to the names of its links."),
     )
 
 
-def _same_pairs(some: Mapping[object, Mapping[str, str]], others: Mapping[object, Mapping[str, str]]) -> bool:
+def _same_pairs(first: Mapping[object, Mapping[str, str]], second: Mapping[object, Mapping[str, str]]) -> bool:
     """Whether the same kinds of joints lie between two links."""
-    mine, theirs = (sorted(joint["pair"] for joint in joints.values()) for joints in (some, others))
-    return mine == theirs
+    first_pairs, second_pairs = (sorted(joint["pair"] for joint in joints.values()) for joints in (first, second))
+    return first_pairs == second_pairs
 
 
-def _classes(found: list[Extension]) -> int:
-    """How many of the chains are different, each compared with each."""
+def _classes(extensions: list[Extension]) -> int:
+    """The number of different chains, by pairwise comparison."""
     import networkx as nx
 
-    kept: list[nx.MultiGraph] = []
-    for extension in found:
+    different: list[nx.MultiGraph] = []
+    for extension in extensions:
         graph = extension.chain.link_graph()
-        if not any(nx.is_isomorphic(graph, other, edge_match=_same_pairs) for other in kept):
-            kept.append(graph)
-    return len(kept)
+        if not any(nx.is_isomorphic(graph, other, edge_match=_same_pairs) for other in different):
+            different.append(graph)
+    return len(different)

@@ -1,4 +1,4 @@
-"""Fresh tasks: from the enumeration of chains and from random sensible dimensions; the same id, the same task."""
+"""Generated tasks, from the enumeration of chains and from random sensible dimensions; each id gives a fixed task."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ Given = dict[str, float | str]
 
 
 class _Draft(NamedTuple):
-    """What a maker gives: method, quantities, results asked for, the task."""
+    """A task in draft: method, given quantities, keys of the results, the text."""
 
     method: str
     given: Given
@@ -57,10 +57,10 @@ def generate(kind: str, seed: int, level: int = 1) -> Exercise:
     id = f"{kind}-{level}-{seed}"
     while True:
         method, given, keys, text = maker(random, level)
-        asked = tuple(Question(key) for key in keys)
-        words = in_every_language(text.in_language)
-        task = Exercise(id=id, name=title, source="", task=words, method=method, given=given, asked=asked)
-        if kind not in _MEASURED or _tells_mistakes(task):
+        questions = tuple(Question(key) for key in keys)
+        task_text = in_every_language(text.in_language)
+        task = Exercise(id=id, name=title, source="", task=task_text, method=method, given=given, asked=questions)
+        if kind not in _MEASURED or _distinguishes_mistakes(task):
             return task
 
 
@@ -68,29 +68,29 @@ _MEASURED = ("dead-centre", "transmission-angle", "velocity")
 _APART = 5e-3  # relative, of a likely mistake from the right answer
 
 
-def _tells_mistakes(task: Exercise) -> bool:
-    """Whether no likely mistake is so near the right answer that it would pass for it."""
+def _distinguishes_mistakes(task: Exercise) -> bool:
+    """Whether no likely mistake is so near the right answer that it would count as right."""
     solution = solve(task)
-    asked = {question.key for question in task.asked}
-    pairs = [(m.value, solution[m.key]) for m in solution.mistakes if m.key in asked]
+    keys = {question.key for question in task.asked}
+    pairs = [(m.value, solution[m.key]) for m in solution.mistakes if m.key in keys]
     return all(
-        abs(wrong - right) > _APART * abs(right)
-        for wrong, right in pairs
-        if isinstance(wrong, float) and isinstance(right, float)
+        abs(wrong - correct) > _APART * abs(correct)
+        for wrong, correct in pairs
+        if isinstance(wrong, float) and isinstance(correct, float)
     )
 
 
 _GENERATED = re.compile(r"([a-z-]+)-(\d)-(\d{1,9})")
 
 
-def is_generated(word: str) -> bool:
-    """Whether a word is the id of a fresh task."""
-    match = _GENERATED.fullmatch(word)
+def is_generated(text: str) -> bool:
+    """Whether a text is the id of a generated task."""
+    match = _GENERATED.fullmatch(text)
     return match is not None and match[1] in KINDS
 
 
 def generated_from_id(id: str) -> Exercise:
-    """The fresh task of an id."""
+    """The generated task of an id."""
     match = _GENERATED.fullmatch(id)
     if match is None:
         raise GrueblerError("a fresh task is named KIND-LEVEL-SEED, such as grashof-1-7, not {id!r}", id=id)
@@ -121,7 +121,7 @@ def _written(chain: Chain) -> Text:
 
 
 def _shuffled(random: Random, chain: Chain) -> Chain:
-    """The chain with its links numbered anew."""
+    """The chain with its links renumbered at random."""
     names = random.sample(range(1, chain.n + 1), chain.n)
     return chain.renamed({link: str(name) for link, name in zip(chain.links, names, strict=True)})
 
@@ -162,11 +162,11 @@ def _dyad(random: Random, level: int) -> _Draft:
     start = _shuffled(random, random.choice(list(chains(*size))))
     given: Given = {"chain": str(start)}
     chain = _written(start)
-    asked: tuple[str, ...] = ("F_before", "F_after")
+    keys: tuple[str, ...] = ("F_before", "F_after")
     more = [message("How does F change?")]
     if level > 1:
-        asked += ("chains",)
-        more.append(message("How many essentially different chains can come out (names of the links aside)?"))
+        keys += ("chains",)
+        more.append(message("How many essentially different chains can result (names of the links aside)?"))
     if is_dyad or level == 3:
         given["form"], kind = random.choice(_DYADS if level > 1 else _DYADS[:1])
         method = "dyads.dyad"
@@ -177,10 +177,10 @@ def _dyad(random: Random, level: int) -> _Draft:
         method = "dyads.coupler"
         task = message(
             "Connect two links of the chain {chain} by a coupler with two turning pairs, so that no rigid "
-            "triangle comes out.",
+            "triangle results.",
             chain=chain,
         )
-    return _Draft(method, given, asked, joined([task, *more], " "))
+    return _Draft(method, given, keys, joined([task, *more], " "))
 
 
 _DYADS = (
@@ -188,16 +188,16 @@ _DYADS = (
     ("RPR", message("two turning pairs and a sliding pair between them")),
     ("RRP", message("two turning pairs and a sliding pair at one end")),
 )
-"""Forms with what they are called."""
+"""Forms of dyads and their descriptions."""
 
 
 # --- dimensions -------------------------------------------------------------------------------------
 
 
-def _until(make: Callable[[], Given], good: Callable[[Given], bool]) -> Given:
+def _until(make: Callable[[], Given], is_good: Callable[[Given], bool]) -> Given:
     for tried in counting():
         given = make()
-        if good(given):
+        if is_good(given):
             return given
         if tried > 100_000:
             raise AssertionError("no sensible dimensions found")
@@ -210,7 +210,7 @@ def _lengths(random: Random, **ranges: tuple[int, int]) -> Iterator[tuple[str, i
 
 
 def _given_lengths(given: Given, names: str = "abcde") -> Message:
-    """The lengths as they stand in a task."""
+    """The lengths as a task states them."""
     lengths = {name: abs(float(given[name])) for name in names if given.get(name)}
     return joined_by_and([message("{name} = {length} mm", name=k, length=figure(v)) for k, v in lengths.items()])
 
@@ -230,16 +230,16 @@ def _change_point(random: Random) -> Given:
 
 
 def _good_rocker(given: Given) -> bool:
-    """A crank-rocker that is no change point, with a transmission angle worth a task."""
+    """Whether it is a crank-rocker without change point and with a good transmission angle."""
     size = _four_bar(given)
-    return size.type.key == "crank_rocker" and size.transmission_angle.smallest > 0.35
+    return size.type.key == "crank_rocker" and size.transmission_angle.smallest.mu > 0.35
 
 
 def _grashof(random: Random, level: int) -> _Draft:
     if level == 1:
-        wanted = random.choice(_TYPES)
-        make = _change_point if wanted.startswith("change") else _any_four_bar
-        given = _until(lambda: make(random), lambda g: _four_bar(g).type.key == wanted)
+        type_key = random.choice(_TYPES)
+        make = _change_point if type_key.startswith("change") else _any_four_bar
+        given = _until(lambda: make(random), lambda g: _four_bar(g).type.key == type_key)
         task = message(
             "A four-bar has the crank, coupler, rocker and frame {lengths}. Does the crank a turn fully, and "
             "what kind of mechanism is it?",
@@ -255,12 +255,12 @@ def _grashof(random: Random, level: int) -> _Draft:
         lengths=_given_lengths(given),
         free=free,
     )
-    asked: tuple[str, ...] = (f"{free}_min", f"{free}_max")
+    keys: tuple[str, ...] = (f"{free}_min", f"{free}_max")
     if level == 3:
-        asked += ("shortest_upper",)
+        keys += ("shortest_upper",)
         more = message("Up to which length of the frame does a turn fully with the frame as the shortest link?")
         task = joined([task, more], " ")
-    return _Draft("grashof.length_range", given | {"free": free, "unit": "mm"}, asked, task)
+    return _Draft("grashof.length_range", given | {"free": free, "unit": "mm"}, keys, task)
 
 
 _TYPES = (
@@ -271,14 +271,14 @@ _TYPES = (
     "triple_rocker",
     "change_point_crank_rocker",
 )
-"""What a four-bar of the first level may be."""
+"""The types of four-bars of the first level."""
 
 
 def _range_worth_asking(given: Given, free: str, level: int) -> bool:
-    a, *rest = sorted(float(given[name]) for name in "abcd" if name != free)
-    if a != given["a"] or len({a, *rest}) < 3:
+    a, *others = sorted(float(given[name]) for name in "abcd" if name != free)
+    if a != given["a"] or len({a, *others}) < 3:
         return False
-    short, long = rest
+    short, long = others
     return level == 2 or a + short > long
 
 
@@ -287,18 +287,18 @@ def _slider(random: Random, eccentric: bool) -> Given:
         given: Given = dict(_lengths(random, a=(3, 12), b=(8, 30)))
         return given | ({"e": random.choice((5, 10, 15, 20, 25))} if eccentric else {})
 
-    def good(given: Given) -> bool:
+    def is_good(given: Given) -> bool:
         a, b, e = float(given["a"]), float(given["b"]), float(given.get("e", 0))
         size = SliderCrank(a, b, e)
         return size.turning == ("a",) and (a + e) / b < 0.85 and b >= 1.6 * a and e != a
 
-    return _until(make, good)
+    return _until(make, is_good)
 
 
 def _dead_centre(random: Random, level: int) -> _Draft:
     if level < 3:
         given = _slider(random, level == 2)
-        asked: tuple[str, ...] = ("l_a", "l_i", "H") if level == 1 else ("H", "φ_max", "time_ratio")
+        keys: tuple[str, ...] = ("l_a", "l_i", "H") if level == 1 else ("H", "φ_max", "time_ratio")
         task = message(
             "A central slider-crank has {lengths}. Find the dead centres and the stroke H."
             if level == 1
@@ -306,17 +306,17 @@ def _dead_centre(random: Random, level: int) -> _Draft:
             "angle between the dead centres and the ratio of times.",
             lengths=_given_lengths(given),
         )
-        return _Draft("dead_centres.slider_crank", given | {"unit": "mm"}, asked, task)
+        return _Draft("dead_centres.slider_crank", given | {"unit": "mm"}, keys, task)
     given = _until(lambda: _any_four_bar(random), lambda g: _good_rocker(g) and not _four_bar(g).is_central)
     rpm = random.choice((60, 120, 150, 200, 240, 300, 400))
     task = message(
         "A crank-rocker has {lengths}; the crank makes {rpm} turns a minute. Find the swing of the rocker, the larger "
-        "crank angle between the dead centres and the times of both ways.",
+        "crank angle between the dead centres and the times of both strokes.",
         lengths=_given_lengths(given),
         rpm=rpm,
     )
-    asked = ("φ_i", "φ_a", "φ_max", "ψ_H", "T_max", "T_min")
-    return _Draft("dead_centres.crank_rocker", given | {"rpm": rpm, "unit": "mm"}, asked, task)
+    keys = ("φ_i", "φ_a", "φ_max", "ψ_H", "T_max", "T_min")
+    return _Draft("dead_centres.crank_rocker", given | {"rpm": rpm, "unit": "mm"}, keys, task)
 
 
 def _transmission(random: Random, level: int) -> _Draft:
@@ -337,8 +337,8 @@ def _transmission(random: Random, level: int) -> _Draft:
         "at least 40°?",
         lengths=_given_lengths(given),
     )
-    asked = ("μ_I*", "μ_II*", "μ_min", "good")
-    return _Draft("transmission_angle.four_bar", given | {"unit": "mm"}, asked, task)
+    keys = ("μ_I*", "μ_II*", "μ_min", "good")
+    return _Draft("transmission_angle.four_bar", given | {"unit": "mm"}, keys, task)
 
 
 def _velocity(random: Random, level: int) -> _Draft:
@@ -377,4 +377,4 @@ KINDS: dict[str, tuple[Message, Callable[[Random, int], _Draft]]] = {
     "dyad": (message("Dyad and coupler"), _dyad),
     "velocity": (message("Velocities"), _velocity),
 }
-"""Name and maker of each kind."""
+"""Name and generator of each kind."""

@@ -1,4 +1,4 @@
-"""A student's answers marked: right, nearly right, or wrong with a hint at the likely mistake."""
+"""Grades of a student's answers: right, nearly right, or wrong with a hint at the likely mistake."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from gruebler.text import LANGUAGES, Readable, message
 __all__ = ["Grade", "Mark", "ascii_key", "grade", "plain_name"]
 
 _FINE = 1e-3  # relative difference of an answer that is right whatever its digits
-_NEAR = 0.02  # of one that is nearly right: rounded on the way
+_NEAR = 0.02  # of one that is nearly right: intermediate results rounded
 _WORDS = {"yes": True, "ja": True, "true": True, "no": False, "nein": False, "false": False}
 
 
 class Mark(StrEnum):
-    """What an answer is worth."""
+    """The mark of an answer."""
 
     RIGHT = "right"
     NEAR = "near"
@@ -32,17 +32,17 @@ class Mark(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Grade:
-    """One answer beside the result."""
+    """One answer with the result and its mark."""
 
     key: str
     answer: str
     result: Result
     mark: Mark
     hint: Readable | None = None
-    """What may have gone wrong."""
+    """A hint at the likely mistake."""
 
 
-# What goes wrong with any measured number: the answer as a function of the right one, where it applies (by unit), hint.
+# Mistakes possible with any measured number: the answer as a function of the right one, the unit, the hint.
 _ANYWHERE = (
     (lambda x: -x, "", message("Look at the sign.")),
     (
@@ -74,8 +74,8 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
     """Mark the answers, given as texts by the keys of the results or by the symbols that the solution prints.
 
     A number is right within half a unit of its last digit or a thousandth; decimal comma or point, with a unit or in
-    that of the result or of the printed answer. Raises `GrueblerError` for a key that is not asked, an answer that is
-    no number where one is asked, and an exercise that is answered by a table.
+    that of the result or of the printed answer. Raises `GrueblerError` for an unknown key, an answer without a number
+    where one is expected, and an exercise whose solution is a table.
 
     >>> from gruebler.exercises.generation import generate
     >>> [m.mark.value for m in grade(generate("dead-centre", 7), {"H": "60", "l_a": "130"})]
@@ -87,49 +87,51 @@ def grade(exercise: Exercise, answers: Mapping[str, str]) -> list[Grade]:
     if not solution.results:
         raise GrueblerError("{id} is answered by a table, which `gruebler exercise solve {id}` shows", id=exercise.id)
     grades: list[Grade] = []
-    for word, answer in answers.items():
-        key = _asked_for(word, exercise, solution.results)
-        if key in (one.key for one in grades):
-            raise GrueblerError("{word} is answered twice: give one answer for each", word=word)
-        printed = [m for asked in exercise.asked if asked.key == key for m in _misprint(asked, solution.results[key])]
-        known = [*printed, *(m for m in solution.mistakes if m.key == key)]
+    for name, answer in answers.items():
+        key = _key_of(name, exercise, solution.results)
+        if key in (entry.key for entry in grades):
+            raise GrueblerError("{word} is answered twice: give one answer for each", word=name)
+        printed = [
+            m for question in exercise.asked if question.key == key for m in _misprint(question, solution.results[key])
+        ]
+        mistakes = [*printed, *(m for m in solution.mistakes if m.key == key)]
         result = solution.results[key]
-        scales = [1.0, *(scale_of(asked, result) for asked in exercise.asked if asked.key == key)]
-        grades.append(_marked(known, result, answer.strip(), scales))
+        scales = [1.0, *(scale_of(question, result) for question in exercise.asked if question.key == key)]
+        grades.append(_marked(mistakes, result, answer.strip(), scales))
     return grades
 
 
-def _asked_for(word: str, exercise: Exercise, results: Mapping[str, Result]) -> str:
-    """The key of the result that a word names: by the key, or by the symbol that the solution prints."""
-    wanted = _bare(word)
-    named = [key for key in results if _bare(key) == wanted] or [
-        key for key, result in results.items() if _bare(result.symbol) == wanted
+def _key_of(name: str, exercise: Exercise, results: Mapping[str, Result]) -> str:
+    """The key of the result with this name: its key, or the symbol that the solution prints."""
+    bare_name = _bare(name)
+    named = [key for key in results if _bare(key) == bare_name] or [
+        key for key, result in results.items() if _bare(result.symbol) == bare_name
     ]
     if len(named) == 1:
         return named[0]
     if named:
         raise GrueblerError(
             "{word} stands for several results of {id}: {named}",
-            word=word,
+            word=name,
             id=exercise.id,
             named=", ".join(map(ascii_key, named)),
         )
-    asked = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
+    names = [plain_name(results[key]) for key in ([a.key for a in exercise.asked] or results)]
     raise GrueblerError(
         "{id} does not ask for {word!r}{suggestion}; it asks for {asked}",
         id=exercise.id,
-        word=word,
-        suggestion=nearest(word, asked),
-        asked=", ".join(asked),
+        word=name,
+        suggestion=nearest(name, names),
+        asked=", ".join(names),
     )
 
 
-def _bare(word: str) -> str:
-    return "".join(ascii_key(word).split())
+def _bare(name: str) -> str:
+    return "".join(ascii_key(name).split())
 
 
 def plain_name(result: Result) -> str:
-    """What a result is called: its key, and its symbol where that is another word, in letters of every keyboard."""
+    """The name of a result: its key, and its symbol where that differs, in letters of every keyboard."""
     key, symbol = ascii_key(result.key), ascii_key(result.symbol)
     return f"{key} ({symbol})" if symbol and symbol != key and "." not in key else key
 
@@ -158,63 +160,63 @@ _GREEK = {
 }
 
 
-def _misprint(asked: Question, result: Result) -> Iterator[Mistake]:
+def _misprint(question: Question, result: Result) -> Iterator[Mistake]:
     """The printed answer as a mistake, where it is one."""
-    if asked.printed is not None and asked.reason is not None:
-        hint = message("That is the printed answer. {reason}", reason=asked.reason)
-        yield Mistake(asked.key, float(asked.printed) * scale_of(asked, result), hint)
+    if question.printed is not None and question.reason is not None:
+        hint = message("That is the printed answer. {reason}", reason=question.reason)
+        yield Mistake(question.key, float(question.printed) * scale_of(question, result), hint)
 
 
-def _marked(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
+def _marked(mistakes: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
     if isinstance(result.value, int | float) and not isinstance(result.value, bool):
-        return _marked_number(known, result, answer, scales)
-    worth = _worth_of_words(result.value, answer)
-    hints = [m.hint for m in known if worth is Mark.WRONG and _worth_of_words(m.value, answer) is Mark.RIGHT]
-    return Grade(result.key, answer, result, worth, hints[0] if hints else None)
+        return _marked_number(mistakes, result, answer, scales)
+    mark = _mark_of_words(result.value, answer)
+    hints = [m.hint for m in mistakes if mark is Mark.WRONG and _mark_of_words(m.value, answer) is Mark.RIGHT]
+    return Grade(result.key, answer, result, mark, hints[0] if hints else None)
 
 
-def _marked_number(known: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
-    given, value = read_answer(answer, result), float(result.value)  # type: ignore[arg-type]
+def _marked_number(mistakes: Sequence[Mistake], result: Result, answer: str, scales: Sequence[float]) -> Grade:
+    reading, value = read_answer(answer, result), float(result.value)  # type: ignore[arg-type]
     if result.either_sign:
-        given = given._replace(number=math.copysign(given.number, value))
-    if not given.has_unit:  # in the unit of the print, if it is right in that one
-        read = [GivenAnswer(given.number * scale, given.place * scale, False) for scale in scales]
-        given = next((one for one in read if _worth(result.value, one) is Mark.RIGHT), given)
-    worth = _worth(result.value, given)
-    if worth is Mark.RIGHT and not any(_rather(m.value, value, given) for m in known):
-        return Grade(result.key, answer, result, worth)
-    hints = [m.hint for m in known if _worth(m.value, given) is Mark.RIGHT]
+        reading = reading._replace(number=math.copysign(reading.number, value))
+    if not reading.has_unit:  # in the unit of the print, if it is right in that one
+        read = [GivenAnswer(reading.number * scale, reading.place * scale, False) for scale in scales]
+        reading = next((candidate for candidate in read if _mark_of(result.value, candidate) is Mark.RIGHT), reading)
+    mark = _mark_of(result.value, reading)
+    if mark is Mark.RIGHT and not any(_is_mistake(m.value, value, reading) for m in mistakes):
+        return Grade(result.key, answer, result, mark)
+    hints = [m.hint for m in mistakes if _mark_of(m.value, reading) is Mark.RIGHT]
     if not hints and isinstance(result.value, float):
         hints = [
             hint
             for change, unit, hint in _ANYWHERE
-            if result.unit and (not unit or unit == result.unit) and _worth(change(value), given) is Mark.RIGHT
+            if result.unit and (not unit or unit == result.unit) and _mark_of(change(value), reading) is Mark.RIGHT
         ]
     if hints:
         return Grade(result.key, answer, result, Mark.WRONG, hints[0])
     near = message("Right in principle; carry more digits on the way.")
-    return Grade(result.key, answer, result, worth, near if worth is Mark.NEAR else None)
+    return Grade(result.key, answer, result, mark, near if mark is Mark.NEAR else None)
 
 
-def _rather(mistake: Value, right: float, given: GivenAnswer) -> bool:
-    """Whether an answer that rounding would excuse is just that of a known mistake, such as H = 50 for 50.3."""
+def _is_mistake(mistake: Value, correct: float, reading: GivenAnswer) -> bool:
+    """Whether an answer within the rounding tolerance is exactly that of a known mistake, such as H = 50 for 50.3."""
     if not isinstance(mistake, float):
         return False
-    return abs(given.number - mistake) <= 1e-5 * abs(mistake) and abs(given.number - right) > _FINE * abs(right)
+    return abs(reading.number - mistake) <= 1e-5 * abs(mistake) and abs(reading.number - correct) > _FINE * abs(correct)
 
 
-def _worth(value: Value, given: GivenAnswer) -> Mark:
+def _mark_of(value: Value, reading: GivenAnswer) -> Mark:
     if isinstance(value, str | Readable | bool):
         return Mark.WRONG
-    off, size = abs(given.number - value), abs(value)
+    off, size = abs(reading.number - value), abs(value)
     if isinstance(value, int):
         return Mark.RIGHT if off == 0 else Mark.WRONG
-    if off <= _FINE * size or (off <= 0.5 * given.place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
+    if off <= _FINE * size or (off <= 0.5 * reading.place * (1 + 1e-9) and off <= _NEAR * size) or off < 1e-9:
         return Mark.RIGHT
     return Mark.NEAR if off <= _NEAR * size else Mark.WRONG
 
 
-def _worth_of_words(value: Value, answer: str) -> Mark:
+def _mark_of_words(value: Value, answer: str) -> Mark:
     if isinstance(value, bool):
         if answer.casefold() not in _WORDS:
             raise GrueblerError("expected yes or no (ja, nein), not {answer!r}", answer=answer)
@@ -224,5 +226,5 @@ def _worth_of_words(value: Value, answer: str) -> Mark:
 
 
 def _plain(name: str) -> str:
-    """A name as it is compared: what stands in brackets, hyphens and capitals do not count."""
+    """A name for comparisons: text in brackets, hyphens and capitals are ignored."""
     return " ".join(name.partition("(")[0].casefold().replace("-", " ").split())

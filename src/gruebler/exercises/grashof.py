@@ -55,18 +55,18 @@ def condition(a: float, b: float, c: float, d: float, unit: str = "mm") -> Solut
     return builder.done()
 
 
-def _add_sums(builder: SolutionBuilder, found: Grashof) -> None:
+def _add_sums(builder: SolutionBuilder, grashof: Grashof) -> None:
     """The sums of Grashof's condition and their relation."""
     unit = builder.unit
-    low, first, second, high = sorted(found.lengths.values())
-    shortest = ", ".join(found.shortest)
+    low, first, second, high = sorted(grashof.lengths.values())
+    shortest = ", ".join(grashof.shortest)
     builder.say(
         message(
             "Shortest link: {shortest} with {low} {unit}; longest: {longest} with {high} {unit}.",
             shortest=shortest,
             low=figure(low),
             unit=unit,
-            longest=found.longest,
+            longest=grashof.longest,
             high=figure(high),
         ),
     )
@@ -79,9 +79,9 @@ def _add_sums(builder: SolutionBuilder, found: Grashof) -> None:
     relation = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''", ">": "l_min + l_max > l' + l''"}
     builder.parts.append(
         SolutionStep(
-            message("Grashof's condition: {meaning}", meaning=_SAYS[found.condition]),
-            relation[found.condition],
-            f"{number(ends)} {found.condition} {number(others)}",
+            message("Grashof's condition: {meaning}", meaning=_SAYS[grashof.condition]),
+            relation[grashof.condition],
+            f"{number(ends)} {grashof.condition} {number(others)}",
         )
     )
     builder.mistake("sum_ends", low + second, message("The longest link was not taken."))
@@ -97,10 +97,10 @@ def length_range(
 ) -> Solution:
     """The values of the length ``free`` (b, c or d) with which the four-bar is a crank-rocker with crank a.
 
-    A second range, with the frame as the shortest link (double crank), is told if there is one.
+    A second range, with the frame as the shortest link (double crank), is added if there is one.
 
-    >>> found = length_range("d", a=40, b=100, c=70)
-    >>> found["d_min"], found["d_max"]
+    >>> solution = length_range("d", a=40, b=100, c=70)
+    >>> solution["d_min"], solution["d_max"]
     (70.0, 130.0)
     """
     lengths = {name: value for name, value in zip("abcd", (a, b, c, d), strict=True) if value is not None}
@@ -109,14 +109,18 @@ def length_range(
             "of a, b, c, d all but the free length must be given, and that must be b, c or d: {free!r}", free=free
         )
     crank = lengths["a"]
-    (one, long), (other, short) = sorted(((n, v) for n, v in lengths.items() if n != "a"), key=lambda item: -item[1])
+    (longer, long), (shorter, short) = sorted(
+        ((n, v) for n, v in lengths.items() if n != "a"), key=lambda item: -item[1]
+    )
     low, high = crank + long - short, long + short - crank
     if crank >= short:
-        given = joined(message("{name} = {length:g}", name=name, length=value) for name, value in lengths.items())
+        given_lengths = joined(
+            message("{name} = {length:g}", name=name, length=value) for name, value in lengths.items()
+        )
         raise LinkageError(
             "no value of {free} makes a crank-rocker with crank a of {lengths}: a is not the shortest",
             free=free,
-            lengths=given,
+            lengths=given_lengths,
         )
     builder = SolutionBuilder(unit)
     builder.say(
@@ -128,15 +132,17 @@ def length_range(
     text = message(
         "{free} is not the longest link, {longest} is: a + {longest} ≤ {other} + {free}",
         free=free,
-        longest=one,
-        other=other,
+        longest=longer,
+        other=shorter,
     )
-    values = {"a": crank, one: long, other: short}
+    values = {"a": crank, longer: long, shorter: short}
     name = message("smallest value")
-    builder.find(f"{free}_min", name, f"a + {one} - {other}", low, text=text, values=values)
-    text = message("{free} is the longest link: a + {free} ≤ {longest} + {other}", free=free, longest=one, other=other)
+    builder.find(f"{free}_min", name, f"a + {longer} - {shorter}", low, text=text, values=values)
+    text = message(
+        "{free} is the longest link: a + {free} ≤ {longest} + {other}", free=free, longest=longer, other=shorter
+    )
     name = message("largest value")
-    builder.find(f"{free}_max", name, f"{one} + {other} - a", high, text=text, values=values)
+    builder.find(f"{free}_max", name, f"{longer} + {shorter} - a", high, text=text, values=values)
     builder.say(
         message(
             "So {low} {unit} ≤ {free} ≤ {high} {unit}. At both ends the sums are equal: the linkage is then at a "
@@ -147,7 +153,7 @@ def length_range(
             high=figure(high),
         ),
     )
-    _add_shortest(builder, free, crank, long, short, (one, other))
+    _add_shortest(builder, free, crank, long, short, (longer, shorter))
     _check_range(builder, free, lengths, low, high)
     _add_range_mistakes(builder, free, crank, long, short)
     return builder.done()
@@ -156,28 +162,28 @@ def length_range(
 def _add_shortest(
     builder: SolutionBuilder, free: str, crank: float, long: float, short: float, names: tuple[str, str]
 ) -> None:
-    """The range with the free length as the shortest link: the crank turns there only if that is the frame."""
+    """The range with the free length as the shortest link: the crank turns fully there only if that is the frame."""
     upper = crank + short - long
     name = message("{free} as the shortest link, up to", free=free)
     symbol = f"{free}'"
     if free != "d" or upper <= 0:
         builder.keep("shortest_upper", name, upper, unit=builder.unit, symbol=symbol)
         return
-    one, other = names
+    longer, shorter = names
     text = message(
         "Beside that, a turns fully with a frame that is the shortest link (double crank): d + {longest} ≤ a + "
         "{other}, so 0 < d ≤ d'",
-        longest=one,
-        other=other,
+        longest=longer,
+        other=shorter,
     )
-    values = {"a": crank, one: long, other: short}
-    builder.find("shortest_upper", name, f"a + {other} - {one}", upper, symbol=symbol, text=text, values=values)
+    values = {"a": crank, longer: long, shorter: short}
+    builder.find("shortest_upper", name, f"a + {shorter} - {longer}", upper, symbol=symbol, text=text, values=values)
 
 
 def _check_range(builder: SolutionBuilder, free: str, lengths: dict[str, float], low: float, high: float) -> None:
-    (found,) = (part for part in turning_ranges("a", **lengths) if part.type.key == "crank_rocker")
-    builder.check(message("Lower end, by going through all types"), low, found.lower)
-    builder.check(message("Upper end, by going through all types"), high, found.upper)
+    (crank_rocker,) = (part for part in turning_ranges("a", **lengths) if part.type.key == "crank_rocker")
+    builder.check(message("Lower end, by going through all types"), low, crank_rocker.lower)
+    builder.check(message("Upper end, by going through all types"), high, crank_rocker.upper)
     near = 1e-3 * (high - low)
     tried = [(low + near, True), (low - near, False), (high - near, True), (high + near, False)]
     upper = builder.number("shortest_upper")

@@ -1,4 +1,4 @@
-"""All exercises: those of the catalog and the worked examples beside them, by their ids or short names."""
+"""All exercises: those of the catalog and the worked examples, by their ids or short names."""
 
 from __future__ import annotations
 
@@ -20,27 +20,27 @@ def all_exercises() -> dict[str, Exercise]:
     >>> list(all_exercises())[:2], len(all_exercises())
     (['example-2.3', 'example-2.5'], 40)
     """
-    found = dict(exercises())
+    records = dict(exercises())
     for path in sorted((catalog_folder() / "solved").glob("*.toml")):
         record = read_exercise(path)
         if record.id != path.stem:
             raise CatalogError(
                 "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
             )
-        found[record.id] = record
-    return {id: found[id] for id in sorted(found, key=_order)}
+        records[record.id] = record
+    return {id: records[id] for id in sorted(records, key=_order)}
 
 
 def _order(id: str) -> tuple[str, tuple[int, ...], str]:
     """Examples first, then exercises, by their numbers."""
-    kind, _, rest = id.partition("-")
-    return kind, tuple(int(word) for word in re.findall(r"\d+", rest)), rest
+    kind, _, numbers = id.partition("-")
+    return kind, tuple(int(digits) for digits in re.findall(r"\d+", numbers)), numbers
 
 
 def exercise(word: str) -> Exercise:
-    """The exercise of an id; ``15`` stands for ``exercise-15``, ``3.2.1-central`` for ``example-3.2.1-central``.
+    """The exercise of an id; ``15`` means ``exercise-15``, ``3.2.1-central`` means ``example-3.2.1-central``.
 
-    The id of a fresh task (``grashof-2-17``) makes that task again. `CatalogError` for any other word.
+    The id of a generated task (``grashof-2-17``) generates that task again. `CatalogError` for any other word.
 
     >>> exercise("15").id, exercise("grashof-1-7").method
     ('exercise-15', 'grashof.condition')

@@ -1,4 +1,4 @@
-"""Exercises and solutions in words, with the decimal sign of the language."""
+"""Exercises and solutions as texts, with the decimal sign of the language."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def value_text(value: Value, unit: str, lang: str) -> str:
 
 
 def source_text(source: str, lang: str) -> str:
-    """Where it stands in the documents.
+    """The source in the teaching documents.
 
     >>> source_text("000/003, sections 2.3 and 2.6", "de")
     '000/003, Abschnitte 2.3 und 2.6'
     """
-    for word in _SOURCE_WORDS:
-        source = re.sub(rf"\b{word}\b", word.in_language(lang), source)
+    for term in _SOURCE_WORDS:
+        source = re.sub(rf"\b{term}\b", term.in_language(lang), source)
     return source
 
 
@@ -53,14 +53,14 @@ _SOURCE_WORDS = (
 
 
 def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = None) -> str:
-    """Title, source and task, with what is given and, if the solution's names are at hand, what is asked."""
+    """Title, source and task; with a solution also the names of the results."""
     title = f"{exercise.name.in_language(lang)} ({exercise.id})"
     lines = [title, "-" * len(title)]
     if exercise.source:
         lines.append(translate("Source: {source}", lang, source=source_text(exercise.source, lang)))
     lines.append(translate("Task: {task}", lang, task=exercise.task))
     if solution is not None and exercise.asked:
-        results = [solution.results[asked.key] for asked in exercise.asked]
+        results = [solution.results[question.key] for question in exercise.asked]
         lines.append(translate("Asked:", lang))
         lines += [f"  {ascii_key(result.key)}: {_asked(result, lang)}" for result in results]
     if exercise.remark is not None:
@@ -69,7 +69,7 @@ def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = 
 
 
 def _asked(result: Result, lang: str) -> str:
-    """The name, and in which unit it is wanted."""
+    """The name of a result and its unit."""
     if not _is_number(result.value):
         return result.name.in_language(lang)
     if result.unit:
@@ -78,7 +78,7 @@ def _asked(result: Result, lang: str) -> str:
 
 
 def solution_text(exercise: Exercise, solution: Solution, lang: str = "en") -> str:
-    """The whole way: task, steps, tables, results beside what is printed, checks."""
+    """The complete solution: task, steps, tables, results with the printed answers, checks."""
     lines = [task_text(exercise, lang), "", translate("Solution:", lang)]
     count = 0
     for part in solution.parts:
@@ -110,29 +110,29 @@ def _step(step: SolutionStep, count: int, lang: str) -> list[str]:
 
 
 def _capital(text: str) -> str:
-    """With a capital letter in front, unless a symbol such as d or v_B stands there."""
+    """The text with a capital first letter, unless it begins with a symbol such as d or v_B."""
     first = re.match(r"[^\W\d_]{2,}(?!_)\b", text)
     return text[:1].upper() + text[1:] if first is not None and first[0].islower() else text
 
 
 def _answers(comparisons: Sequence[Comparison], lang: str) -> Iterator[str]:
     for comparison in comparisons:
-        result, asked = comparison.result, comparison.asked
+        result, question = comparison.result, comparison.asked
         symbol = f"{result.symbol} = " if result.symbol and _is_number(result.value) else ""
         line = (
             f"  {_capital(result.name.in_language(lang))}: {symbol}{'± ' * result.either_sign}"
             f"{value_text(result.value, result.unit, lang)}"
         )
-        if asked.printed is not None:
-            printed = _printed(asked.printed, asked.unit or result.unit, lang)
+        if question.printed is not None:
+            printed = _printed(question.printed, question.unit or result.unit, lang)
             if isinstance(result.value, Readable) and comparison.agrees:
                 printed = result.value.in_language(lang)
             if comparison.agrees:
                 note = translate("printed {printed}: agrees", lang, printed=printed)
-            elif asked.reason is None:
+            elif question.reason is None:
                 note = translate("printed {printed}: differs, unexplained", lang, printed=printed)
             else:
-                note = translate("printed {printed}: differs. {reason}", lang, printed=printed, reason=asked.reason)
+                note = translate("printed {printed}: differs. {reason}", lang, printed=printed, reason=question.reason)
             line += f"   [{note}]"
         yield line
 
@@ -158,7 +158,7 @@ def lines_of_table(table: Table, lang: str) -> list[str]:
     widths = [max(len(row[k]) for row in cells) for k in range(len(table.headers))]
     lines = [table.title.in_language(lang)]
     for row in cells:
-        shown = (c.rjust(w) if right else c.ljust(w) for c, w, right in zip(row, widths, flush, strict=True))
+        shown = (c.rjust(w) if is_number else c.ljust(w) for c, w, is_number in zip(row, widths, flush, strict=True))
         lines.append("  ".join(shown).rstrip())
     return lines
 

@@ -57,7 +57,7 @@ def machines(machines: str) -> Solution:
 
 
 class _Mark(NamedTuple):
-    """What tells the results of one of several machines from those of the others."""
+    """The suffix that distinguishes the results of one of several machines."""
 
     key: str
     machine: Text | None
@@ -121,7 +121,7 @@ def _add_joints(builder: SolutionBuilder, structure: Chain, mark: _Mark, german:
 
 
 def _short(structure: Chain, german: Mapping[str, str]) -> dict[str, str]:
-    """The German names of the links cut short to one word, where they stay different."""
+    """The German names of the links shortened to one word, where they remain different."""
     left_out = rf"^{translate('link', 'de')} | \(.*| {translate('with', 'de')} .*| "
     names = {link: re.sub(left_out, "", german.get(link, link)) for link in structure.links}
     return names if len(set(names.values())) == len(names) else {link: german.get(link, link) for link in names}
@@ -129,24 +129,24 @@ def _short(structure: Chain, german: Mapping[str, str]) -> dict[str, str]:
 
 def _add_mistakes(builder: SolutionBuilder, structure: Chain, mark: _Mark) -> None:
     b, n = structure.space.b, structure.n
-    right = count_freedoms(structure).value
+    correct = count_freedoms(structure).value
     extra = [(joint, joint.count - 1) for joint in structure.multiple_joints]
     lost = sum((b - joint.pair.f(structure.space)) * more for joint, more in extra)
     if extra:
         hint = message("A joint of three links is a double joint and counts twice, one of four three times.")
-        builder.mistake(f"F{mark}", right + lost, hint)
+        builder.mistake(f"F{mark}", correct + lost, hint)
         simple = sum(1 for joint in structure.joints if joint.pair.f(structure.space) == 1)
         builder.mistake(f"g1{mark}", simple, hint)
     frame = message("The frame is a link too: n counts it.")
     builder.mistake(f"n{mark}", n - 1, frame)
-    builder.mistake(f"F{mark}", right - b, frame)
+    builder.mistake(f"F{mark}", correct - b, frame)
     builder.mistake(
         f"F{mark}",
-        right + b,
+        correct + b,
         message("The frame does not move: the formula has n - 1 free links, not n."),
     )
     higher = structure.joints_by_freedom.get(2, 0)
     if b == 3 and higher:
         hint = message("A joint that rolls and slides has f = 2 and takes away one motion only.")
-        builder.mistake(f"F{mark}", right - higher, hint)
+        builder.mistake(f"F{mark}", correct - higher, hint)
         builder.mistake(f"g2{mark}", 0, hint)

@@ -1,4 +1,4 @@
-"""Exercises, solutions and marks as plain data, all languages side by side."""
+"""Exercises, solutions and grades as plain data, with texts in all languages."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ def task_as_dict(exercise: Exercise) -> dict[str, Any]:
         "task": _value(exercise.task),
         "method": exercise.method,
         "given": dict(exercise.given),
-        "asked": [ascii_key(asked.key) for asked in exercise.asked],
+        "asked": [ascii_key(question.key) for question in exercise.asked],
         "remark": None if exercise.remark is None else _value(exercise.remark),
     }
 
 
 def solution_as_dict(exercise: Exercise, solution: Solution) -> dict[str, Any]:
-    """The task with the way, the results, what is printed for them, and the checks."""
+    """The task with its steps, results, printed answers and checks."""
     return task_as_dict(exercise) | {
         "steps": [_part(part) for part in solution.parts],
         "results": {
@@ -58,7 +58,7 @@ def table_as_dict(table: Table) -> dict[str, Any]:
 
 
 def grades_as_list(marks: Sequence[Grade]) -> list[dict[str, Any]]:
-    """The marked answers."""
+    """The graded answers."""
     return [
         {
             "key": ascii_key(grade.key),
@@ -89,14 +89,14 @@ def _step(step: SolutionStep) -> dict[str, Any]:
     }
 
 
-def _comparison(one: Comparison) -> dict[str, Any]:
+def _comparison(comparison: Comparison) -> dict[str, Any]:
     return {
-        "key": ascii_key(one.asked.key),
-        "printed": one.asked.printed,
-        "unit": one.asked.unit or one.result.unit,
-        "value": _value(one.result.value),
-        "agrees": one.agrees,
-        "reason": None if one.asked.reason is None else _value(one.asked.reason),
+        "key": ascii_key(comparison.asked.key),
+        "printed": comparison.asked.printed,
+        "unit": comparison.asked.unit or comparison.result.unit,
+        "value": _value(comparison.result.value),
+        "agrees": comparison.agrees,
+        "reason": None if comparison.asked.reason is None else _value(comparison.asked.reason),
     }
 
 

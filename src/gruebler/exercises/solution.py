@@ -1,4 +1,4 @@
-"""What a solution is made of: steps with formula and numbers, tables, results by key, checks by a second way.
+"""The parts of a solution: steps with formula and numbers, tables, results by key, checks by a second method.
 
 A solution is computed from the given quantities, in the units in which they are given, angles in degrees. A
 `SolutionBuilder` collects it: one call of `SolutionBuilder.find` is a step and, if it has a key, a result.
@@ -42,7 +42,7 @@ _SYMBOL = re.compile(r"[^\W\d_][^\W²³]*(?:\*|''|')?")
 
 @dataclass(frozen=True, slots=True)
 class SolutionStep:
-    """One step: what is done, the formula, the formula with its numbers, the value."""
+    """One step: its text, the formula, the formula with its numbers, the value."""
 
     text: Readable
     formula: str = ""
@@ -60,12 +60,12 @@ class Table:
     headers: tuple[str | Readable, ...]
     rows: tuple[tuple[Value, ...], ...]
     decimals: int = 3
-    """Of the numbers that are not whole."""
+    """Decimals of the numbers that are not whole."""
 
 
 @dataclass(frozen=True, slots=True)
 class Heading:
-    """Where a new part of the solution begins, with steps counted from 1 again."""
+    """The heading of a new part of the solution, with steps counted from 1 again."""
 
     text: Readable
 
@@ -75,7 +75,7 @@ Part = SolutionStep | Table | Heading
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """A quantity that the solution has found."""
+    """A quantity that the solution computes."""
 
     key: str
     name: Readable
@@ -83,12 +83,12 @@ class Result:
     unit: str = ""
     symbol: str = ""
     either_sign: bool = False
-    """Whether the value stands for two, with + and with -."""
+    """Whether the value is valid with both signs, + and -."""
 
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One quantity found in two ways."""
+    """One quantity computed by two methods."""
 
     text: Readable
     first: float
@@ -99,14 +99,14 @@ class Check:
 
     @property
     def holds(self) -> bool:
-        """Whether both ways agree."""
+        """Whether both methods agree."""
         size = max(1.0, abs(self.first), abs(self.second))
         return abs(self.first - self.second) <= self.tolerance * size
 
 
 @dataclass(frozen=True, slots=True)
 class Mistake:
-    """A wrong answer that is often given, and the hint that helps."""
+    """A frequent wrong answer, and the hint for it."""
 
     key: str
     value: Value
@@ -115,7 +115,7 @@ class Mistake:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Solution(Brief):
-    """The way to the answer, the answers by key, and what speaks for them."""
+    """The steps of a solution, its results by key, and its checks."""
 
     parts: tuple[Part, ...]
     results: Mapping[str, Result]
@@ -151,7 +151,7 @@ def number(value: float) -> str:
 
 
 def figure(value: float) -> Message:
-    """The same in a text, with the decimal sign of its language.
+    """The number of `number` for a text, with the decimal sign of its language.
 
     >>> figure(78.46304096718453).in_language("de")
     '78,463'
@@ -185,7 +185,7 @@ def as_step(step: object) -> float:
 
 
 def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
-    """The formula with numbers in place of its symbols; a negative one in brackets where something stands before it.
+    """The formula with numbers in place of its symbols; a negative one in brackets if it is not the first.
 
     >>> fill_template("√((a + b)² - e²)", {"a": 1.7, "b": 6, "e": -1.5})
     '√((1.7 + 6)² - (-1.5)²)'
@@ -194,8 +194,8 @@ def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
     def put(match: re.Match[str]) -> str:
         if match[0] not in values:
             return match[0]
-        given = values[match[0]]
-        text = given if isinstance(given, str) else number(given)
+        value = values[match[0]]
+        text = value if isinstance(value, str) else number(value)
         before, after = formula[: match.start()].rstrip()[-1:], formula[match.end() : match.end() + 1]
         return f"({text})" if text.startswith("-") and (before not in ("", "(", "|") or after == "²") else text
 
@@ -204,7 +204,7 @@ def fill_template(formula: str, values: Mapping[str, float | str]) -> str:
 
 @dataclass(slots=True)
 class SolutionBuilder:
-    """A solution on its way."""
+    """A solution under construction."""
 
     unit: str = ""
     parts: list[Part] = field(default_factory=list)
@@ -228,8 +228,8 @@ class SolutionBuilder:
     ) -> float:
         """A step with a result: ``symbol = formula = formula with numbers = value``; returns the value.
 
-        ``text`` is said instead of the name; ``values`` and ``more`` are the numbers for the symbols of the formula;
-        with ``either_sign`` the value stands for both signs.
+        ``text`` replaces the name in the step; ``values`` and ``more`` are the numbers for the symbols of the formula;
+        with ``either_sign`` the value is valid with both signs.
         """
         shown = self.unit if unit is None else unit
         sign = key if symbol is None else symbol
@@ -246,7 +246,7 @@ class SolutionBuilder:
         self.results[key] = Result(key, name, value, unit, symbol or key, either_sign)
 
     def number(self, key: str) -> float:
-        """A result found before, which is a number."""
+        """The value of an earlier result that is a number."""
         return self.done().number(key)
 
     def say(self, text: Readable, formula: str = "") -> None:
@@ -262,15 +262,15 @@ class SolutionBuilder:
     def check(
         self, text: Readable, first: float, second: float, unit: str | None = None, tolerance: float = 1e-8
     ) -> None:
-        """The same quantity by the way above and by a second one."""
+        """A check: the same quantity by the steps above and by a second method."""
         self.checks.append(Check(text, first, second, self.unit if unit is None else unit, tolerance))
 
     def mistake(self, key: str, value: Value, hint: Readable) -> None:
-        """A wrong answer that is often given; left out where it happens to be right."""
-        right = self.results[key].value
-        alike = isinstance(right, float | int) and isinstance(value, float | int) and abs(right - value) < 1e-9
-        if right != value and not alike:
-            value = float(value) if isinstance(right, float) and isinstance(value, int) else value
+        """A frequent wrong answer; left out where it happens to be right."""
+        correct = self.results[key].value
+        alike = isinstance(correct, float | int) and isinstance(value, float | int) and abs(correct - value) < 1e-9
+        if correct != value and not alike:
+            value = float(value) if isinstance(correct, float) and isinstance(value, int) else value
             self.mistakes.append(Mistake(key, value, hint))
 
     def done(self) -> Solution:

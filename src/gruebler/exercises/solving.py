@@ -1,4 +1,4 @@
-"""Which method solves an exercise, and how the printed answers compare with what it finds."""
+"""The method of an exercise, and the comparison of its results with the printed answers."""
 
 from __future__ import annotations
 
@@ -43,9 +43,9 @@ _SCALE = {("cm", "mm"): 10.0, ("mm", "cm"): 0.1, ("m", "mm"): 1000.0, ("s", "ms"
 
 
 def solve(exercise: Exercise) -> Solution:
-    """The solution of an exercise, computed from its given quantities; the same exercise is solved once only.
+    """The solution of an exercise, computed from its given quantities and cached.
 
-    Raises `CatalogError` for an unknown method or given quantities that do not fit it, and what the method raises.
+    Raises `CatalogError` for an unknown method or unsuitable given quantities, and any error of the method.
 
     >>> from gruebler.catalog import exercises
     >>> solve(exercises()["exercise-6"])["F"]
@@ -60,19 +60,19 @@ def _solve(id: str, name: str, quantities: tuple[tuple[str, float | str], ...], 
         raise CatalogError(
             "{id}: unknown method {method!r}{suggestion}", id=id, method=name, suggestion=nearest(name, methods())
         )
-    method, given = methods()[name], dict(quantities)
-    if name == "mobility.machines" and not given:
-        given = {"machines": " ".join(case.machine for case in cases)}  # type: ignore[attr-defined]
+    method, arguments = methods()[name], dict(quantities)
+    if name == "mobility.machines" and not arguments:
+        arguments = {"machines": " ".join(case.machine for case in cases)}  # type: ignore[attr-defined]
     try:
-        inspect.signature(method).bind(**given)
+        inspect.signature(method).bind(**arguments)
     except TypeError as error:
         raise CatalogError("{id}: given: {error} of {method}", id=id, error=error, method=name) from None
-    return method(**given)
+    return method(**arguments)
 
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """A printed answer beside the computed one."""
+    """A printed answer with the computed one."""
 
     asked: Question
     result: Result
@@ -81,50 +81,52 @@ class Comparison:
 
     @property
     def explained(self) -> bool:
-        """Whether they agree, or a reason is given why not; a reason without a difference does not explain."""
+        """Whether they agree without a reason, or differ with a reason."""
         return self.agrees is None or self.agrees != (self.asked.reason is not None)
 
 
 def compare(exercise: Exercise, solution: Solution) -> list[Comparison]:
-    """Every answer that is asked, with what is printed for it.
+    """Every requested result with its printed answer.
 
     Raises `CatalogError` for a key that the solution does not have.
     """
-    found = []
-    for asked in exercise.asked:
-        if asked.key not in solution.results:
+    comparisons = []
+    for question in exercise.asked:
+        if question.key not in solution.results:
             keys = ", ".join(solution.results)
             raise CatalogError(
                 "{id}: asked: the solution has no result {key!r}; it has {keys}",
                 id=exercise.id,
-                key=asked.key,
+                key=question.key,
                 keys=keys,
             )
-        result = solution.results[asked.key]
-        found.append(Comparison(asked, result, None if asked.printed is None else _agrees(asked, result)))
-    return found
+        result = solution.results[question.key]
+        comparisons.append(
+            Comparison(question, result, None if question.printed is None else _agrees(question, result))
+        )
+    return comparisons
 
 
-def _agrees(asked: Question, result: Result) -> bool:
-    assert asked.printed is not None
+def _agrees(question: Question, result: Result) -> bool:
+    assert question.printed is not None
     value: Value = result.value
     if isinstance(value, bool):
-        return asked.printed == ("yes" if value else "no")
+        return question.printed == ("yes" if value else "no")
     if isinstance(value, Readable):
-        return asked.printed in [value.in_language(lang) for lang in LANGUAGES]
+        return question.printed in [value.in_language(lang) for lang in LANGUAGES]
     if isinstance(value, str):
-        return asked.printed == value
-    scale = scale_of(asked, result)
-    return abs(float(asked.printed) * scale - value) <= last_place(asked.printed) * scale * (0.5 + 1e-9)
+        return question.printed == value
+    scale = scale_of(question, result)
+    return abs(float(question.printed) * scale - value) <= last_place(question.printed) * scale * (0.5 + 1e-9)
 
 
 def scale_of(asked: Question, result: Result) -> float:
-    """What one unit of the printed number is worth in units of the result."""
+    """One unit of the printed number in units of the result."""
     return _SCALE.get((asked.unit, result.unit), 1.0) if asked.unit else 1.0
 
 
 def last_place(text: str) -> float:
-    """What one unit of the last written digit is worth.
+    """The value of one unit of the last written digit.
 
     >>> last_place("66.4"), last_place("40"), last_place("2e3")
     (0.1, 1.0, 1000.0)

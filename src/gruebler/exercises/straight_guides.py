@@ -21,10 +21,10 @@ __all__ = ["double_rocker", "lambda_linkage", "scott_russell", "watt_linkage"]
 
 
 def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float = 30, unit: str = "mm") -> Solution:
-    """The Chebyshev lambda linkage with b = c = e: path of C beyond B, its height h, and how straight it is.
+    """The Chebyshev lambda linkage with b = c = e: path of C beyond B, its height h, and its straightness.
 
-    >>> found = lambda_linkage(20, 50, 50, 40, 50)
-    >>> round(found.number("h"), 9), round(found.number("band"), 6)
+    >>> solution = lambda_linkage(20, 50, 50, 40, 50)
+    >>> round(solution.number("h"), 9), round(solution.number("band"), 6)
     (80.0, 0.195075)
     """
     if not b == c == e or a + d >= 2 * b:
@@ -68,7 +68,7 @@ def lambda_linkage(a: float, b: float, c: float, d: float, e: float, step: float
 
 
 def _check_piece(builder: SolutionBuilder, again: PathPiece) -> None:
-    """Length and width of the straight stretch against those of the path of the general solver."""
+    """Check length and width of the straight part against the path of the general solver."""
     builder.check(message("{quantity}, by the general solver", quantity="L"), builder.number("length"), again.length)
     builder.check(
         message("{quantity}, by the general solver", quantity="Δ"), builder.number("band"), again.band, tolerance=STRIP
@@ -76,12 +76,12 @@ def _check_piece(builder: SolutionBuilder, again: PathPiece) -> None:
 
 
 def _add_straight(builder: SolutionBuilder, size: FourBar, reach: float) -> None:
-    """The straight stretch of the lambda linkage's path, over half a turn of the crank."""
+    """The straight part of the lambda linkage's path, over half a turn of the crank."""
     half = path_piece(coupler_path(size, reach, 0), pi / 2, 3 * pi / 2, direction=0)
-    text = message("straight stretch: from φ = 90° to 270° C runs along a length of")
+    text = message("straight part: from φ = 90° to 270° C runs along a length of")
     builder.find(
         "length",
-        message("length of the straight stretch"),
+        message("length of the straight part"),
         "|C_x(90°) - C_x(270°)|",
         half.length,
         symbol="L",
@@ -98,14 +98,14 @@ def watt_linkage(
 ) -> Solution:
     """Watt's linkage, equal rockers level in the mid position, coupler upright: path of the coupler's middle F.
 
-    >>> found = watt_linkage(60, 30)
-    >>> [round(x, 6) for x in found.tables[0].rows[0]]
+    >>> solution = watt_linkage(60, 30)
+    >>> [round(x, 6) for x in solution.tables[0].rows[0]]
     [-35.0, -1.848841, -31.413059, 28.263391]
     """
     width, height = 2 * rocker, coupler
     size = FourBar(rocker, coupler, rocker, hypot(width, height))
     tilt = -atan2(height, width)
-    left = complex(-rocker, height / 2)
+    left_pivot = complex(-rocker, height / 2)
     builder = SolutionBuilder(unit)
     builder.say(
         message(
@@ -122,30 +122,30 @@ def watt_linkage(
     if not motion.complete:
         raise LinkageError("the left rocker cannot reach these angles: {reason}", reason=motion.message)
     local = motion.point(coupler / 2).value
-    path = left + (local[:, 0] + 1j * local[:, 1]) * cmath.exp(1j * tilt)
-    right = np.degrees(motion.output.value + tilt) % 360 - 180
+    path = left_pivot + (local[:, 0] + 1j * local[:, 1]) * cmath.exp(1j * tilt)
+    right_angles = np.degrees(motion.output.value + tilt) % 360 - 180
     rows = [
         (round(degrees(t), 9), float(z.real), float(z.imag), float(r))
-        for t, z, r in zip(values, path, right, strict=True)
+        for t, z, r in zip(values, path, right_angles, strict=True)
     ]
     last = message("right rocker [°]")
     builder.table(PATH, ["t [°]", "F_x", "F_y", last], rows)
-    _add_watt_stroke(builder, size, tilt, left, coupler)
-    _check_watt(builder, size, tilt, left, coupler)
+    _add_watt_stroke(builder, size, tilt, left_pivot, coupler)
+    _check_watt(builder, size, tilt, left_pivot, coupler)
     moved = move(size.linkage({"C": (coupler / 2, 0)}), values - tilt, branch="-")
     builder.check(BY_SOLVER, 0.0, float(np.abs(moved.complex_point("C") - local @ np.array([1, 1j])).max()))
     return builder.done()
 
 
-def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
-    """How far F goes up and down while it keeps within so many hundredths of the rocker beside the straight line."""
+def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left_pivot: complex, coupler: float) -> None:
+    """The stroke of F within a strip about the straight line, of half-width rocker / 600."""
     from scipy.optimize import brentq
 
     side = size.a / 600
     path = coupler_path(size, coupler / 2, 0, branch=-1)
 
     def at(t: float) -> complex:
-        return left + complex(path(np.array([t - tilt]))[0]) * cmath.exp(1j * tilt)
+        return left_pivot + complex(path(np.array([t - tilt]))[0]) * cmath.exp(1j * tilt)
 
     excess = {sign: lambda t, s=sign: s * at(t).real - side for sign in (-1, 1)}
     reach = next((t for t in np.radians(np.arange(1.0, 60.0)) if all(excess[s](s * t) > 0 for s in (-1, 1))), None)
@@ -171,11 +171,11 @@ def _add_watt_stroke(builder: SolutionBuilder, size: FourBar, tilt: float, left:
     )
 
 
-def _check_watt(builder: SolutionBuilder, size: FourBar, tilt: float, left: complex, coupler: float) -> None:
+def _check_watt(builder: SolutionBuilder, size: FourBar, tilt: float, left_pivot: complex, coupler: float) -> None:
     """Both ends of the stroke and the order of contact, by the general solver."""
     linkage = size.linkage({"F": (coupler / 2, 0)})
     ends = [radians(builder.number(key)) for key in ("t_low", "t_high")]
-    moved = left + move(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(1j * tilt)
+    moved = left_pivot + move(linkage, [t - tilt for t in ends], branch="-").complex_point("F") * cmath.exp(1j * tilt)
 
     def solved(quantity: Message) -> Message:
         return message("{quantity}, by the general solver", quantity=quantity)
@@ -201,8 +201,8 @@ def double_rocker(
 ) -> Solution:
     """The crane's double rocker: coupler a, rockers b and d, frame c at an angle; C on the coupler, ac from A.
 
-    >>> found = double_rocker(30, 80, 60, 100, 60, frame=-47)
-    >>> [round(x, 6) for x in found.tables[0].rows[0][5:]]
+    >>> solution = double_rocker(30, 80, 60, 100, 60, frame=-47)
+    >>> [round(x, 6) for x in solution.tables[0].rows[0][5:]]
     [84.071616, 43.677859]
     """
     size = FourBar(d, a, b, c)
@@ -245,7 +245,7 @@ def double_rocker(
 
 
 def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[float, float], frame: float) -> None:
-    """How straight C runs, and which angles the rocker could reach with a horizontal frame."""
+    """The straightness of the path of C, and the angles that the rocker can reach with a horizontal frame."""
     unit = builder.unit
     piece = path_piece(path, *ends)
     name = message("width of the strip in which C keeps")
@@ -292,7 +292,7 @@ def _add_strip(builder: SolutionBuilder, size: FourBar, path: Path, ends: tuple[
 
 
 def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
-    """The general solver has no position just beyond the limits of the rocker, and one just inside."""
+    """Check the limits of the rocker: the general solver has a position just inside and none just beyond."""
     linkage = size.linkage()
     for key, side in (("lowest", -1), ("highest", 1)):
         limit = builder.number(key)
@@ -308,7 +308,7 @@ def _check_limits(builder: SolutionBuilder, size: FourBar) -> None:
 
 
 def scott_russell(a: float, b: float, e: float, step: float = 15, unit: str = "mm") -> Solution:
-    """The slider-crank with a = b = e: C, beyond A on the line B-A, runs exactly on the line through A0.
+    """The slider-crank with a = b = e: C, beyond A on the line B-A, moves exactly on the line through A0.
 
     >>> scott_russell(1, 1, 1).number("deviation")
     0.0

@@ -25,7 +25,7 @@ __all__ = ["TABLES", "teaching_table"]
 
 
 def joints() -> tuple[Table, ...]:
-    """The kinds of joints by their freedoms (table 2.2 of the seeds), from the table of pairs."""
+    """The kinds of joints by their freedoms (table 2.2 of the teaching documents), from the table of pairs."""
     headers = (
         "f",
         "u = 6 - f",
@@ -139,18 +139,18 @@ _CONDITIONS = {"<": "l_min + l_max < l' + l''", "=": "l_min + l_max = l' + l''",
 
 
 def grashof_types() -> tuple[Table, ...]:
-    """Every type of four-bar (table 3.6) with the smallest whole lengths that make it, and which links turn."""
-    found: dict[str, tuple[int, ...]] = {}
-    wanted = {(kind.key): place for place, kind in FOUR_BAR_TYPES.items()}
+    """Every type of four-bar (table 3.6) with its smallest whole lengths and its turning links."""
+    examples: dict[str, tuple[int, ...]] = {}
+    places = {(kind.key): place for place, kind in FOUR_BAR_TYPES.items()}
     for lengths in sorted(product(range(1, 7), repeat=4), key=lambda x: (sum(x), max(x), x)):
-        found.setdefault(grashof(*lengths).type.key, lengths)
-        if len(found) == len(wanted):
+        examples.setdefault(grashof(*lengths).type.key, lengths)
+        if len(examples) == len(places):
             break
     rows: list[tuple[Value, ...]] = []
     for (condition, place), kind in FOUR_BAR_TYPES.items():
         if condition not in _CONDITIONS:
             continue
-        lengths = found[kind.key]
+        lengths = examples[kind.key]
         turning = ", ".join(grashof(*lengths).turning) or "-"
         shortest = " = ".join(place) or "-"
         rows.append((_CONDITIONS[condition], shortest, *map(str, lengths), turning, in_every_language(kind.name)))
@@ -208,9 +208,9 @@ def _kinds_of_transfer(columns: list[_Column]) -> Table:
         still = float(np.mean(np.abs(slope) < 1e-9 * np.abs(slope).max()))
         back = float(slope.min()) < -1e-9 * np.abs(slope).max() < 1e-9 * np.abs(slope).max() < float(slope.max())
         kind = message("uniform, linear") if steady else message("non-uniform")
-        way = message("to and fro") if back else message("one sense")
-        rows.append((mechanism, kind, way, f"{still:.0%}"))
-    title = message("What the transfer function says")
+        sense = message("to and fro") if back else message("one sense")
+        rows.append((mechanism, kind, sense, f"{still:.0%}"))
+    title = message("Properties of the transfer function")
     headers = (
         message("mechanism"),
         message("transmission"),
@@ -227,7 +227,7 @@ TABLES: dict[str, Callable[[], tuple[Table, ...]]] = {
     "grashof": grashof_types,
     "transfer": transfer,
 }
-"""By the names of the command line."""
+"""The tables by their names in the command line."""
 
 
 def teaching_table(name: str) -> tuple[Table, ...]:

@@ -14,7 +14,7 @@ _MOST = 10_000  # rows
 
 
 def gear_pair(i: float, step: float = 90) -> Solution:
-    """The transfer function of one pair of gears with the ratio i, over as many turns as the wheel needs for one.
+    """The transfer function of one pair of gears with the ratio i, over one turn of the driven wheel.
 
     >>> gear_pair(2).number("slope")
     0.5

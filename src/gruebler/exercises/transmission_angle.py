@@ -91,9 +91,11 @@ def _add_folded(builder: SolutionBuilder, key: str, value: float) -> float:
     if value <= 90:
         builder.keep(f"μ_{key}*", name, value, unit="°")
         return value
-    found = builder.find(f"μ_{key}*", name, f"180° - μ_{key}", 180 - value, unit="°", values={f"μ_{key}": angle(value)})
+    folded = builder.find(
+        f"μ_{key}*", name, f"180° - μ_{key}", 180 - value, unit="°", values={f"μ_{key}": angle(value)}
+    )
     builder.mistake(f"μ_{key}*", value, _FOLD)
-    return found
+    return folded
 
 
 def _add_rule(builder: SolutionBuilder, mu: float) -> None:
@@ -121,7 +123,7 @@ def slider_crank(a: float, b: float, e: float = 0.0, unit: str = "mm") -> Soluti
     >>> round(slider_crank(3, 5, 1).number("μ_min"), 6)
     36.869898
     """
-    SliderCrank(a, b, e)  # refuses lengths that are none
+    SliderCrank(a, b, e)  # raises for invalid lengths
     builder = SolutionBuilder(unit)
     builder.find("λ", _RATIO, "a/b", a / b, unit="", a=a, b=b)
     _add_slider_crank(builder, a, b, e)
@@ -154,8 +156,10 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
     if off:
         _add_other_extreme(builder, a, b, off)
         moved = move(size.linkage(), pi / 2 if e > 0 else -pi / 2)
-        there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
-        builder.check(message("{quantity}, by the general solver", quantity="μ_II"), builder.number("μ_II"), there, "°")
+        angle_there = 90 - degrees(abs(float(moved.angle("coupler")[0])))
+        builder.check(
+            message("{quantity}, by the general solver", quantity="μ_II"), builder.number("μ_II"), angle_there, "°"
+        )
         builder.mistake(
             "μ_min",
             90 - degrees(asin(a / b)),
@@ -181,9 +185,9 @@ def _add_slider_crank(builder: SolutionBuilder, a: float, b: float, e: float, ma
 
 def _add_other_extreme(builder: SolutionBuilder, a: float, b: float, e: float) -> None:
     name = message("deviation angle with the crank on the other side")
-    other = builder.find("α_II", name, "arcsin((a - e)/b)", degrees(asin((a - e) / b)), unit="°", a=a, b=b, e=e)
+    deviation = builder.find("α_II", name, "arcsin((a - e)/b)", degrees(asin((a - e) / b)), unit="°", a=a, b=b, e=e)
     name = message("transmission angle there")
-    mu = builder.find("μ_II", name, "90° - |α_II|", 90 - abs(other), unit="°", α_II=angle(other))
+    mu = builder.find("μ_II", name, "90° - |α_II|", 90 - abs(deviation), unit="°", α_II=angle(deviation))
     if a >= e:
         touches = isclose(a, e)
         text = message(
@@ -200,14 +204,14 @@ def _add_other_extreme(builder: SolutionBuilder, a: float, b: float, e: float) -
 
 
 def compare_rods(a: float, b1: float, b2: float, unit: str = "mm") -> Solution:
-    """Two central slider-cranks with one crank: how the ratio a/b decides about the transmission angle."""
+    """Two central slider-cranks with the same crank: the influence of the ratio a/b on the transmission angle."""
     builder = SolutionBuilder(unit)
-    found = []
+    angles = []
     for mark, b in (("1", b1), ("2", b2)):
         SliderCrank(a, b)
         builder.find(f"λ{mark}", _RATIO, f"a/b{mark}", a / b, unit="", a=a, values={f"b{mark}": b})
-        found.append(_add_slider_crank(builder, a, b, 0.0, mark))
-    better = 1 if found[0] > found[1] else 2
+        angles.append(_add_slider_crank(builder, a, b, 0.0, mark))
+    better = 1 if angles[0] > angles[1] else 2
     builder.say(
         message(
             "Slider-crank {better} with the longer rod has the smaller ratio λ, the smaller deviation and the "

@@ -28,8 +28,8 @@ def four_bar(
 ) -> Solution:
     """Velocity and acceleration of the joint B of a four-bar at a crank angle, crank at constant speed (rad/s).
 
-    >>> found = four_bar(25, 70, 40, 70, phi=55, omega=10)
-    >>> round(found.number("v_B"), 6), round(found.number("i"), 6), round(found.number("a_B"), 5)
+    >>> solution = four_bar(25, 70, 40, 70, phi=55, omega=10)
+    >>> round(solution.number("v_B"), 6), round(solution.number("i"), 6), round(solution.number("a_B"), 5)
     (191.408211, 2.089775, 2024.47534)
     """
     size = FourBar(a, b, c, d)
@@ -55,42 +55,42 @@ def four_bar(
     return builder.done()
 
 
-def _directions(way: SolutionBuilder, size: FourBar, phi: float, side: int) -> tuple[float, float]:
+def _directions(builder: SolutionBuilder, size: FourBar, phi: float, side: int) -> tuple[float, float]:
     a, b, c, d = size.a, size.b, size.c, size.d
     crank = radians(phi)
     joint = a * cmath.exp(1j * crank)
-    diagonal = way.find(
+    diagonal = builder.find(
         "f", message("diagonal A-B0"), "√(a² + d² - 2·a·d·cos φ)", abs(d - joint), a=a, d=d, φ=angle(phi)
     )
     name = message("direction of the diagonal")
     values: dict[str, float | str] = {"a": a, "d": d, "φ": angle(phi)}
     delta = degrees(cmath.phase(d - joint))
-    way.find("δ", name, "-arctan(a·sin φ/(d - a·cos φ))", delta, unit="°", values=values)
+    builder.find("δ", name, "-arctan(a·sin φ/(d - a·cos φ))", delta, unit="°", values=values)
     opening = degrees(np.arccos((b**2 + diagonal**2 - c**2) / (2 * b * diagonal)))
     name = message("angle between coupler and diagonal")
-    way.find("ε", name, "arccos((b² + f² - c²)/(2·b·f))", opening, unit="°", b=b, f=diagonal, c=c)
+    builder.find("ε", name, "arccos((b² + f² - c²)/(2·b·f))", opening, unit="°", b=b, f=diagonal, c=c)
     name = message("direction of the coupler, from A to B")
     sign = "+" if side > 0 else "-"
-    theta = way.find("θ", name, f"δ {sign} ε", delta + side * opening, unit="°", δ=angle(delta), ε=angle(opening))
+    theta = builder.find("θ", name, f"δ {sign} ε", delta + side * opening, unit="°", δ=angle(delta), ε=angle(opening))
     end = joint + b * cmath.exp(1j * radians(theta))
     name = message("direction of the rocker, from B0 to B")
     psi = degrees(cmath.phase(end - d))
     values = {"B_x": end.real, "B_y": end.imag, "d": d}
-    way.say(
+    builder.say(
         message(
             "Joint B = ({real}, {imag}) {unit}, in the frame with A0 = (0, 0) and B0 = (d, 0).",
             real=figure(end.real),
             imag=figure(end.imag),
-            unit=way.unit,
+            unit=builder.unit,
         ),
         "B = A + b·(cos θ, sin θ)",
     )
     half = "" if end.real > d else " + 180°" if psi > 0 else " - 180°"
-    way.find("ψ", name, f"arctan(B_y/(B_x - d)){half}", psi, unit="°", values=values)
+    builder.find("ψ", name, f"arctan(B_y/(B_x - d)){half}", psi, unit="°", values=values)
     mu = abs(psi - theta) % 360
     mu = min(mu, 360 - mu)
     name = message("transmission angle")
-    way.keep("μ", name, min(mu, 180 - mu), unit="°")
+    builder.keep("μ", name, min(mu, 180 - mu), unit="°")
     return theta, psi
 
 
@@ -165,14 +165,14 @@ def _four_bar_accelerations(
 
 
 def _add_vectors(builder: SolutionBuilder, moved: Motion) -> None:
-    """The vectors of the plans of velocities and accelerations, as the general solver has them."""
+    """The vectors of the plans of velocities and accelerations, from the general solver."""
     pins = {name: moved.linkage.points_named(name)[-1] for name in ("R(crank-coupler)", "R(coupler-rocker)")}
     a, b = pins.values()
     va, vb = (moved.complex_point(p, 1)[0] for p in (a, b))
     aa, ab = (moved.complex_point(p, 2)[0] for p in (a, b))
-    arm = moved.turns[0, moved.plan.lower.mechanism.chain.links.index("rocker")]
+    arm = moved.turns[0, moved.link_index("rocker")]
     along = arm * (ab * np.conj(arm)).real
-    coupler = moved.turns[0, moved.plan.lower.mechanism.chain.links.index("coupler")]
+    coupler = moved.turns[0, moved.link_index("coupler")]
     relative = coupler * ((ab - aa) * np.conj(coupler)).real
     rows = [
         ("v_A", va),
@@ -193,7 +193,7 @@ def _check_four_bar(builder: SolutionBuilder, size: FourBar, moved: Motion, phi:
     a = size.a * cmath.exp(1j * radians(phi))
     b = complex(moved.complex_point("R(coupler-rocker)")[0])
     v_a, v_b = (builder.number(key) for key in ("v_A", "v_B"))
-    # The pole of the coupler is where the lines of crank and rocker meet.
+    # The pole of the coupler is the intersection of the lines of crank and rocker.
     u, w = a / abs(a), (b - size.d) / size.c
     cross = (np.conj(u) * w).imag
     if abs(cross) > 1e-9:
@@ -233,10 +233,10 @@ def slider_crank(
 ) -> Solution:
     """Velocity and acceleration of the slider at a crank angle from its line, crank at constant speed (rad/s).
 
-    With ``either`` = 1 the values are told for the same angle from the inner dead centre of a central one as well.
+    With ``either`` = 1 the solution adds the values for the same angle from the inner dead centre of a central one.
 
-    >>> found = slider_crank(25, 70, phi=55, omega=10)
-    >>> round(found.number("v_B"), 6), round(found.number("a_B"), 6)
+    >>> solution = slider_crank(25, 70, phi=55, omega=10)
+    >>> round(solution.number("v_B"), 6), round(solution.number("a_B"), 6)
     (-248.657931, -1143.345966)
     """
     size = SliderCrank(a, b, e)
@@ -281,7 +281,7 @@ def slider_crank(
 
 
 def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: float) -> None:
-    """What changes if the angle is counted from the inner dead centre."""
+    """The values for the angle counted from the inner dead centre."""
     other = size.motion(pi + radians(phi), omega=omega)
     v, a = float(other.output.velocity), float(other.output.acceleration)
     unit = builder.unit
@@ -309,34 +309,34 @@ def _add_inner(builder: SolutionBuilder, size: SliderCrank, phi: float, omega: f
 
 
 def _check_slider(
-    way: SolutionBuilder, size: SliderCrank, given: tuple[float, float], found: tuple[float, float]
+    builder: SolutionBuilder, size: SliderCrank, inputs: tuple[float, float], results: tuple[float, float]
 ) -> None:
-    phi, omega = given
-    v, acceleration = found
-    unit, a, b = way.unit, size.a, size.b
+    phi, omega = inputs
+    v, acceleration = results
+    unit, a, b = builder.unit, size.a, size.b
     moved = move(size.linkage(), [radians(phi)], speed=omega)
     slide = "P(frame-slider)"
-    way.check(
+    builder.check(
         message("{quantity} by the general solver", quantity="v_B"),
         v,
         float(moved.displacement(slide, 1)[0]),
         f"{unit}/s",
     )
     second = float(moved.displacement(slide, 2)[0])
-    way.check(message("{quantity} by the general solver", quantity="a_B"), acceleration, second, f"{unit}/s²")
+    builder.check(message("{quantity} by the general solver", quantity="a_B"), acceleration, second, f"{unit}/s²")
     crank, lam = radians(phi), a / b
     rough_v = -a * omega * (sin(crank) + lam / 2 * sin(2 * crank))
     rough_a = -a * omega**2 * (cos(crank) + lam * cos(2 * crank))
-    way.mistake("v_B", -v, message("The slider moves towards the crank: negative."))
-    way.mistake(
+    builder.mistake("v_B", -v, message("The slider moves towards the crank: negative."))
+    builder.mistake(
         "a_B",
         -acceleration,
         message("The acceleration points towards the crank: negative."),
     )
     if not size.e:
         near = message("That is the approximation for small λ: sin φ + λ/2·sin 2φ.")
-        way.mistake("v_B", rough_v, near)
-        way.mistake("a_B", rough_a, message("That is the approximation cos φ + λ·cos 2φ."))
-        way.keep("v_approx", message("velocity for small λ"), rough_v, unit=f"{unit}/s")
-        way.keep("a_approx", message("acceleration for small λ"), rough_a, unit=f"{unit}/s²")
-    way.mistake("v_B", -a * omega * sin(crank), message("The tilt of the rod is missing."))
+        builder.mistake("v_B", rough_v, near)
+        builder.mistake("a_B", rough_a, message("That is the approximation cos φ + λ·cos 2φ."))
+        builder.keep("v_approx", message("velocity for small λ"), rough_v, unit=f"{unit}/s")
+        builder.keep("a_approx", message("acceleration for small λ"), rough_a, unit=f"{unit}/s²")
+    builder.mistake("v_B", -a * omega * sin(crank), message("The tilt of the rod is missing."))

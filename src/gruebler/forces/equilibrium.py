@@ -44,7 +44,7 @@ class Reactions(NamedTuple):
 
 def joint_connections(motion: Motion) -> tuple[JointConnection, ...]:
     """Those of the linkage with lower pairs. `LinkageError` for other joints than turning and sliding ones."""
-    chain = motion.plan.lower.mechanism.chain
+    chain = motion.lower_linkage.mechanism.chain
     out = []
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
@@ -69,7 +69,7 @@ def reactions(motion: Motion, wrenches: Iterable[Wrench]) -> Reactions:
 
 
 def _block(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reactions:
-    lower, held = motion.plan.lower, joint_connections(motion)
+    lower, held = motion.lower_linkage, joint_connections(motion)
     columns, directions = _columns(motion, held, rows)
     frame = lower.mechanism.chain.links.index(lower.mechanism.frame)
     bodies = [3 * k + part for k in range(len(lower.mechanism.chain.links)) if k != frame for part in range(3)]
@@ -100,7 +100,7 @@ def _columns(motion: Motion, held: tuple[JointConnection, ...], rows: slice) -> 
     Unknowns: x, y of a pin's force, normal force and couple of a slide, then the drives. Second come the directions of
     the slides' normal forces, (rows, contacts).
     """
-    lower, z = motion.plan.lower, motion.places[0, rows]
+    lower, z = motion.lower_linkage, motion.places[0, rows]
     links = lower.mechanism.chain.links
     acts = _Actions(z / lower.size, np.zeros((len(z), 3 * len(links), 2 * len(held) + len(lower.mechanism.drives))))
     directions = np.ones((len(z), len(held)), np.complex128)
@@ -144,7 +144,7 @@ class _Actions(NamedTuple):
 
 def _meeting(motion: Motion, joint: int, one: str, other: str, rows: slice) -> tuple[Complexes, Complexes]:
     """Where the other link's point of a joint lies, in sizes, and the direction of the first one's line."""
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     links, near, far = lower.mechanism.chain.links, lower.elements[joint, one], lower.elements[joint, other]
     k, m = links.index(one), links.index(other)
     at = (motion.places[0, rows, m] + motion.turns[rows, m] * complex(far.x, far.y)) / lower.size
@@ -153,7 +153,7 @@ def _meeting(motion: Motion, joint: int, one: str, other: str, rows: slice) -> t
 
 def _loads(motion: Motion, wrenches: tuple[Wrench, ...], rows: slice) -> Reals:
     """The loads on each link: x, y and the moment about its origin by the size; (rows, 3 links)."""
-    lower, turns = motion.plan.lower, motion.turns[rows]
+    lower, turns = motion.lower_linkage, motion.turns[rows]
     out = np.zeros((len(turns), 3 * turns.shape[1]))
     for wrench in wrenches:
         k = lower.mechanism.chain.links.index(wrench.place.link)

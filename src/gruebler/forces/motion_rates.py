@@ -35,9 +35,9 @@ def with_velocities(motion: Motion, speed: Reals) -> Iterator[tuple[Rows, Motion
 
 def drive_speed(motion: Motion) -> Reals:
     """The speed of the only drive in a motion with velocities; (rows,)."""
-    drive = motion.plan.lower.mechanism.drives[0]
+    drive = motion.lower_linkage.mechanism.drives[0]
     if not drive.turning:
         return motion.displacement(drive.joint, 1)
-    one, other = motion.plan.lower.reference(0)
+    one, other = motion.lower_linkage.reference(0)
     out: Reals = motion.angular(other) - motion.angular(one)
     return out

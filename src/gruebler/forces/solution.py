@@ -76,7 +76,7 @@ class Statics(Brief):
     @cached_property
     def load(self) -> Reals:
         """What all loads together come to at most, as an effort of each drive (a torque, or a force); (drives,)."""
-        size, mechanism = self.motion.plan.lower.size, self.motion.linkage.mechanism
+        size, mechanism = self.motion.size, self.motion.linkage.mechanism
         force = (
             sum(float(np.abs(wrench.force).max() + np.abs(wrench.moment).max() / size) for wrench in self.wrenches)
             or 1.0
@@ -144,7 +144,7 @@ class Statics(Brief):
         for joint in joints[:number]:
             first += 2 if joint.pair.name in _TWO_IN_PLACE_OF_ONE else 1
         mine = range(first, first + (2 if joints[number].pair.name in _TWO_IN_PLACE_OF_ONE else 1))
-        k = self.motion.plan.lower.mechanism.chain.links.index(link)
+        k = self.motion.link_index(link)
         return [
             (at, 1 if contact.other == k else -1)
             for at, contact in enumerate(self._contacts)
@@ -172,7 +172,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     >>> held.drive.round(6).tolist(), held.work.round(6).tolist()  # the rocker turns 0.478521 times as fast
     ([[478.520528]], [[478.520528]])
     """
-    if not motion.plan.lower.mechanism.drives:
+    if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released:
         raise LinkageError("the linkage is overconstrained: how its joints share the loads depends on how they yield")
@@ -184,7 +184,7 @@ def statics(motion: Motion, loads: Loads) -> Statics:
 
 def _virtual_work(motion: Motion, wrenches: tuple[Wrench, ...]) -> Reals:
     """The efforts whose work on a small motion of each drive is that of the loads with the other sign."""
-    drives = len(motion.plan.lower.mechanism.drives)
+    drives = len(motion.lower_linkage.mechanism.drives)
     out = np.full((len(motion), drives), np.nan)
     for k in range(drives):
         for rows, moved in with_velocities(motion, np.eye(drives)[k]):

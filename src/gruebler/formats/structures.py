@@ -97,7 +97,11 @@ def read_structures(path: Path, space: str | None = None) -> Iterator[Structure]
     if ending == ".json":
         yield from structures_of_json(text, str(path))
     elif ending == ".g6":
-        yield from structures_of_lines("".join(f"g6:{line}\n" for line in text.split()), str(path))
+        marks = ("g6:", "#")
+        lines = (
+            line if line.lstrip().startswith(marks) or not line.strip() else f"g6:{line}" for line in text.splitlines()
+        )
+        yield from structures_of_lines("\n".join(lines), str(path))
     else:
         yield from structures_of_lines(text, str(path), space)
 

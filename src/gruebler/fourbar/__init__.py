@@ -4,7 +4,7 @@ Types (`grashof`), dead centres, transmission angles, motion: docs/theory/four-b
 """
 
 from gruebler.fourbar.crank_motion import CrankMotion, CrankRates, InvertedMotion
-from gruebler.fourbar.extremes import CrankRange, DeadCentre, DeadCentres, StrokeTimes, Transmission, TransmissionAngle
+from gruebler.fourbar.extremes import CrankRange, DeadCentres, StrokeTimes
 from gruebler.fourbar.four_bar import FourBar
 from gruebler.fourbar.grashof import (
     FOUR_BAR_TYPES,
@@ -26,7 +26,6 @@ __all__ = [
     "CrankMotion",
     "CrankRange",
     "CrankRates",
-    "DeadCentre",
     "DeadCentres",
     "FourBar",
     "Grashof",
@@ -37,8 +36,6 @@ __all__ = [
     "SliderCrank",
     "StrokeMidpoint",
     "StrokeTimes",
-    "Transmission",
-    "TransmissionAngle",
     "grashof",
     "turning_ranges",
     "types_along",

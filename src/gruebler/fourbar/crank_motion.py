@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.jets import turn_derivative
 from gruebler.linkages.quantities import as_finite, as_numbers
 from gruebler.text import Message
 
@@ -116,10 +117,7 @@ def rotation_derivative(angle: Sequence[Any], order: int) -> Any:
     >>> rotation_derivative([0.0, 2.0], 1)
     np.complex128(2j)
     """
-    known: list[Any] = [*angle, 0.0, 0.0, 0.0]
-    x, x1, x2, x3 = known[:4]
-    factor = (1.0, 1j * x1, 1j * x2 - x1**2, 1j * x3 - 3 * x1 * x2 - 1j * x1**3)[order]
-    return factor * np.exp(1j * x)
+    return turn_derivative([*angle[1:], 0.0, 0.0, 0.0], order) * np.exp(1j * angle[0])
 
 
 def crank_rates(phi: npt.ArrayLike, omega: npt.ArrayLike, alpha: npt.ArrayLike, jerk: npt.ArrayLike) -> CrankRates:

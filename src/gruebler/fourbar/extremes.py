@@ -4,30 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
+from gruebler.events import DeadCentre, Transmission, TransmissionExtremes
 from gruebler.linkages.quantities import as_finite
 from gruebler.text import Message, joined, joined_by_or, message
 
 __all__ = [
     "CrankRange",
-    "DeadCentre",
     "DeadCentres",
     "StrokeTimes",
-    "Transmission",
-    "TransmissionAngle",
     "cannot_assemble",
     "clipped_cosine",
     "crank_ranges",
+    "transmission_extremes",
     "triangle_angle",
 ]
 
 TURN = 2 * math.pi
+_LEG = ("coupler",)
 Mask = npt.NDArray[np.bool_]
 
 
@@ -117,26 +116,29 @@ class StrokeTimes(NamedTuple):
         return self.longest - self.shortest
 
 
-@dataclass(frozen=True, slots=True)
-class DeadCentre:
-    """A position in which the output turns back."""
-
-    phi: float
-    """The crank's angle, in 0..2 pi."""
-    output: float
-    """The output: its angle psi, or the slider's way s."""
-    line: float
-    """The direction of the coupler's line: from A0 to B for four-bar and slider-crank (there phi_i, phi_a)."""
-
-
-@dataclass(frozen=True, slots=True)
-class DeadCentres:
+class DeadCentres(NamedTuple):
     """Both dead centres and how the crank's turn is divided between them."""
 
     inner: DeadCentre
     """Crank and coupler overlapping."""
     outer: DeadCentre
     """Crank and coupler stretched."""
+    inner_line: float
+    """The direction of the coupler's line in the inner one: from A0 to B for four-bar and slider-crank (phi_i)."""
+    outer_line: float
+    """The same in the outer one (phi_a)."""
+
+    @classmethod
+    def between(cls, inner: tuple[float, float, float], outer: tuple[float, float, float]) -> DeadCentres:
+        """Both from crank angle, output and direction of the coupler's line.
+
+        >>> [centre.kind for centre in DeadCentres.between((3.2, 4.0, 0.1), (0.2, 7.5, 0.2))[:2]]
+        ['minimum', 'maximum']
+        """
+        kinds = ("minimum", "maximum") if inner[1] < outer[1] else ("maximum", "minimum")
+        return cls(
+            DeadCentre(*inner[:2], kinds[0], "inner"), DeadCentre(*outer[:2], kinds[1], "outer"), inner[2], outer[2]
+        )
 
     @property
     def travel(self) -> float:
@@ -146,7 +148,7 @@ class DeadCentres:
     @property
     def phi_forward(self) -> float:
         """The crank angle from the inner to the outer dead centre, in the positive sense."""
-        return (self.outer.phi - self.inner.phi) % TURN
+        return (self.outer.drive - self.inner.drive) % TURN
 
     @property
     def phi_back(self) -> float:
@@ -182,55 +184,22 @@ class DeadCentres:
         return StrokeTimes(*(angle / TURN * 60 / abs(speed) for angle in angles))
 
 
-class Transmission(NamedTuple):
-    """The transmission angle at one crank angle."""
+def transmission_extremes(
+    first: tuple[float, float], second: tuple[float, float], right: float = math.nan
+) -> TransmissionExtremes:
+    """The extremes of the transmission angle from the two of the angle between coupler and output, (phi, angle) each.
 
-    phi: float
-    mu: float
-    """The angle between coupler and output, in 0..pi."""
+    If that angle passes through a right one between them, at the crank angle ``right``, that is the largest.
 
-    @property
-    def folded(self) -> float:
-        """The transmission angle, at most pi/2."""
-        return min(self.mu, math.pi - self.mu)
-
-    @property
-    def deviation(self) -> float:
-        """The deviation angle alpha, pi/2 less the transmission angle."""
-        return math.pi / 2 - self.folded
-
-
-@dataclass(frozen=True, slots=True)
-class TransmissionAngle:
-    """Both extremes of the angle between coupler and output, and what follows for the transmission angle."""
-
-    first: Transmission
-    second: Transmission
-
-    @property
-    def worst(self) -> Transmission:
-        """The extreme with the smaller transmission angle."""
-        return min(self.first, self.second, key=lambda extreme: extreme.folded)
-
-    @property
-    def smallest(self) -> float:
-        """The smallest transmission angle mu_min."""
-        return self.worst.folded
-
-    @property
-    def largest(self) -> float:
-        """The largest transmission angle: pi/2 if the angle passes through a right one."""
-        low, high = sorted((self.first.mu, self.second.mu))
-        return math.pi / 2 if low <= math.pi / 2 <= high else max(self.first.folded, self.second.folded)
-
-    @property
-    def largest_deviation(self) -> float:
-        """The largest deviation angle alpha_max."""
-        return self.worst.deviation
-
-    def is_good(self, least: float = math.radians(40)) -> bool:
-        """Whether it never falls below ``least``: by the rule of thumb, 40 degrees."""
-        return self.smallest >= as_finite("least", least)
+    >>> found = transmission_extremes((0.0, 1.0), (3.0, 1.8), 2.2)
+    >>> found.smallest.mu, round(found.largest.mu, 6), found.largest.drive
+    (1.0, 1.570796, 2.2)
+    """
+    extremes = [Transmission(*first, _LEG), Transmission(*second, _LEG)]
+    if min(first[1], second[1]) < math.pi / 2 < max(first[1], second[1]):
+        extremes.append(Transmission(right, math.pi / 2, _LEG))
+    smallest, largest = (choice(extremes, key=lambda extreme: extreme.mu) for choice in (min, max))
+    return TransmissionExtremes(tuple(sorted(extremes)), smallest, largest, (_LEG,))
 
 
 def cannot_assemble(arcs: Sequence[CrankRange], missing: Mask, undetermined: Mask, singular: Mask) -> Message | None:

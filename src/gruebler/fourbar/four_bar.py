@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.events import TransmissionExtremes
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
     CrankMotion,
@@ -22,12 +23,11 @@ from gruebler.fourbar.crank_motion import (
 )
 from gruebler.fourbar.extremes import (
     CrankRange,
-    DeadCentre,
     DeadCentres,
-    Transmission,
-    TransmissionAngle,
     cannot_assemble,
+    clipped_cosine,
     crank_ranges,
+    transmission_extremes,
     triangle_angle,
 )
 from gruebler.fourbar.grashof import Grashof, LengthRange, LinkageType, grashof, turning_ranges, types_along
@@ -164,20 +164,17 @@ class FourBar:
         fro. At a change point one of the two is the position where the motion may also go on.
 
         >>> centres = FourBar(a=2, b=7, c=4.5, d=5.5).dead_centres
-        >>> round(math.degrees(centres.inner.line), 4), round(math.degrees(centres.outer.line), 4)
+        >>> round(math.degrees(centres.inner_line), 4), round(math.degrees(centres.outer_line), 4)
         (50.4788, 23.1918)
         """
-        found = self.grashof
-        if "a" not in found.turning or found.shortest != ("a",):
+        grashof = self.grashof
+        if "a" not in grashof.turning or grashof.shortest != ("a",):
             return None
         inner, outer = (
             (triangle_angle(reach, self.d, self.c), math.pi - triangle_angle(self.c, self.d, reach))
             for reach in (self.b - self.a, self.b + self.a)
         )
-        return DeadCentres(
-            DeadCentre(inner[0] + math.pi, inner[1], inner[0]),
-            DeadCentre(outer[0], outer[1], outer[0]),
-        )
+        return DeadCentres.between((inner[0] + math.pi, inner[1], inner[0]), (outer[0], outer[1], outer[0]))
 
     @property
     def swing(self) -> float | None:
@@ -192,13 +189,13 @@ class FourBar:
         return centres is not None and centres.delta_phi < 1e-9
 
     @property
-    def transmission_angle(self) -> TransmissionAngle:
-        """The extremes of the transmission angle: crank over the frame (first) and away from it (second).
+    def transmission_angle(self) -> TransmissionExtremes:
+        """The extremes of the transmission angle: crank over the frame and away from it, and a right angle between.
 
         A crank that does not get there has its extremes where it stops, with transmission angle 0. Raises
         LinkageError if the four-bar is not assemblable.
 
-        >>> round(math.degrees(FourBar(a=2, b=5, c=4, d=5).transmission_angle.smallest), 6)
+        >>> round(math.degrees(FourBar(a=2, b=5, c=4, d=5).transmission_angle.smallest.mu), 6)
         36.869898
         """
         limits = self.limits
@@ -209,9 +206,11 @@ class FourBar:
         arc = limits[0]
         first = max(arc.start, 0.0)
         second = math.pi if arc.end > math.pi else arc.end
-        return TransmissionAngle(
-            Transmission(first, triangle_angle(self.b, self.c, max(abs(self.d - self.a), abs(self.b - self.c)))),
-            Transmission(second, triangle_angle(self.b, self.c, min(self.d + self.a, self.b + self.c))),
+        right = (self.a**2 + self.d**2 - self.b**2 - self.c**2) / (2 * self.a * self.d)
+        return transmission_extremes(
+            (first, triangle_angle(self.b, self.c, max(abs(self.d - self.a), abs(self.b - self.c)))),
+            (second, triangle_angle(self.b, self.c, min(self.d + self.a, self.b + self.c))),
+            math.acos(clipped_cosine(right)),
         )
 
     def motion(

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.events import TransmissionExtremes
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
     CrankRates,
@@ -24,13 +25,11 @@ from gruebler.fourbar.crank_motion import (
 from gruebler.fourbar.extremes import (
     TURN,
     CrankRange,
-    DeadCentre,
     DeadCentres,
-    Transmission,
-    TransmissionAngle,
     cannot_assemble,
     clipped_cosine,
     crank_ranges,
+    transmission_extremes,
 )
 from gruebler.fourbar.grashof import LinkageType
 from gruebler.fourbar.slider_crank_types import INVERTED_SLIDER_CRANK_TYPES, offset_relation
@@ -104,17 +103,17 @@ class InvertedSliderCrank:
 
         ``output`` is psi; as with a four-bar it is larger in the inner one.
 
-        >>> round(math.degrees(InvertedSliderCrank(a=30, d=50).dead_centres.outer.phi), 6)
+        >>> round(math.degrees(InvertedSliderCrank(a=30, d=50).dead_centres.outer.drive), 6)
         53.130102
         """
         if self.turning != ("a",):
             return None
-        found = []
+        centres = []
         for side in (-1, 1):
             theta = math.asin(clipped_cosine((-side * self.a - self.e) / self.d))
-            found.append(DeadCentre((theta + side * math.pi / 2) % TURN, theta + math.pi, theta))
-        outer, inner = sorted(found, key=lambda centre: centre.output)
-        return DeadCentres(inner, outer)
+            centres.append(((theta + side * math.pi / 2) % TURN, theta + math.pi, theta))
+        outer, inner = sorted(centres, key=lambda centre: centre[1])
+        return DeadCentres.between(inner, outer)
 
     @property
     def swing(self) -> float | None:
@@ -123,8 +122,8 @@ class InvertedSliderCrank:
         return None if centres is None else centres.travel
 
     @property
-    def transmission_angle(self) -> TransmissionAngle:
-        """The extremes of the transmission angle onto the lever about B0: crank over the frame (first), away (second).
+    def transmission_angle(self) -> TransmissionExtremes:
+        """The extremes of the transmission angle onto the lever about B0: crank over the frame, and away from it.
 
         cos mu = |e|/AB0, so that it is pi/2 throughout for e = 0. Raises LinkageError if it is not assemblable.
         """
@@ -135,9 +134,9 @@ class InvertedSliderCrank:
             )
         nearest = max(abs(self.d - self.a), abs(self.e))
         first = limits[0].start
-        return TransmissionAngle(
-            Transmission(first, math.acos(clipped_cosine(abs(self.e) / nearest)) if nearest else math.pi / 2),
-            Transmission(math.pi, math.acos(clipped_cosine(abs(self.e) / (self.d + self.a)))),
+        return transmission_extremes(
+            (first, math.acos(clipped_cosine(abs(self.e) / nearest)) if nearest else math.pi / 2),
+            (math.pi, math.acos(clipped_cosine(abs(self.e) / (self.d + self.a)))),
         )
 
     def motion(

@@ -42,9 +42,9 @@ def linkage_on_mechanism(
     rank = dict(zip(own.mechanism.chain.links, loop, strict=True))
     elements: dict[str, dict[str | int, object]] = {link: {} for link in loop}
     for (number, link), element in own.elements.items():
-        sides = {rank[one] for one in own.mechanism.chain.joints[number].links}
-        mine = next(k for k, joint in enumerate(mechanism.chain.joints) if set(joint.links) == sides)
-        elements[rank[link]][mine] = element
+        sides = {rank[side] for side in own.mechanism.chain.joints[number].links}
+        joint_number = next(k for k, joint in enumerate(mechanism.chain.joints) if set(joint.links) == sides)
+        elements[rank[link]][joint_number] = element
     places = None if mechanism is own.mechanism and branch == 1 else _home(lengths, branch)
     home = None if places is None else dict(zip(loop, places, strict=True))
     return Linkage(mechanism, elements, unit=unit, reference_pose=home, outputs=outputs or ())

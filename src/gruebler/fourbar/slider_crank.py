@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gruebler.errors import LinkageError
+from gruebler.events import TransmissionExtremes
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
 from gruebler.fourbar.crank_motion import (
     CrankMotion,
@@ -23,12 +24,10 @@ from gruebler.fourbar.crank_motion import (
 from gruebler.fourbar.extremes import (
     TURN,
     CrankRange,
-    DeadCentre,
     DeadCentres,
-    Transmission,
-    TransmissionAngle,
     cannot_assemble,
     clipped_cosine,
+    transmission_extremes,
 )
 from gruebler.fourbar.grashof import LinkageType
 from gruebler.fourbar.slider_crank_types import SLIDER_CRANK_TYPES, offset_relation
@@ -199,8 +198,7 @@ class SliderCrank:
         line_in, line_out = math.asin(clipped_cosine(self.e / near)), math.asin(clipped_cosine(self.e / far))
         way_in = math.sqrt(max(0.0, (near - self.e) * (near + self.e)))
         way_out = math.sqrt((far - self.e) * (far + self.e))
-        inner = DeadCentre((line_in + math.pi) % TURN, way_in, line_in)
-        return DeadCentres(inner, DeadCentre(line_out % TURN, way_out, line_out))
+        return DeadCentres.between(((line_in + math.pi) % TURN, way_in, line_in), (line_out % TURN, way_out, line_out))
 
     @property
     def stroke(self) -> float | None:
@@ -222,8 +220,8 @@ class SliderCrank:
             return None
         way = (centres.inner.output + centres.outer.output) / 2
         phi_time = centres.phi_back / 2
-        time = float(self.motion(centres.outer.phi + phi_time).output.value)
-        return StrokeMidpoint(way, time, float(self.phi_at(way)[0] - centres.outer.phi) % TURN, phi_time)
+        time = float(self.motion(centres.outer.drive + phi_time).output.value)
+        return StrokeMidpoint(way, time, float(self.phi_at(way)[0] - centres.outer.drive) % TURN, phi_time)
 
     def phi_at(self, displacement: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """The two crank angles, in 0..2 pi, at which the slider is at s = way; NaN where it never is.
@@ -242,13 +240,13 @@ class SliderCrank:
         return np.asarray((line + angle) % TURN), np.asarray((line - angle) % TURN)
 
     @property
-    def transmission_angle(self) -> TransmissionAngle:
-        """The extremes of the transmission angle: crank straight up (first) and straight down (second).
+    def transmission_angle(self) -> TransmissionExtremes:
+        """The extremes of the transmission angle: crank straight up and straight down, and a right angle between.
 
-        For e >= 0 the second is the worse, cos mu_min = (a + e)/b. A crank that does not get there has its extremes
+        For e >= 0 straight down is the worse, cos mu_min = (a + e)/b. A crank that does not get there has its extremes
         where it stops, with transmission angle 0. Raises LinkageError if the slider-crank is not assemblable.
 
-        >>> round(math.degrees(SliderCrank(a=3, b=5, e=1).transmission_angle.smallest), 6)
+        >>> round(math.degrees(SliderCrank(a=3, b=5, e=1).transmission_angle.smallest.mu), 6)
         36.869898
         """
         if not self.limits:
@@ -256,14 +254,12 @@ class SliderCrank:
                 "the slider-crank {a:g}, {b:g}, e = {e:g} is not assemblable", a=self.a, b=self.b, e=self.e
             )
         high, low = min(self.a, self.e + self.b), max(-self.a, self.e - self.b)
-        return TransmissionAngle(
-            *(
-                Transmission(
-                    math.asin(clipped_cosine(y / self.a)) % TURN, math.acos(clipped_cosine((y - self.e) / self.b))
-                )
-                for y in (high, low)
-            )
+        first, second = (
+            (math.asin(clipped_cosine(y / self.a)) % TURN, math.acos(clipped_cosine((y - self.e) / self.b)))
+            for y in (high, low)
         )
+        right = math.pi - math.asin(clipped_cosine(self.e / self.a))
+        return transmission_extremes(first, second, right)
 
     def motion(
         self,

@@ -1,4 +1,4 @@
-"""Whether planets can be put in: coaxial wheels, equal spacing, neighbours that do not touch; docs/theory/gears.md."""
+"""Assembly of planets: coaxial wheels, equal spacing, neighbours that do not touch; docs/theory/gears.md."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class Assembly:
     coaxial: bool
     """Whether all central wheels have their axes at the same distance from the planets: z_ring = z_sun + 2 z_planet."""
     spacing: Fraction
-    """The least angle between places of planets, in turns; any multiple is possible. 0: every place is."""
+    """The least angle between places of planets, in turns; any multiple is possible. 0: any angle is possible."""
     clear: bool
     """Whether the tip circles of neighbours (addendum one module) stay apart at equal spacing."""
 
@@ -37,10 +37,10 @@ class Assembly:
 
 
 def assembly(train: Train, planet: str, number: int) -> Assembly:
-    """The conditions of assembly for so many equal planets at equal angles.
+    """The conditions of assembly for a number of equal planets at equal angles.
 
     The planet must mesh with two central wheels on one moving carrier, with whole tooth numbers; its two wheels may
-    differ (stepped planets), their teeth standing against each other in the same way on every planet.
+    differ (stepped planets), with the same relative position of their teeth on every planet.
 
     >>> from gruebler.gears import read_train
     >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
@@ -75,15 +75,15 @@ def _from(mesh: Mesh, planet: str) -> Mesh:
     return Mesh(mesh.b, mesh.a, mesh.size_b, mesh.size_a, mesh.carrier, mesh.kind)
 
 
-def _spacing(first: Mesh, other: Mesh) -> Fraction:
+def _spacing(mesh: Mesh, other_mesh: Mesh) -> Fraction:
     """In turns: centrals a, b and planet teeth p, q fit again after gcd(p, q) / |a q - b p| of a turn."""
-    p, a, q, b = (int(size) for size in (first.size_a, first.size_b, other.size_a, other.size_b))
+    p, a, q, b = (int(size) for size in (mesh.size_a, mesh.size_b, other_mesh.size_a, other_mesh.size_b))
     return Fraction(math.gcd(p, q), abs(a * q - b * p)) if a * q != b * p else Fraction(0)
 
 
 @dataclass(frozen=True, slots=True)
 class Axes:
-    """The distances from a planet's axis that its wheels and their partners give: equal if the partners are coaxial."""
+    """The centre distances of a planet's wheels and their partners: equal if the partners are coaxial."""
 
     carrier: str
     planet: str
@@ -102,37 +102,37 @@ class Axes:
 
 
 def axes(train: Train) -> tuple[Axes, ...]:
-    """The planets between central wheels, with the distances that the tooth numbers give.
+    """The planets between central wheels, with the centre distances from the tooth numbers.
 
-    Planets are told from central wheels where the gear meshes on a moving carrier leave no doubt: a wheel all of whose
+    A wheel counts as a planet where the gear meshes on a moving carrier are unambiguous: a wheel all of whose
     partners have no other mesh there, or wheels that all mesh with the same two others.
 
     >>> from gruebler.gears import read_train
-    >>> [(one.planet, one.coaxial) for one in axes(read_train("sun:24 planet:17 ring:-60 on arm").train)]
+    >>> [(planet.planet, planet.coaxial) for planet in axes(read_train("sun:24 planet:17 ring:-60 on arm").train)]
     [('planet', False)]
     """
-    out = []
+    planet_axes = []
     for carrier in dict.fromkeys(mesh.carrier for mesh in train.meshes if mesh.carrier != FRAME):
         meshes = [mesh for mesh in train.meshes if mesh.carrier == carrier and mesh.kind == "gear"]
         partners: dict[str, set[str]] = {}
         for mesh in meshes:
             partners.setdefault(mesh.a, set()).add(mesh.b)
             partners.setdefault(mesh.b, set()).add(mesh.a)
-        same: dict[frozenset[str], set[str]] = {}
+        by_centres: dict[frozenset[str], set[str]] = {}
         for planet, centres in partners.items():
-            same.setdefault(frozenset(centres), set()).add(planet)
+            by_centres.setdefault(frozenset(centres), set()).add(planet)
         for planet, centres in partners.items():
-            alike = same[frozenset(centres)]
+            alike = by_centres[frozenset(centres)]
             star = len(alike) == 1 and all(partners[centre] == {planet} for centre in centres)
             ring = len(alike) > 1 and len(centres) == 2 and all(partners[centre] == alike for centre in centres)
             if len(centres) > 1 and (star or ring):
-                mine = (_from(mesh, planet) for mesh in meshes if planet in (mesh.a, mesh.b))
-                out.append(Axes(carrier, planet, tuple(mine)))
-    return tuple(out)
+                planet_meshes = (_from(mesh, planet) for mesh in meshes if planet in (mesh.a, mesh.b))
+                planet_axes.append(Axes(carrier, planet, tuple(planet_meshes)))
+    return tuple(planet_axes)
 
 
 def even_numbers(train: Train, planet: str, most: int = 12) -> tuple[int, ...]:
-    """How many equal planets can be put in at equal angles, from 2 up to so many; empty if that is not known.
+    """The possible numbers of equal planets at equal angles, from 2 to ``most``; empty if they are not known.
 
     >>> from gruebler.gears import read_train
     >>> even_numbers(read_train("sun:24 planet:18 ring:-60 on arm").train, "planet")

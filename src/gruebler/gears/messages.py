@@ -1,4 +1,4 @@
-"""A gear train in words."""
+"""Texts about a gear train."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LARGEST_BITS = 13_500  # below the 4,300 digits that Python turns into text
 
 
 def fraction_text(value: Fraction | float, lang: str = "en") -> str:
-    """A number for people: whole, or a fraction with its decimal value.
+    """A number as text: whole, or a fraction with its decimal value.
 
     >>> fraction_text(Fraction(7, 2)), fraction_text(Fraction(6)), fraction_text(0.25)
     ('7/2 (3.5)', '6', '0.25')
@@ -31,7 +31,7 @@ def fraction_text(value: Fraction | float, lang: str = "en") -> str:
 
 
 def writable(value: Fraction) -> bool:
-    """Whether its digits can be written out: a long row of stages has ratios of tens of thousands of digits.
+    """Whether its digits can be written out: the ratio of many stages can have tens of thousands of digits.
 
     >>> writable(Fraction(1, 10**4000)), writable(Fraction(1, 10**5000))
     (True, False)
@@ -55,7 +55,7 @@ def decimal(value: Fraction) -> str:
 
 
 def explain_train(reading: TrainReading, lang: str = "en") -> str:
-    """What can be said of a train and its drives, line by line.
+    """A description of a train and its drives, line by line.
 
     >>> from gruebler.gears import read_train
     >>> print(explain_train(read_train("sun:24 planet:18 ring:-60 on arm planets=3; hold ring; drive sun=7")))
@@ -97,23 +97,23 @@ def explain_train(reading: TrainReading, lang: str = "en") -> str:
                     sums="; ".join(shown),
                 )
             )
-        elif planet not in reading.planets and (fits := even_numbers(train, planet)):
-            numbers = ", ".join(map(str, fits))
+        elif planet not in reading.planets and (possible_numbers := even_numbers(train, planet)):
+            numbers = ", ".join(map(str, possible_numbers))
             text = message("Equal planets ({planet}) that fit at equal angles: {numbers}.")
             lines.append(text.filled(planet=planet, numbers=numbers).in_language(lang))
     return "\n".join(lines)
 
 
 def _drive_lines(reading: TrainReading, mobility: int, lang: str) -> list[str]:
-    """What the drives contradict, repeat and leave open."""
+    """The contradicted and redundant drives, and the undetermined links."""
     state, lines = speeds(reading.train, reading.drives), []
-    for link, wanted, follows in state.contradictions:
+    for link, requested, follows in state.contradictions:
         lines.append(
             translate(
                 "{link} cannot have {wanted}: it follows from the other drives as {follows}.",
                 lang,
                 link=link,
-                wanted=fraction_text(wanted, lang),
+                wanted=fraction_text(requested, lang),
                 follows=fraction_text(follows, lang),
             )
         )
@@ -134,7 +134,7 @@ def _drive_lines(reading: TrainReading, mobility: int, lang: str) -> list[str]:
 
 
 def _planets_line(placed: Assembly, lang: str) -> str:
-    """Whether so many equal planets fit, and if not, why."""
+    """Whether this number of equal planets can be assembled, with the reasons if not."""
     reasons = []
     if not placed.coaxial:
         reasons.append(message("the central wheels are not coaxial (wheels of one module without profile shift)"))

@@ -1,4 +1,4 @@
-"""What a train does with given drives: speeds, ratios, torques and power, all exact; docs/theory/gears.md."""
+"""The motion of a train with given drives: speeds, ratios, torques and power, all exact; docs/theory/gears.md."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gruebler.text import message
 __all__ = ["Balance", "Contradiction", "Speeds", "balance", "influence", "ratio", "speeds"]
 
 
-_GIVEN = ""  # the column of what is given: a drive is the row "link - speed * given"; no link has an empty name
+_GIVEN = ""  # the column of the constants: a drive is the row "link - speed * constant"; no link has an empty name
 
 
 class Contradiction(NamedTuple):
@@ -33,11 +33,11 @@ class Speeds:
     values: dict[str, Fraction | None]
     contradictions: tuple[Contradiction, ...]
     spare: tuple[str, ...]
-    """Drives that say what others say already, without contradiction."""
+    """Drives that follow from others, without contradiction."""
 
     @property
     def free(self) -> tuple[str, ...]:
-        """The links whose speed stays undetermined."""
+        """The links with an undetermined speed."""
         return tuple(link for link, value in self.values.items() if value is None)
 
     @property
@@ -47,7 +47,7 @@ class Speeds:
 
 
 def speeds(train: Train, drives: Mapping[str, object]) -> Speeds:
-    """The speeds of all links if some are given (0 holds a link); a contradicted drive is left out and reported.
+    """The speeds of all links from given ones (0 fixes a link); a contradicted drive is left out and reported.
 
     >>> from gruebler.gears import read_train
     >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
@@ -60,15 +60,15 @@ def speeds(train: Train, drives: Mapping[str, object]) -> Speeds:
     spare: list[str] = []
     units, comparable = train.units(), train.comparable(links)
     for link, value in drives.items():
-        wanted = exact_number(value, message("speed of {link}", link=train.known(link)))
-        if wanted and units[link] != Unit.TURNING and not comparable:
+        requested = exact_number(value, message("speed of {link}", link=train.known(link)))
+        if requested and units[link] != Unit.TURNING and not comparable:
             raise GearError("{link} is driven, but {mixed}", link=link, mixed=MIXED)
-        rest = form.left({link: Fraction(1)})
-        if rest.keys() - {_GIVEN}:
-            form.add({link: Fraction(1), _GIVEN: -wanted})
+        remainder = form.left({link: Fraction(1)})
+        if remainder.keys() - {_GIVEN}:
+            form.add({link: Fraction(1), _GIVEN: -requested})
             continue
-        follows = rest.get(_GIVEN, Fraction(0))
-        spare.append(link) if follows == wanted else wrong.append(Contradiction(link, wanted, follows))
+        follows = remainder.get(_GIVEN, Fraction(0))
+        spare.append(link) if follows == requested else wrong.append(Contradiction(link, requested, follows))
     determined = form.full()
     values = {
         link: -row.get(_GIVEN, Fraction(0)) if (row := determined.get(link)) and row.keys() <= {link, _GIVEN} else None
@@ -97,25 +97,25 @@ def influence(train: Train, drives: Iterable[str]) -> dict[str, Row[str]]:
             drives=", ".join(names) or message("none"),
         )
     chosen = set(names)
-    found = _relations(train, [*(link for link in train.links if link not in chosen), *names]).full()
+    reduced = _relations(train, [*(link for link in train.links if link not in chosen), *names]).full()
     factors = {}
     for link in train.links:
-        rest = reduce_row({link: Fraction(1)}, found)
-        factors[link] = {drive: rest[drive] for drive in names if drive in rest}
+        remainder = reduce_row({link: Fraction(1)}, reduced)
+        factors[link] = {drive: remainder[drive] for drive in names if drive in remainder}
     return factors
 
 
 def ratio(train: Train, a: str, b: str, held: Iterable[str] = ()) -> Fraction:
-    """The transmission ratio i = w_a / w_b while the held links stand still.
+    """The transmission ratio i = w_a / w_b while the held links are fixed.
 
     >>> from gruebler.gears import read_train
     >>> str(ratio(read_train("sun:24 planet:18 ring:-60 on arm").train, "sun", "arm", held=["ring"]))
     '7/2'
     """
-    found = speeds(train, {**dict.fromkeys(held, 0), a: 1})
-    if a in (contradiction.link for contradiction in found.contradictions) or found.values[train.known(b)] == 0:
+    state = speeds(train, {**dict.fromkeys(held, 0), a: 1})
+    if a in (contradiction.link for contradiction in state.contradictions) or state.values[train.known(b)] == 0:
         raise GearError("{a} or {b} stands still: there is no ratio of {a} to {b}", a=a, b=b)
-    value = found.values[b]
+    value = state.values[b]
     if value is None:
         raise GearError("the speed of {b} does not follow from {a}", b=b, a=", ".join((a, *held)))
     if not train.comparable((a, b)):
@@ -125,39 +125,40 @@ def ratio(train: Train, a: str, b: str, held: Iterable[str] = ()) -> Fraction:
 
 @dataclass(frozen=True, slots=True)
 class Balance:
-    """Torques from outside (forces on links that slide) and the power of each; the powers sum to zero."""
+    """External torques (forces on links that slide) and the power of each; the powers sum to zero."""
 
     torques: dict[str, Fraction | float]
     powers: dict[str, Fraction | float]
-    """Torque times speed, the speeds taken per radian; for turns multiply by 2 pi."""
+    """Torque times speed, with speeds per radian; for turns multiply by 2 pi."""
 
 
 def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, object]) -> Balance:
-    """The torques that drives and held links must give against loads, by virtual work.
+    """The torques at drives and held links that balance the loads, by virtual work.
 
-    For every motion that the train allows the torques do no work in sum: T_d = -sum of T_l * (dw_l / dw_d). Exact,
+    For every motion that the train allows the sum of the work is zero: T_d = -sum of T_l * (dw_l / dw_d). Exact,
     except where a force acts on a link moved by a screw (a float, because of 2 pi).
 
     >>> from gruebler.gears import read_train
     >>> train = read_train("sun:24 planet:18 ring:-60 on arm").train
-    >>> found = balance(train, {"sun": 7, "ring": 0}, {"arm": -70})
-    >>> {link: str(torque) for link, torque in found.torques.items()}
+    >>> state = balance(train, {"sun": 7, "ring": 0}, {"arm": -70})
+    >>> {link: str(torque) for link, torque in state.torques.items()}
     {'sun': '20', 'ring': '50', 'arm': '-70'}
     """
     factors = influence(train, drives)
-    given = {
+    load_values = {
         train.known(link): exact_number(value, message("load on {link}", link=link)) for link, value in loads.items()
     }
-    if both := set(given) & set(drives):
+    if conflicting := set(load_values) & set(drives):
         raise GearError(
-            "{links}: driven or held, so its torque is an answer and cannot be a load", links=", ".join(sorted(both))
+            "{links}: driven or held, so its torque is an answer and cannot be a load",
+            links=", ".join(sorted(conflicting)),
         )
     units = train.units()
     torques: dict[str, Fraction | float] = {}
     for drive in drives:
-        terms = [(link, -factors[link].get(drive, Fraction(0)) * load) for link, load in given.items()]
+        terms = [(link, -factors[link].get(drive, Fraction(0)) * load) for link, load in load_values.items()]
         torques[drive] = _per_radian(terms, units, drive)
-    torques |= given
+    torques |= load_values
     moving = speeds(train, drives).values
     powers = {
         link: (
@@ -171,7 +172,7 @@ def balance(train: Train, drives: Mapping[str, object], loads: Mapping[str, obje
 
 
 def _per_radian(terms: list[tuple[str, Fraction]], units: Mapping[str, Unit], drive: str) -> Fraction | float:
-    """The sum, forces at screws weighed with lead / 2 pi."""
+    """The sum, with forces at screws multiplied by lead / 2 pi."""
     scale = math.tau if units[drive] == Unit.PER_TURN else 1
     plain = sum((value for link, value in terms if units[link] != Unit.PER_TURN), Fraction(0))
     screwed = sum((value for link, value in terms if units[link] == Unit.PER_TURN), Fraction(0))

@@ -1,6 +1,6 @@
 """The text and TOML forms of a gear train with its drives, loads and planets.
 
-Statements stand on lines or between semicolons; # begins a remark.
+Statements are separated by line ends or semicolons; # begins a comment.
 
     sun:24 planet:18 ring:-60 on arm planets=3    wheels that mesh in a row, LINK:TEETH; minus: internal toothing
     in:20 lay:41; lay:19 out:42                   two wheels on one shaft: the link is named twice
@@ -35,7 +35,7 @@ _NAME = re.compile(r"[^\s:=;#]+\Z")
 
 @dataclass(frozen=True, slots=True)
 class TrainReading:
-    """What a text says: the train, the speeds and loads that are given, and how many planets of a kind there are."""
+    """The content of a text: the train, the given speeds and loads, and the number of each kind of planets."""
 
     train: Train
     drives: dict[str, Fraction] = field(default_factory=dict)
@@ -53,18 +53,18 @@ def read_train(text: str) -> TrainReading:
     ({'planet': 3}, {'ring': '0', 'sun': '1000'})
     """
     meshes: list[Mesh] = []
-    found: dict[str, dict[str, Any]] = {"drive": {}, "load": {}, "planets": {}}
+    values: dict[str, dict[str, Any]] = {"drive": {}, "load": {}, "planets": {}}
     for statement in _statements(text):
-        words = statement.split()
-        head = words[0] if words[0] in _STATEMENTS else ""
-        rest = words[1:] if head else words
-        if head in ("drive", "hold", "load") or (not head and all("=" in word for word in words)):
+        tokens = statement.split()
+        head = tokens[0] if tokens[0] in _STATEMENTS else ""
+        arguments = tokens[1:] if head else tokens
+        if head in ("drive", "hold", "load") or (not head and all("=" in token for token in tokens)):
             kind = "load" if head == "load" else "drive"
-            for word in rest:
-                link, value = (word, "0") if head == "hold" else _pair(word, "=", statement)
-                if link in found[kind]:
+            for token in arguments:
+                link, value = (token, "0") if head == "hold" else _pair(token, "=", statement)
+                if link in values[kind]:
                     raise GearError("'{statement}': {link} is given twice", statement=statement, link=link)
-                found[kind][link] = exact_number(value, f"'{statement}': {link}")
+                values[kind][link] = exact_number(value, f"'{statement}': {link}")
         else:
             if not head and ":" not in statement:
                 known = ", ".join(_STATEMENTS)
@@ -72,13 +72,13 @@ def read_train(text: str) -> TrainReading:
                     "'{statement}': expected wheels such as sun:24 planet:18, or one of {known}{suggestion}",
                     statement=statement,
                     known=known,
-                    suggestion=nearest(words[0], _STATEMENTS),
+                    suggestion=nearest(tokens[0], _STATEMENTS),
                 )
-            meshes += _read_meshes(head or "gear", rest, statement, found["planets"])
+            meshes += _read_meshes(head or "gear", arguments, statement, values["planets"])
     train = Train(meshes)
-    for link in (*found["drive"], *found["load"]):
+    for link in (*values["drive"], *values["load"]):
         train.known(link)
-    return TrainReading(train, found["drive"], found["load"], found["planets"])
+    return TrainReading(train, values["drive"], values["load"], values["planets"])
 
 
 def read_toml(text: str, name: str = "TOML") -> TrainReading:
@@ -109,7 +109,7 @@ def read_toml(text: str, name: str = "TOML") -> TrainReading:
                 key=key,
             )
     train = document.get("train", "")
-    statements = [train] if isinstance(train, str) else [str(one) for one in train]
+    statements = [train] if isinstance(train, str) else [str(line) for line in train]
     statements += [f"hold {link}" for link in document.get("hold", [])]
     statements += [
         f"{key} {link}={value}" for key in ("drive", "load") for link, value in document.get(key, {}).items()
@@ -124,24 +124,24 @@ def _statements(text: str) -> Iterator[str]:
                 yield " ".join(statement.split())
 
 
-def _pair(word: str, sign: str, statement: str) -> tuple[str, str]:
-    left, found, right = word.partition(sign)
-    if not found or not left or not right:
+def _pair(token: str, sign: str, statement: str) -> tuple[str, str]:
+    link, separator, value = token.partition(sign)
+    if not separator or not link or not value:
         raise GearError(
-            "'{statement}': expected LINK{sign}NUMBER, not {word!r}", statement=statement, sign=sign, word=word
+            "'{statement}': expected LINK{sign}NUMBER, not {word!r}", statement=statement, sign=sign, word=token
         )
-    return left, right
+    return link, value
 
 
-def _read_meshes(kind: str, words: list[str], statement: str, planets: dict[str, int]) -> Iterator[Mesh]:
-    carrier, words = _carrier(words, statement)
-    options = dict(_pair(word, "=", statement) for word in words if "=" in word)
+def _read_meshes(kind: str, tokens: list[str], statement: str, planets: dict[str, int]) -> Iterator[Mesh]:
+    carrier, tokens = _carrier(tokens, statement)
+    options = dict(_pair(token, "=", statement) for token in tokens if "=" in token)
     for option in options:
         if option not in _OPTIONS.get(kind, set()):
             raise GearError(
                 "'{statement}': {kind} has no option {option!r}", statement=statement, kind=kind, option=option
             )
-    wheels = [word for word in words if "=" not in word]
+    wheels = [token for token in tokens if "=" not in token]
     if KINDS[kind].sign == 0:
         yield _linear(kind, wheels, options, carrier, statement)
         return
@@ -156,7 +156,7 @@ def _read_meshes(kind: str, words: list[str], statement: str, planets: dict[str,
             [link for link, _ in sized[1:-1]] or [sized[-1][0]], _count(options["planets"], statement)
         )
     for k, ((a, size_a), (b, size_b)) in enumerate(pairwise(sized)):
-        # Central and planet wheels of a bevel statement alternate; the central one comes first in its mesh.
+        # Central and planet wheels of a bevel statement alternate; the central wheel is first in its mesh.
         swap = kind == "bevel" and k % 2 == 1
         yield Mesh(b, a, size_b, size_a, carrier, kind) if swap else Mesh(a, b, size_a, size_b, carrier, kind)
 
@@ -167,16 +167,16 @@ def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str,
             "'{statement}': expected a wheel and a link that slides, such as 'rack pinion:18 slide'",
             statement=statement,
         )
-    what = f"'{statement}'"
-    numbers = {option: exact_number(value, f"{what}: {option}") for option, value in options.items()}
+    quoted = f"'{statement}'"
+    numbers = {option: exact_number(value, f"{quoted}: {option}") for option, value in options.items()}
     if kind == "screw":
         if ":" in wheels[0] or "lead" not in numbers:
-            raise GearError("{statement}: expected 'screw SPINDLE SLIDE lead=NUMBER'", statement=what)
+            raise GearError("{statement}: expected 'screw SPINDLE SLIDE lead=NUMBER'", statement=quoted)
         return Mesh(wheels[0], wheels[1], numbers["lead"], Fraction(1), carrier, kind)
     link, text = _pair(wheels[0], ":", statement)
-    size = exact_number(text, f"{what}: {link}")
+    size = exact_number(text, f"{quoted}: {link}")
     if numbers.get("falls", 1) < 1:
-        raise GearError("{statement}: at least one rope carries the load", statement=what)
+        raise GearError("{statement}: at least one rope carries the load", statement=quoted)
     if "pitch" in numbers:
         travel = size * numbers["pitch"] / numbers.get("falls", 1)
         return Mesh(link, wheels[1], travel, Fraction(1), carrier, "rack by pitch")
@@ -185,13 +185,13 @@ def _linear(kind: str, wheels: list[str], options: dict[str, str], carrier: str,
     )
 
 
-def _carrier(words: list[str], statement: str) -> tuple[str, list[str]]:
-    if "on" not in words:
-        return FRAME, words
-    at = words.index("on")
-    if at + 1 >= len(words) or not _NAME.match(words[at + 1]):
+def _carrier(tokens: list[str], statement: str) -> tuple[str, list[str]]:
+    if "on" not in tokens:
+        return FRAME, tokens
+    at = tokens.index("on")
+    if at + 1 >= len(tokens) or not _NAME.match(tokens[at + 1]):
         raise GearError("'{statement}': expected the name of a carrier after 'on'", statement=statement)
-    return words[at + 1], words[:at] + words[at + 2 :]
+    return tokens[at + 1], tokens[:at] + tokens[at + 2 :]
 
 
 def _count(text: str, statement: str) -> int:

@@ -1,7 +1,7 @@
 """Gear trains: shafts, and meshes between wheels on them; docs/theory/gears.md.
 
-A *link* is what turns (or slides) as one piece: a shaft with all its wheels, a carrier, a rack, a nut. A *mesh* joins
-two links; if its axes are held by a carrier, it joins the speeds relative to that carrier (Willis).
+A *link* turns (or slides) as one body: a shaft with all its wheels, a carrier, a rack, a nut. A *mesh* joins
+two links; if a carrier bears its axes, it joins the speeds relative to that carrier (Willis).
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ MIXED = message("some slide per radian, others per turn, which differ by 2 pi; g
 
 
 class GearError(GrueblerError):
-    """A gear train that cannot be, or a question that it cannot answer."""
+    """An impossible gear train, or a value that it does not determine."""
 
 
 class Unit(StrEnum):
-    """What a link's speed is counted in, if wheels turn with one unit of angle."""
+    """The unit of a link's speed, if wheels turn with one unit of angle."""
 
     TURNING = "turning"
     PER_RADIAN = "per radian"
@@ -49,13 +49,13 @@ _UNITS = {
 
 
 class MeshKind(NamedTuple):
-    """How a mesh joins speeds: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
+    """The equation of a mesh: size_a (w_a - w_c) + sign size_b (w_b - w_c) = 0, or travel b - c = size_a * turn a."""
 
     sign: int
     unit: Unit = Unit.TURNING
     """Of the second link."""
     signed: bool = True
-    """Whether a negative size has a meaning: internal toothing, a bevel gear that faces the other way, a left screw."""
+    """Whether a negative size has a meaning: internal toothing, an opposite bevel gear, a left-hand screw."""
 
 
 KINDS = MappingProxyType(
@@ -75,7 +75,7 @@ KINDS = MappingProxyType(
 
 
 def exact_number(value: object, what: str | Message) -> Fraction:
-    """A finite number as a fraction; decimals as they are written.
+    """A finite number as a fraction; decimals exactly as written.
 
     >>> exact_number(0.1, "size"), exact_number("7/2", "size")
     (Fraction(1, 10), Fraction(7, 2))
@@ -117,10 +117,10 @@ class Mesh:
             )
         if len({self.a, self.b, self.carrier}) < 3 and not (self.carrier == FRAME and self.a != self.b):
             raise GearError("a mesh joins two different links and is carried by a third: {mesh}", mesh=self)
-        for name, given in ((self.a, self.size_a), (self.b, self.size_b)):
+        for name, raw_size in ((self.a, self.size_a), (self.b, self.size_b)):
             if not isinstance(name, str) or not name:
                 raise GearError("a link has a name, not {name!r}", name=name)
-            size = exact_number(given, message("wheel on {link}", link=name))
+            size = exact_number(raw_size, message("wheel on {link}", link=name))
             if size == 0 or (size < 0 and not KINDS[self.kind].signed):
                 raise GearError(
                     "wheel on {name}: {kind} takes a positive size, not {size}", name=name, kind=self.kind, size=size
@@ -148,7 +148,7 @@ class Mesh:
         return f"{self.kind} {first} {second}{tail}"
 
     def row(self) -> Row[str]:
-        """The linear form of speeds that vanishes."""
+        """The linear form of the speeds that equals zero."""
         kind, form = KINDS[self.kind], Row[str]()
         if self.kind == "screw":
             terms = ((self.b, Fraction(1)), (self.a, -self.size_a), (self.carrier, self.size_a))
@@ -156,15 +156,15 @@ class Mesh:
             terms = ((self.b, Fraction(1)), (self.carrier, Fraction(-1)), (self.a, -self.size_a))
         else:
             size_b = kind.sign * self.size_b
-            held = self.size_a if self.kind == "bevel" else self.size_a + size_b
-            terms = ((self.a, self.size_a), (self.b, size_b), (self.carrier, -held))
+            total = self.size_a if self.kind == "bevel" else self.size_a + size_b
+            terms = ((self.a, self.size_a), (self.b, size_b), (self.carrier, -total))
         for link, value in terms:
             form[link] = form.get(link, Fraction(0)) + value
         form.pop(FRAME, None)
         return form
 
     def units(self) -> dict[str, Unit]:
-        """What the speeds of its links are counted in."""
+        """The units of the speeds of its links."""
         kind = KINDS[self.kind]
         slides = kind.sign == 0 and self.kind != "screw"
         return {self.a: Unit.TURNING, self.b: kind.unit, self.carrier: kind.unit if slides else Unit.TURNING}
@@ -172,7 +172,7 @@ class Mesh:
 
 @dataclass(frozen=True, slots=True)
 class Train:
-    """Links and meshes; the link ``frame`` stands still.
+    """Links and meshes; the link ``frame`` is fixed.
 
     >>> train = Train((Mesh("sun", "planet", 24, 18, "arm"), Mesh("planet", "ring", 18, -60, "arm")))
     >>> train.links, train.mobility
@@ -196,37 +196,37 @@ class Train:
         return tuple(link for link in named if link != FRAME)
 
     def units(self) -> dict[str, Unit]:
-        """What each link's speed is counted in; a link that would need two is refused."""
-        found: dict[str, Unit] = {}
+        """The unit of each link's speed; GearError for a link with two units."""
+        units: dict[str, Unit] = {}
         for mesh in self.meshes:
             for link, unit in mesh.units().items():
-                if link != FRAME and found.setdefault(link, unit) != unit:
+                if link != FRAME and units.setdefault(link, unit) != unit:
                     raise GearError(
                         "{link} is {first} in one mesh and {second} in '{mesh}'"
-                        if Unit.TURNING in (unit, found[link])
+                        if Unit.TURNING in (unit, units[link])
                         else "{link} is {first} in one mesh and {second} in '{mesh}'; give the rack by its pitch "
                         "instead",
                         link=link,
-                        first=_UNITS[found[link]],
+                        first=_UNITS[units[link]],
                         second=_UNITS[unit],
                         mesh=mesh,
                     )
-        return found
+        return units
 
     @property
     def basis(self) -> dict[str, Row[str]]:
         """The speed relations in reduced form: each dependent link with its row."""
-        # Last links first: what is named first is kept as free, so that others are told in terms of it.
+        # Last links first: links named first remain free, and the others are expressed in terms of them.
         return rational_echelon((mesh.row() for mesh in self.meshes), self.links[::-1])
 
     @property
     def mobility(self) -> int:
-        """How many speeds can be chosen."""
+        """The number of independent speeds."""
         return len(self.links) - len(self.basis)
 
     @property
     def redundant(self) -> tuple[Mesh, ...]:
-        """Meshes that say nothing new, such as those of a second planet; each depends on the ones before it."""
+        """Redundant meshes, such as those of a second planet; each depends on the ones before it."""
         form = Elimination(self.links)
         return tuple(mesh for mesh in self.meshes if not form.add(mesh.row()))
 
@@ -252,7 +252,7 @@ class Train:
         if strangers := [link for link in chosen if link not in units]:
             self.known(strangers[0])
         others = [link for link in self.links if link not in chosen]
-        # What slides is told by what turns, so that lengths per radian and per turn stay apart.
+        # Sliding links are expressed by turning ones, so that lengths per radian and per turn are not mixed.
         turning = [link for link in chosen if units[link] == Unit.TURNING]
         sliding = [link for link in chosen if units[link] != Unit.TURNING]
         form = rational_echelon((mesh.row() for mesh in self.meshes), [*others, *sliding, *turning])
@@ -268,18 +268,18 @@ class Train:
 
         Raises GearError if their speeds are independent, or joined by more than one relation.
         """
-        found = self.relations(*links)
-        if len(found) != 1:
+        relations = self.relations(*links)
+        if len(relations) != 1:
             raise GearError(
                 "there are {count} relations between the speeds of {links}, not one"
-                if found
+                if relations
                 else "there is no relation between the speeds of {links}",
-                count=len(found),
+                count=len(relations),
                 links=", ".join(links),
             )
-        if not self.comparable(found[0]):
-            raise GearError("{links}: {mixed}", links=", ".join(found[0]), mixed=MIXED)
-        return found[0]
+        if not self.comparable(relations[0]):
+            raise GearError("{links}: {mixed}", links=", ".join(relations[0]), mixed=MIXED)
+        return relations[0]
 
     def _repr_svg_(self) -> str | None:
         """Its wheels to scale, for notebooks."""

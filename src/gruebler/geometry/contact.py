@@ -58,8 +58,8 @@ def tangent_contact(
         raise LinkageError("the motion has {count} rows, but row {row} was asked for", count=len(motion), row=row)
     if isinstance(highest, bool) or not isinstance(highest, int) or not 2 <= highest <= 30:
         raise LinkageError("highest must be a whole number from 2 to 30, not {highest!r}", highest=highest)
-    least, size = as_positive("tolerance", tolerance), motion.plan.lower.size
-    z = taylor_series(_row(motion, row), highest).point(point)[0]
+    least, size = as_positive("tolerance", tolerance), motion.size
+    z = taylor_series(_row(motion, row), highest).complex_point(point)[:, 0]
     speed = abs(z[1])
     if speed <= 1e-9 * max(float(np.abs(z[1:4]).max()), 1e-9 * size):
         raise LinkageError("the point stands still there: a cusp has no order of contact")

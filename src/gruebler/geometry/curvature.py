@@ -126,7 +126,7 @@ def path_curvature(motion: Motion, point: str | LinkPoint, reference: str | None
     place = point if isinstance(point, LinkPoint) else _moving(motion, point, reference)
     seen = relative_motion(motion, place.link, reference, order=2 if motion.order < 3 else 3)
     arm = complex(place.x, place.y)
-    at, velocity, acceleration = (seen.point(arm, k) for k in range(3))
+    at, velocity, acceleration = (seen.complex_point(arm, k) for k in range(3))
     speed = np.abs(velocity)
     speed = np.where(speed <= _CUSP * seen.swiftest, np.nan, speed)
     bend = (np.conj(velocity) * acceleration).imag
@@ -138,7 +138,7 @@ def _change(seen: RelativeMotion, arm: complex, speed: Reals, bend: Reals) -> Re
     """The derivative of bend/speed^3 in time, by the speed."""
     if len(seen.rates) < 3:
         return None
-    velocity, acceleration, jerk = (seen.point(arm, k) for k in (1, 2, 3))
+    velocity, acceleration, jerk = (seen.complex_point(arm, k) for k in (1, 2, 3))
     faster = (np.conj(velocity) * acceleration).real / speed
     out: Reals = ((np.conj(velocity) * jerk).imag - 3 * bend * faster / speed) / speed**4
     return out

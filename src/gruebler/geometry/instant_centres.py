@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gruebler.arrays import Complexes
 from gruebler.errors import LinkageError, nearest
-from gruebler.geometry.relative import link_numbers, relative_motion, resting_and_translating
+from gruebler.geometry.relative import relative_motion, resting_and_translating
 from gruebler.kinematics import Motion
 from gruebler.notebook import Brief
 
@@ -80,7 +80,7 @@ def poles(motion: Motion, links: Sequence[str] | None = None) -> Poles:
     Raises `LinkageError` for a motion without velocities (give `move` a speed).
     """
     chosen = tuple(motion.linkage.mechanism.chain.links if links is None else links)
-    numbers = link_numbers(motion, list(chosen))
+    numbers = [motion.link_index(link) for link in chosen]
     if not numbers:
         raise LinkageError("poles are those of at least one link, but no links were named")
     if motion.order < 1:

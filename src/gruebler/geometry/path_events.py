@@ -155,7 +155,9 @@ def _settled(point_path: PointPath, zero: Zero) -> Zero:
 
 def _bend_series(point_path: PointPath, s: float) -> Reals:
     """Coefficients of Im(conj(z') z'') by the drive, in its natural size |z'| (|z'| + |z''|)."""
-    z = taylor_series(point_path.cycle.at(point_path.drive(np.array([s])), 0), _ORDER).point(point_path.place)[0]
+    z = taylor_series(point_path.cycle.at(point_path.drive(np.array([s])), 0), _ORDER).complex_point(point_path.place)[
+        :, 0
+    ]
     v = np.polynomial.polynomial.polyder(z)
     a = np.polynomial.polynomial.polyder(v)
     return np.asarray(np.convolve(np.conj(v), a).imag[: _ORDER - 1] / (abs(v[0]) * (abs(v[0]) + abs(a[0]))))

@@ -51,7 +51,7 @@ class PointPath(Brief):
     @property
     def size(self) -> float:
         """A length of the order of the linkage."""
-        return self.cycle.plan.lower.size
+        return self.cycle.size
 
     @cached_property
     def reach(self) -> float:

@@ -7,16 +7,16 @@ from typing import NamedTuple
 import numpy as np
 
 from gruebler.arrays import Complexes, Flags, Reals
-from gruebler.errors import LinkageError, nearest
+from gruebler.errors import LinkageError
+from gruebler.jets import turn_derivative, turned_derivative
 from gruebler.kinematics import Motion
 from gruebler.text import message
 
-__all__ = ["RelativeMotion", "link_numbers", "relative_motion", "resting_and_translating"]
+__all__ = ["RelativeMotion", "relative_motion", "resting_and_translating"]
 
 
 _FAR = 1e10  # sizes of the linkage: poles further off have lost ten of their digits, and are told as directions
 _STILL = 1e-12  # velocities below this part of the largest in the row are roundings
-_BINOMIAL = ((1,), (1, 1), (1, 2, 1), (1, 3, 3, 1))
 _ORDERS = (message("positions"), message("velocities"), message("accelerations"), message("jerks"))
 
 
@@ -34,9 +34,9 @@ class RelativeMotion(NamedTuple):
     swiftest: Reals
     """(rows,): the largest velocity of the two links, of their origins or of points one size away."""
 
-    def point(self, arm: complex, order: int = 0) -> Complexes:
-        """A point of the link, or a derivative; (rows,)."""
-        return np.asarray(self.places[order] + _turning(self.rates, order) * self.turn * arm)
+    def complex_point(self, arm: complex, order: int = 0) -> Complexes:
+        """A point of the link, or a derivative, as x + iy; (rows,)."""
+        return np.asarray(self.places[order] + turn_derivative(self.rates, order) * self.turn * arm)
 
     @property
     def pole(self) -> Complexes:
@@ -65,49 +65,19 @@ def relative_motion(motion: Motion, link: str, reference: str | None = None, ord
             order=order,
         )
     fixed = motion.linkage.mechanism.frame if reference is None else reference
-    m, r = link_numbers(motion, [link, fixed])
+    m, r = (motion.link_index(name) for name in (link, fixed))
     if m == r:
         raise LinkageError("a link does not move against itself: {link!r} is given twice", link=link)
     back = np.conj(motion.turns[:, r])
     gaps = motion.places[:, :, m] - motion.places[:, :, r]
-    turning = [np.conj(_turning(motion.rates[:, :, r], k)) for k in range(order + 1)]
-    places = [
-        back * sum(times * turning[k - j] * gaps[j] for j, times in enumerate(_BINOMIAL[k])) for k in range(order + 1)
-    ]
+    places = [back * turned_derivative(-motion.rates[:, :, r], gaps, k) for k in range(order + 1)]
     rates = motion.rates[:order, :, m] - motion.rates[:order, :, r]
     size, both = motion.linkage.size, [m, r]
     swiftest = np.maximum(np.abs(motion.places[1][:, both]), np.abs(motion.rates[0][:, both]) * size).max(axis=1)
     return RelativeMotion(np.array(places), motion.turns[:, m] * back, rates, size, swiftest)
 
 
-def link_numbers(motion: Motion, links: list[str]) -> list[int]:
-    """The columns of links in the arrays of a motion."""
-    known = motion.plan.lower.mechanism.chain.links
-    for link in links:
-        if link not in known:
-            names = motion.linkage.mechanism.chain.links
-            raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {links}",
-                link=link,
-                suggestion=nearest(str(link), names),
-                links=", ".join(names),
-            )
-    return [known.index(link) for link in links]
-
-
 def resting_and_translating(speed: Reals, turning: Reals, swiftest: Reals) -> tuple[Flags, Flags]:
     """Which relative velocities of links are roundings only, and which are translations; all in length per time."""
     resting = np.maximum(speed, turning) <= _STILL * swiftest
     return resting, ~resting & (turning * _FAR <= speed)
-
-
-def _turning(rates: Reals, order: int) -> Complexes:
-    """A derivative of e^{i theta} by its value."""
-    if order == 0:
-        return np.ones(rates.shape[1], np.complex128)
-    w = rates[0]
-    if order == 1:
-        return np.asarray(1j * w)
-    if order == 2:
-        return np.asarray(1j * rates[1] - w**2)
-    return np.asarray(1j * (rates[2] - w**3) - 3 * w * rates[1])

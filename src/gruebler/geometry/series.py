@@ -10,7 +10,6 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.geometry.relative import link_numbers
 from gruebler.kinematics import Motion
 from gruebler.linkages import Line, Linkage, LinkPoint
 
@@ -26,21 +25,21 @@ class TaylorSeries:
 
     motion: Motion
     places: Complexes
-    """(rows, links, order + 1): of the links' origins."""
+    """(order + 1, rows, links): of the links' origins."""
     turns: Complexes
-    """(rows, links, order + 1): of cosine + i sine of the links' angles."""
+    """(order + 1, rows, links): of cosine + i sine of the links' angles."""
 
     @property
     def order(self) -> int:
         """The highest power."""
-        return int(self.places.shape[2]) - 1
+        return len(self.places) - 1
 
-    def point(self, name: str | LinkPoint) -> Complexes:
-        """The coefficients of a named point or joint, as x + iy; (rows, order + 1)."""
+    def complex_point(self, name: str | LinkPoint) -> Complexes:
+        """The coefficients of a named point or joint, as x + iy; (order + 1, rows)."""
         place = name if isinstance(name, LinkPoint) else self.motion.linkage.points_named(name)[-1]
-        (k,) = link_numbers(self.motion, [place.link])
-        out: Complexes = self.places[:, k] + self.turns[:, k] * complex(place.x, place.y)
-        return out
+        k = self.motion.link_index(place.link)
+        coefficients: Complexes = self.places[..., k] + self.turns[..., k] * complex(place.x, place.y)
+        return coefficients
 
 
 class _Condition(NamedTuple):
@@ -66,14 +65,14 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
     >>> from gruebler.kinematics import move
     >>> from gruebler.fourbar import SliderCrank
     >>> found = taylor_series(move(SliderCrank(1, 1).linkage(), [0.0]), 6)  # the slider at 2 cos(phi)
-    >>> (found.point("R(coupler-slider)")[0].real.round(12) + 0.0).tolist()
+    >>> (found.complex_point("R(coupler-slider)")[:, 0].real.round(12) + 0.0).tolist()
     [2.0, 0.0, -1.0, 0.0, 0.083333333333, 0.0, -0.002777777778]
     """
     if isinstance(order, bool) or not isinstance(order, int) or not 1 <= order <= _HIGHEST:
         raise LinkageError(
             "the order of a series is a whole number from 1 to {highest}, not {order!r}", highest=_HIGHEST, order=order
         )
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     if len(lower.mechanism.drives) != 1:
         raise LinkageError("a series is by one drive, but this linkage has {count}", count=len(lower.mechanism.drives))
     roots = np.abs(motion.roots[:, [dyad.number for dyad in motion.plan.dyads if dyad.branching]])
@@ -98,18 +97,17 @@ def taylor_series(motion: Motion, order: int) -> TaylorSeries:
         if k == 1:
             turning = lower.mechanism.drives[0].turning
             right[:, -1] += 1.0 if turning else 1 / lower.size
-        found = _solved(jacobian, right).reshape(len(right), -1, 3)
-        z[:, bodies, k] = found[..., 0] + 1j * found[..., 1]
-        angle[:, bodies, k] = found[..., 2]
-        turn[:, bodies, k] += 1j * found[..., 2] * turn[:, bodies, 0]
-    places: Complexes = z * lower.size
-    return TaylorSeries(motion, places, turn)
+        solution = _solved(jacobian, right).reshape(len(right), -1, 3)
+        z[:, bodies, k] = solution[..., 0] + 1j * solution[..., 1]
+        angle[:, bodies, k] = solution[..., 2]
+        turn[:, bodies, k] += 1j * solution[..., 2] * turn[:, bodies, 0]
+    return TaylorSeries(motion, np.moveaxis(z * lower.size, -1, 0), np.moveaxis(turn, -1, 0))
 
 
 def _conditions(lower: Linkage) -> list[_Condition]:
     """Those of the joints, and last that of the drive; lengths in sizes."""
     chain, links = lower.mechanism.chain, lower.mechanism.chain.links
-    out = []
+    conditions = []
     for number, joint in enumerate(chain.joints):
         if joint.pair.name not in ("revolute", "prismatic"):
             raise LinkageError(
@@ -119,12 +117,12 @@ def _conditions(lower: Linkage) -> list[_Condition]:
         for other in joint.links[1:]:
             ends = _ends(lower, number, joint.links[0], other)
             kinds = ("pin",) if joint.pair.name == "revolute" else ("angle", "across")
-            out += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
+            conditions += [_Condition(kind, links.index(joint.links[0]), links.index(other), *ends) for kind in kinds]
     drive = lower.mechanism.drives[0]
     first, second = lower.reference(0)
     kind = "angle" if drive.turning else "along"
     ends = _ends(lower, drive.joint, first, second)
-    return [*out, _Condition(kind, links.index(first), links.index(second), *ends)]
+    return [*conditions, _Condition(kind, links.index(first), links.index(second), *ends)]
 
 
 def _solved(jacobian: Reals, right: Reals) -> Reals:
@@ -142,23 +140,23 @@ def _ends(lower: Linkage, joint: int, one: str, other: str) -> tuple[complex, co
 
 def _residual(conditions: list[_Condition], z: Complexes, turn: Complexes, angle: Reals, k: int) -> Reals:
     """The k-th coefficients of the conditions; (rows, equations)."""
-    out = []
+    coefficients = []
     for c in conditions:
         if c.kind == "angle":
-            out.append(angle[:, c.other, k] - angle[:, c.one, k])
+            coefficients.append(angle[:, c.other, k] - angle[:, c.one, k])
             continue
         gap = z[:, c.other] + turn[:, c.other] * c.far - z[:, c.one] - turn[:, c.one] * c.near
         if c.kind == "pin":
-            out += [gap[:, k].real, gap[:, k].imag]
+            coefficients += [gap[:, k].real, gap[:, k].imag]
             continue
         seen = (np.conj(turn[:, c.one, : k + 1] * c.line) * gap[:, k::-1]).sum(axis=1)
-        out.append(seen.imag if c.kind == "across" else seen.real)
-    return np.stack(out, axis=1)
+        coefficients.append(seen.imag if c.kind == "across" else seen.real)
+    return np.stack(coefficients, axis=1)
 
 
 def _rows(conditions: list[_Condition], z: Complexes, turn: Complexes, bodies: list[int]) -> Reals:
     """The Jacobian of the conditions by x, y and angle of each body; (rows, equations, unknowns)."""
-    out = []
+    rows = []
     for c in conditions:
         arms = {c.one: turn[:, c.one, 0] * c.near, c.other: turn[:, c.other, 0] * c.far}
         gap = z[:, c.other, 0] + arms[c.other] - z[:, c.one, 0] - arms[c.one]
@@ -176,6 +174,6 @@ def _rows(conditions: list[_Condition], z: Complexes, turn: Complexes, bodies: l
                     row[:, 3 * body + 2] = sign
             if c.kind in ("across", "along"):
                 row[:, 3 * c.one + 2] += (np.conj(1j * measure) * gap).real
-            out.append(row)
+            rows.append(row)
     columns = [3 * body + part for body in bodies for part in range(3)]
-    return np.stack(out, axis=1)[..., columns]
+    return np.stack(rows, axis=1)[..., columns]

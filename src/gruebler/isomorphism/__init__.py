@@ -1,4 +1,4 @@
-"""Sameness of chains: canonical codes, correspondences and symmetry. Exact for every chain."""
+"""Isomorphism of chains: canonical codes, correspondences and symmetry. Exact for every chain."""
 
 from gruebler.isomorphism.automorphisms import Permutation, Symmetry, orbits, symmetry
 from gruebler.isomorphism.codes import CODE_PREFIX, MarkedChain, canonical_order, code, decode

@@ -1,4 +1,4 @@
-"""The symmetry of a chain: its automorphisms, and which links, joints and flags they make alike."""
+"""The symmetry of a chain: its automorphisms and their orbits of links, joints and flags."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T = TypeVar("T", bound=Hashable)
 
 @dataclass(frozen=True, slots=True)
 class Permutation:
-    """Where an automorphism sends each link and each joint, by number."""
+    """The image of each link and each joint under an automorphism, by number."""
 
     links: tuple[int, ...]
     joints: tuple[int, ...]
@@ -87,9 +87,9 @@ def orbits(items: Iterable[T], maps: list[dict[T, T]]) -> list[tuple[T, ...]]:
     >>> orbits([1, 2, 3], [{1: 2, 2: 1, 3: 3}])
     [(1, 2), (3,)]
     """
-    given = list(items)
-    sets = DisjointSets(given)
+    elements = list(items)
+    sets = DisjointSets(elements)
     for image in maps:
-        for item in given:
+        for item in elements:
             sets.unite(item, image[item])
     return [tuple(members) for members in sets.classes()]

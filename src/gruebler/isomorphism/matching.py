@@ -13,11 +13,11 @@ __all__ = ["Isomorphism", "find_isomorphism", "is_isomorphic"]
 
 @dataclass(frozen=True, slots=True)
 class Isomorphism:
-    """Which link and which joint of the other chain corresponds to each of the one."""
+    """The link and the joint of the second chain that correspond to each of the first."""
 
     links: Mapping[str, str]
     joints: tuple[int, ...]
-    """joints[k] is the number, in the other chain, of the joint that corresponds to joint k."""
+    """joints[k] is the number, in the second chain, of the joint that corresponds to joint k."""
 
 
 def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
@@ -30,9 +30,9 @@ def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
         return None
     if code(first) != code(second):
         return None
-    order, yours = canonical_order(first), canonical_order(second)
-    links = {first.links[a]: second.links[b] for a, b in zip(order.links, yours.links, strict=True)}
-    joints = dict(zip(order.joints, yours.joints, strict=True))
+    first_order, second_order = canonical_order(first), canonical_order(second)
+    links = {first.links[a]: second.links[b] for a, b in zip(first_order.links, second_order.links, strict=True)}
+    joints = dict(zip(first_order.joints, second_order.joints, strict=True))
     return Isomorphism(links, tuple(joints[k] for k in range(len(first.joints))))
 
 

@@ -14,24 +14,21 @@ from gruebler.kinematics.batch import (
     move_many,
     slider_cranks,
 )
-from gruebler.kinematics.circuits import ChangePoint, Circuit, Extremum, MonotonePiece, circuit
+from gruebler.kinematics.circuits import Circuit, MonotonePiece, circuit
 from gruebler.kinematics.drive_rows import from_degrees
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.poses import Poses
-from gruebler.kinematics.solve import all_branches, assembly_modes, move
+from gruebler.kinematics.solve import all_branches, move
 
 __all__ = [
-    "ChangePoint",
     "Circuit",
     "Designs",
-    "Extremum",
     "MonotonePiece",
     "Motion",
     "Motions",
     "Poses",
     "Stop",
     "all_branches",
-    "assembly_modes",
     "circuit",
     "designs",
     "four_bars",

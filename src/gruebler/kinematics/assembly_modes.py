@@ -34,6 +34,7 @@ Row = tuple[int, int, int, complex, complex, complex, complex]
 Method = Literal["exact", "degenerate", "search"]
 
 _CLOSED = 1e-12  # of size or distance: an assembled group is open by less
+_BEYOND_PI = 1e-9  # radians: so that rounding does not turn pi into -pi
 _SAME = 1e-6  # of size or distance, and radians: poses nearer than that are one mode
 _NEAR = 1e-3  # poses nearer than that may be one singular mode
 _STEPS = 40  # of Newton's method; in a singular pose each only halves the error
@@ -279,7 +280,7 @@ def ordered_modes(found: Sequence[Reals], size: float, bodies: int) -> tuple[Rea
     if not found:
         return np.empty((0, bodies, 3)), []
     poses = np.array(found).reshape(-1, bodies, 3)
-    top = np.pi + 1e-9  # so that rounding does not turn pi into -pi
+    top = np.pi + _BEYOND_PI
     poses[:, :, 2] = top - np.mod(top - poses[:, :, 2], 2 * np.pi)
     keys = np.concatenate([poses[:, :, 2], poses[:, :, 0] / size, poses[:, :, 1] / size], axis=1).round(5)
     order = [int(k) for k in np.lexsort(keys.T[::-1])]

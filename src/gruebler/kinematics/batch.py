@@ -8,7 +8,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.jets import turn_derivative
 from gruebler.kinematics.branches import Unassembled, read_branch, starting_state
 from gruebler.kinematics.drive_rows import drive_path, drive_speeds
 from gruebler.kinematics.motion import Motion
@@ -57,11 +57,11 @@ class Motions(Brief):
     links: tuple[str, ...]
     """The links that were kept."""
     places: Complexes
-    """(order + 1, designs, links, rows): origins of the links and their time derivatives, x + iy."""
+    """(order + 1, designs, rows, links): origins of the links and their time derivatives, x + iy."""
     turns: Complexes
-    """(designs, links, rows): cosine + i sine of the angles."""
+    """(designs, rows, links): cosine + i sine of the angles."""
     rates: Reals
-    """(order, designs, links, rows): angular velocities, accelerations, jerks."""
+    """(order, designs, rows, links): angular velocities, accelerations, jerks."""
     reached: NDArray[np.int64]
     """(designs,): how many rows each design reached."""
 
@@ -71,46 +71,48 @@ class Motions(Brief):
     @property
     def complete(self) -> NDArray[np.bool_]:
         """(designs,): which followed the whole path."""
-        out: NDArray[np.bool_] = self.reached == len(self.drives)
-        return out
+        complete: NDArray[np.bool_] = self.reached == len(self.drives)
+        return complete
 
     def angle(self, link: str) -> Reals:
         """Angles of a link's x axis against the frame's, in radians; (designs, rows).
 
         Without jumps as long as the link turns by less than half a turn from row to row.
         """
-        out: Reals = np.unwrap(np.angle(self.turns[:, self._link(link)]), axis=1)
-        return out
+        angles: Reals = np.unwrap(np.angle(self.turns[..., self.link_index(link)]), axis=1)
+        return angles
 
     def angular(self, link: str, order: int = 1) -> Reals:
         """Angular velocities (1), accelerations (2) or jerks (3) of a link; (designs, rows)."""
         self._ordered(order, 1)
-        out: Reals = self.rates[order - 1, :, self._link(link)]
-        return out
+        rates: Reals = self.rates[order - 1, :, :, self.link_index(link)]
+        return rates
 
-    def joint(self, joint: str, order: int = 0) -> Complexes:
-        """A joint as a point of the first of its links that was kept, x + iy, or its derivative; (designs, rows)."""
+    def point(self, joint: str, order: int = 0) -> Reals:
+        """A joint as a point of the first of its links that was kept, or its derivative; (designs, rows, 2)."""
+        z = self.complex_point(joint, order)
+        return np.stack([z.real, z.imag], axis=-1)
+
+    def complex_point(self, joint: str, order: int = 0) -> Complexes:
+        """`point` as x + iy; (designs, rows)."""
         self._ordered(order, 0)
         plan = self.designs.plan
         number = plan.lower.mechanism.chain.find_joint(joint)
         for e, (owner, link) in enumerate(plan.keys):
             if owner == number and link in self.links:
                 k = self.links.index(link)
-                arm = self.turns[:, k] * self.designs.points[:, e, None]
-                return np.asarray(self.places[order, :, k] + self._factor(k, order) * arm)
+                arm = self.turns[..., k] * self.designs.points[:, e, None]
+                return np.asarray(self.places[order, ..., k] + turn_derivative(self.rates[..., k], order) * arm)
         raise LinkageError(
             "{joint!r} is not a joint of the links kept: {links}", joint=joint, links=", ".join(self.links)
         )
-
-    def _factor(self, k: int, order: int) -> Any:
-        w, a, j = (self.rates[m, :, k] if m < order else 0.0 for m in range(3))
-        return (1.0, 1j * w, 1j * a - w**2, 1j * (j - w**3) - 3 * w * a)[order]
 
     def motion(self, number: int) -> Motion:
         """The motion of one design with everything that a `Motion` knows, such as where it stopped and why."""
         return move(self.designs.linkage(number), self.drives, branch=self.branch)
 
-    def _link(self, link: str) -> int:
+    def link_index(self, link: str) -> int:
+        """Where a link is in the arrays' last axis; `LinkageError` if it was not kept."""
         if link not in self.links:
             raise LinkageError(
                 "the link {link!r} was not kept; kept are {links}", link=link, links=", ".join(self.links)
@@ -181,8 +183,8 @@ def _of_lengths(kind: Callable[..., FourBar | SliderCrank | InvertedSliderCrank]
     points = rest + sum(lengths[name][:, None] * steps[name] for name in base)
     count = len(points)
     sizes = np.max([np.abs(values) for values in lengths.values()], axis=0)
-    one = partial(_design, kind, lengths)
-    return Designs(plan, np.ascontiguousarray(points), np.tile(lines, (count, 1)), sizes, one)
+    design = partial(_design, kind, lengths)
+    return Designs(plan, np.ascontiguousarray(points), np.tile(lines, (count, 1)), sizes, design)
 
 
 def _design(
@@ -253,8 +255,8 @@ def move_many(
     >>> motions.angle("rocker").shape, motions.complete.all()
     ((5, 100), np.True_)
     """
-    made = many if isinstance(many, Designs) else designs(many)
-    plan, count = made.plan, len(made)
+    batch = many if isinstance(many, Designs) else designs(many)
+    plan, count = batch.plan, len(batch)
     path = drive_path(plan, drives)
     upto = (0 if speed is None else 2) if order is None else order
     if upto not in (0, 1, 2, 3):
@@ -268,15 +270,17 @@ def move_many(
                 "there is no link {link!r}; the links are {links}", link=link, links=", ".join(chain.links)
             )
     shape = (count, len(kept), len(path))
-    out = (
+    results = (
         np.empty((upto + 1, *shape), np.complex128),
         np.empty(shape, np.complex128),
         np.empty((upto, *shape)),
         np.empty(count, np.int64),
     )
-    _run(made, path, speeds, _starts(made, path, branch), np.array([chain.index(k) for k in kept]), out, threads)
-    places, turns, rates, reached = out
-    return Motions(made, branch, path, kept, places, turns, rates, reached)
+    _run(batch, path, speeds, _starts(batch, path, branch), np.array([chain.index(k) for k in kept]), results, threads)
+    places, turns, rates, reached = results  # the kernel writes the rows last
+    return Motions(
+        batch, branch, path, kept, places.swapaxes(2, 3), turns.swapaxes(1, 2), rates.swapaxes(2, 3), reached
+    )
 
 
 def _starts(designs: Designs, path: Reals, branch: str | None) -> tuple[Reals, Reals]:

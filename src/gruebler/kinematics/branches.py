@@ -26,6 +26,8 @@ from gruebler.text import Message, joined, message
 
 __all__ = ["branch_of", "modes_of_group", "pose_before", "read_branch"]
 
+_SAME = 1e-6  # sizes and radians: a pose so near to an assembly mode is in it, as modes that are nearer count as one
+
 
 def part_at_fault(plan: Plan, number: int) -> Dyad | HigherGroup:
     """What the kernel's number of a dyad (from 0) or larger group (-1, -2, ...) stands for."""
@@ -117,7 +119,7 @@ def branch_of(plan: Plan, roots: Reals, unknowns: Reals, drives: Reals) -> tuple
         mine = unknowns[found : found + count].reshape(-1, 3)
         modes = modes_of_group(plan, part, drives, signs, unknowns)
         far = [_distance(mode, mine, plan.lower.size) for mode in modes]
-        labels.append(str(1 + int(np.argmin(far))) if far and min(far) < 1e-6 else "0")
+        labels.append(str(1 + int(np.argmin(far))) if far and min(far) < _SAME else "0")
         found += count
     return tuple(labels)
 

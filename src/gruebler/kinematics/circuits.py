@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
+from gruebler.events import ChangePoint, Extremum
 from gruebler.kinematics.configuration_curve import (
     ClosureSystem,
     TracedCurve,
@@ -33,7 +34,7 @@ from gruebler.linkages.conversion import LinkageLike, as_linkage
 from gruebler.notebook import Brief
 from gruebler.text import message
 
-__all__ = ["ChangePoint", "Circuit", "Extremum", "MonotonePiece", "circuit"]
+__all__ = ["Circuit", "MonotonePiece", "circuit"]
 
 Quantity = Callable[[Poses, int], Reals]
 """From poses and 0 or 1 to the value of something, or to its derivative by the arc: one number for each pose."""
@@ -45,27 +46,6 @@ _SINGULAR = 1e-3  # a start with a smaller gauge is taken only if there is no be
 _SHAKY = 1e-4  # a shaky linkage moves less, within what counts as closed joints
 _TRIALS = 1024  # values of the drive that are tried for a start
 _REACH = 4.0  # ways of a driven slide up to that many sizes are tried
-
-
-class Extremum(NamedTuple):
-    """A place where something is largest or smallest."""
-
-    arc: float
-    value: float
-    largest: bool
-    """Whether it is a maximum."""
-
-
-class ChangePoint(NamedTuple):
-    """A position in which another curve of positions crosses: the linkage can go on in another way."""
-
-    arc: float
-    drive: float
-    """The drive value there; NaN without a drive."""
-    pose: Poses
-    """The position, exactly."""
-    several: bool = False
-    """Whether more than two curves meet there, or two that touch one another."""
 
 
 class MonotonePiece(NamedTuple):
@@ -149,11 +129,11 @@ class Circuit(Brief):
             curve, n = SampleBuffer(*traced[:3], np.zeros(0)), self.system.unknowns
             near, slopes = np.empty((2, len(between), n))
             evaluated = for_work(evaluate_pose, sampling(n, len(between)))
-            found = evaluated(
+            count = evaluated(
                 self.system.conditions, curve, place[between], segments[between], near, slopes, self.system.room
             )
-            if found < len(between):
-                where = place[between[found]]
+            if count < len(between):
+                where = place[between[count]]
                 raise LinkageError(
                     "the position at {where:.9g} of the circuit cannot be found: it is singular there", where=where
                 )
@@ -164,13 +144,13 @@ class Circuit(Brief):
     def _poses(self, arcs: Reals, x: Reals, t: Reals) -> Poses:
         lower = self.system.lower
         links = lower.mechanism.chain.links
-        places, turns = np.zeros((2, len(arcs), len(links)), np.complex128), np.zeros((2, len(arcs), len(links)))
+        places, angles = np.zeros((2, len(arcs), len(links)), np.complex128), np.zeros((2, len(arcs), len(links)))
         for body, link in enumerate(self.system.bodies):
             k = links.index(link)
             for order, part in enumerate((x, t)):
                 places[order, :, k] = lower.size * (part[:, 3 * body] + 1j * part[:, 3 * body + 1])
-                turns[order, :, k] = part[:, 3 * body + 2]
-        return Poses(self.linkage, lower, arcs, places, turns, self.turned)
+                angles[order, :, k] = part[:, 3 * body + 2]
+        return Poses(self.linkage, lower, arcs, places, np.exp(1j * angles[0]), angles[1:], angles[0], self.turned)
 
     # --- along it ------------------------------------------------------------------------------------
 
@@ -224,7 +204,8 @@ class Circuit(Brief):
         zeros = find_zeros(lambda s: quantity(self.at(s), 1)[None], samples, least=_CONSTANT * natural)
         arcs = [self._wrapped(zero.at) if self.closed else zero.at for zero in zeros]
         values = quantity(self.at(arcs), 0)
-        return tuple(sorted(Extremum(at, float(v), not z.rises) for at, z, v in zip(arcs, zeros, values, strict=True)))
+        kinds = ["minimum" if zero.rises else "maximum" for zero in zeros]
+        return tuple(sorted(map(Extremum, arcs, values.tolist(), kinds)))
 
     def _wrapped(self, arc: float) -> float:
         """The same place of a closed circuit, from 0 to its length."""
@@ -246,7 +227,7 @@ class Circuit(Brief):
     @property
     def monotone_pieces(self) -> tuple[MonotonePiece, ...]:
         """The pieces between limits of the drive, in order; the first one contains the first sample."""
-        ends = [limit.arc for limit in self.drive_limits]
+        ends = [limit.at for limit in self.drive_limits]
         if not self.closed:
             ends = [0.0, *ends, self.length]
         elif ends:
@@ -255,24 +236,33 @@ class Circuit(Brief):
             ends = [0.0, self.length]
         values = self.at(ends).drive().tolist()
         pairs = itertools.pairwise(zip(ends, values, strict=True))
-        return tuple(MonotonePiece(one, two, (v, w)) for (one, v), (two, w) in pairs)
+        return tuple(MonotonePiece(first, second, (v, w)) for (first, v), (second, w) in pairs)
 
     @cached_property
     def change_points(self) -> tuple[ChangePoint, ...]:
         """Where other curves of positions cross this one; it goes straight on there."""
-        return tuple(self._change_points())
+        poses = self.poses_at_change_points
+        driven = bool(len(poses) and self.system.lower.mechanism.drives)
+        drives = poses.drive().tolist() if driven else [float("nan")] * len(poses)
+        crossing_several = [several for _, _, several in self.traced.changes]
+        return tuple(
+            ChangePoint(drive, several=several, arc=arc)
+            for drive, several, arc in zip(drives, crossing_several, poses.arcs.tolist(), strict=True)
+        )
 
-    def _change_points(self) -> Iterator[ChangePoint]:
-        traced = self.traced
-        for pose, k, several in traced.changes:
+    @cached_property
+    def poses_at_change_points(self) -> Poses:
+        """The positions at `change_points`, a row for each, exactly."""
+        traced, bodies = self.traced, self.system.bodies
+        exact = np.array([pose for pose, _, _ in traced.changes]).reshape(-1, self.system.unknowns)
+        arcs, slopes = np.zeros(len(exact)), np.zeros_like(exact)
+        for row, (pose, k, _) in enumerate(traced.changes):
             chord = traced.poses[k + 1] - traced.poses[k]
             part = float((pose - traced.poses[k]) @ chord / (chord @ chord))
-            arc = float(traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k]))
-            slopes = np.zeros((1, self.system.unknowns))
-            slopes[:, : 3 * len(self.system.bodies)] = self.at([arc]).tangents(self.system.bodies)
-            poses = self._poses(np.array([arc]), pose[None], slopes)
-            driven = bool(self.system.lower.mechanism.drives)
-            yield ChangePoint(arc, float(poses.drive()[0]) if driven else float("nan"), poses, several)
+            arcs[row] = traced.arcs[k] + part * (traced.arcs[k + 1] - traced.arcs[k])
+        if len(exact):
+            slopes[:, : 3 * len(bodies)] = self.at(arcs).tangents(bodies)
+        return self._poses(arcs, exact, slopes)
 
     def message(self, lang: str = "en") -> str:
         """Why it is not closed; empty if it is."""
@@ -332,10 +322,10 @@ def circuit(
         raise LinkageError("a circuit has one drive at most, but this linkage has {count}", count=count)
     system = closure_system(lower, [drive.between for drive in lower.mechanism.drives[count:]])
     pose, tangent = _start(linkage, system, branch, drive)
-    found = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
+    start = Circuit(linkage, system, TracedCurve(np.zeros(1), pose[None], tangent[None], False, "", (), 0.0), 0.0)
     turned = 0.0
     if lower.mechanism.drives:
-        value, ahead = float(found.drive[0]), float(found.samples.drive(1)[0])
+        value, ahead = float(start.drive[0]), float(start.samples.drive(1)[0])
         tangent = -tangent if ahead < 0 else tangent
         if lower.mechanism.drives[0].turning:
             turned = 2 * np.pi * round(((drive or 0.0) - value) / (2 * np.pi))
@@ -416,7 +406,7 @@ def _assembled(
         return None
     rows = []
     for link in system.bodies:
-        k = motion._link(link)
+        k = motion.link_index(link)
         z = motion.places[0, 0, k] / system.lower.size
         rows.append((z.real, z.imag, float(np.angle(motion.turns[0, k]))))
     return system.with_arms(np.array(rows).ravel())

@@ -21,6 +21,7 @@ from gruebler.kinematics.contacts import contact_conditions, law_tables
 from gruebler.kinematics.contours import PiecewiseLaw
 from gruebler.linkages import Element, Linkage, Pose2D
 from gruebler.linkages.elements import direction
+from gruebler.linkages.model import NEAR_REFERENCE
 from gruebler.linkages.wheels import carriers, round_joints
 
 if TYPE_CHECKING:
@@ -31,6 +32,11 @@ __all__ = ["ChangeSample", "ClosureSystem", "TracedCurve", "closure_system", "ne
 
 _SHORT = 0.02  # a change point is passed by a step of at most this length
 _EXACT = 1e-12  # a change point is open by less; if by more, the linkage only passes near one
+_SAME = 1e-9  # sizes and radians: poses that differ by less are one; samples are closed to some 1e-13
+_AHEAD = 0.9  # the cosine of tangents that go the same way; where a curve crosses itself they differ
+_REAL = 1e-9  # the imaginary part of a root that is real: the polynomial is known to some 1e-12
+_ZERO = 1e-9  # of a singular value at a pose found to `_EXACT`
+_DIFFERENCE = 1e-5  # sizes and radians: the cube root of the rounding, the best step of a central difference
 _BESIDE = np.array([-2.0, -1.0, 1.0, 2.0])  # places about a meeting of curves, in widths
 _NEARER = (0.1, 0.02, 0.02)  # the widths, in parts of the way between two samples
 _BORDER = 1e-6  # parts of a way between samples, sizes and radians: meetings at a sample are one
@@ -227,7 +233,7 @@ def _direction(element: Element) -> complex:
 def nearest_on_curve(system: ClosureSystem, x: Reals) -> tuple[Reals, Reals, float, int]:
     """The nearest pose on the curve, tangent, gauge (`SampleBuffer`) and rank there; `LinkageError` if none is near.
 
-    The error is raised for a pose that is off by more than 0.05, in sizes and radians.
+    The error is raised for a pose that is off by more than `NEAR_REFERENCE`, in sizes and radians.
     """
     from gruebler._numeric.compiling import for_work
     from gruebler._numeric.motion.tracing import settle_on_curve
@@ -239,7 +245,7 @@ def nearest_on_curve(system: ClosureSystem, x: Reals) -> tuple[Reals, Reals, flo
     arrived, miss, gauge, rank = for_work(settle_on_curve, sampling(system.unknowns, 1))(
         system.conditions, pose, tangent, system.room
     )
-    if not arrived or np.abs(pose - x).max() > 0.05 or not (miss < 1e-9 or rank == system.unknowns):
+    if not arrived or np.abs(pose - x).max() > NEAR_REFERENCE or not (miss < _SAME or rank == system.unknowns):
         raise LinkageError("the joints are not closed in the position from which the circuit is to start")
     return pose, tangent, gauge, rank
 
@@ -327,7 +333,7 @@ def _larger(curve: SampleBuffer) -> SampleBuffer:
 def _is_start(curve: SampleBuffer, sample: int) -> bool:
     gap = curve.poses[sample] - curve.poses[0]
     gap[2::3] -= 2 * np.pi * np.round(gap[2::3] / (2 * np.pi))
-    return bool(sample > 1 and np.abs(gap).max() < 1e-9 and curve.tangents[sample] @ curve.tangents[0] > 0.9)
+    return bool(sample > 1 and np.abs(gap).max() < _SAME and curve.tangents[sample] @ curve.tangents[0] > _AHEAD)
 
 
 def _change(made: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
@@ -353,7 +359,7 @@ def _change(made: ClosureSystem, one: Reals, two: Reals) -> Reals | None:
         x, psi, beta = x - move[:n], psi - move[n:-1], beta - move[-1]
         if not np.abs(move).max() < 1:
             return None
-        if np.abs(move).max() < 1e-12:
+        if np.abs(move).max() < _EXACT:
             near = np.linalg.norm(x - (one + two) / 2) <= np.linalg.norm(two - one)
             return x if near and abs(beta) < _EXACT else None
     return None
@@ -383,7 +389,7 @@ def _meeting(system: ClosureSystem, one: Reals, two: Reals, tangent: Reals) -> t
         found = [at(float(part)) for part in places]
         values = np.array([value for _, value in found])
         line = np.polynomial.Polynomial.fit(_BESIDE, np.sign(_BESIDE) * values, 3)
-        roots = [root.real for root in line.roots() if abs(root.imag) < 1e-9 and abs(root.real) < 1]
+        roots = [root.real for root in line.roots() if abs(root.imag) < _REAL and abs(root.real) < 1]
         if not roots:
             return None, 0
         shift = float(min(roots, key=abs))
@@ -412,7 +418,7 @@ def _touches(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -> Iter
 
 def _curvature(system: ClosureSystem, x: Reals, psi: Reals, rows: NDArray[np.int64]) -> Reals:
     """The derivative of J^T psi, by differences; its error slows Newton's method down but does not mislead it."""
-    out, h = np.empty((len(x), len(x))), 1e-5
+    out, h = np.empty((len(x), len(x))), _DIFFERENCE
     for k in range(len(x)):
         for sign in (1, -1):
             moved = x.copy()
@@ -432,7 +438,7 @@ def _quiet_changes(system: ClosureSystem, samples: TracedCurve, gauges: Reals) -
             if pose is None:
                 pose, lost = _meeting(system, samples.poses[k - 1], samples.poses[k + 1], samples.tangents[k])
                 several = lost > 1
-            if pose is None or np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2] > 1e-9:
+            if pose is None or np.linalg.svd(system.linearised(pose)[1], compute_uv=False)[system.unknowns - 2] > _ZERO:
                 continue
             ahead = (pose - samples.poses[k]) @ samples.tangents[k] >= 0
             out.append(ChangeSample(pose, k if ahead else k - 1, several))

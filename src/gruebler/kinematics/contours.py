@@ -23,6 +23,7 @@ COEFFICIENTS = 12
 _EXACT = 5e-16  # of the largest value: terms of a piece that are rounding
 _CONSTANT = 1e-14  # of the largest value: a law that varies by less between two joints varies by rounding only
 _NO_TURN = 1e-12  # radians: between joints of a law that are nearer lies nothing but rounding
+_ROUNDING = 1e-14  # radians: a step of Newton's method that is shorter changes nothing
 _SHORTEST = 0.04  # radians: shorter pieces would lose in their rates what they gain in themselves
 
 
@@ -112,7 +113,7 @@ def _turned(cam: Cam, t: Reals, high: float, low: float) -> Reals:
         at, slope = _bearing(cam, phi)
         step = (at - t) / slope
         phi -= step
-        if np.abs(step).max() < 1e-14:
+        if np.abs(step).max() < _ROUNDING:
             break
     return phi
 

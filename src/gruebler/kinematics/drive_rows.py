@@ -11,6 +11,9 @@ from gruebler.kinematics.plan import Plan
 
 __all__ = ["drive_path", "drive_speeds", "from_degrees"]
 
+_ROUNDING = 1e-12  # of a number of steps: its error by two roundings, with room
+_LAST = 1e-9  # of a step: an end that is missed by less is reached
+
 
 def from_degrees(start: float, stop: float, step: float) -> Reals:
     """Angles from start to stop, both included, given in degrees, in radians.
@@ -22,7 +25,7 @@ def from_degrees(start: float, stop: float, step: float) -> Reals:
         raise LinkageError(
             "no angles lead from {start:g} to {stop:g} by steps of {step:g}", start=start, stop=stop, step=step
         )
-    count = int(np.floor((stop - start) / step * (1 + 1e-12) + 1e-9))
+    count = int(np.floor((stop - start) / step * (1 + _ROUNDING) + _LAST))
     if count > 10_000_000:
         raise LinkageError("{count:,} rows are more than 10,000,000", count=count + 1)
     out: Reals = np.radians(start + step * np.arange(count + 1))

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["SolvedRows", "follow_path", "run_rows", "without_first"]
 
 _AT_IT = 1e-12  # of the size: a row so near to the shortest way of a slide is there
+_PASSED = 1e-9  # of the size: a step that ends so near to the shortest way of a slide ends at it
 _AT_CHANGE = 1e-7  # below this root a path that turns back is taken to turn back in a change point
 
 
@@ -216,7 +217,7 @@ def _with_extra_rows(
     filled = path[row] + part[:, None] * (path[row + 1] - path[row])
     filled[asked] = path
     for k, value in plan.shortest:  # exactly there, so that it is not passed once more
-        near = ~asked & (np.abs(filled[:, k] - value) < 1e-9 * plan.lower.size)
+        near = ~asked & (np.abs(filled[:, k] - value) < _PASSED * plan.lower.size)
         filled[near, k] = value
     fast = None
     if speeds is not None:

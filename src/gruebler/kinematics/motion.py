@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from cmath import rect
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,16 +11,17 @@ from numpy.typing import NDArray
 
 from gruebler import notebook
 from gruebler.arrays import Complexes, Reals
-from gruebler.errors import LinkageError, nearest
+from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import law_at
 from gruebler.kinematics.contours import cam_law, turn_law
+from gruebler.kinematics.link_poses import LinkPoses
 from gruebler.kinematics.messages import stop_message, unbounded_message
 from gruebler.kinematics.plan import Plan
-from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, LinkPoint, NonCircular, Pose2D, Wheel
+from gruebler.linkages import CamDisc, Circle, GenevaDriver, Line, Linkage, NonCircular, Wheel
 from gruebler.linkages.elements import INVERSE
-from gruebler.linkages.wheels import carriers, rolling_factors, round_joints, sliding_joint
+from gruebler.linkages.wheels import carriers, rolling_factors, round_joints
 from gruebler.notebook import Brief
-from gruebler.text import Message, joined, message
+from gruebler.text import Message, joined
 
 __all__ = ["Motion", "Stop", "joint_openings"]
 
@@ -44,7 +44,7 @@ class Stop:
 
 
 @dataclass(frozen=True, repr=False)
-class Motion(Brief):
+class Motion(LinkPoses, Brief):
     """Poses of a linkage along a path of its drives, with derivatives.
 
     Points are returned as (rows, 2), angles as (rows,) in radians without jumps. Rows behind a `stop` are not there:
@@ -80,6 +80,11 @@ class Motion(Brief):
         return self.stop is None
 
     @property
+    def lower_linkage(self) -> Linkage:
+        """The linkage as it was solved: with lower pairs, and the links that replace higher ones."""
+        return self.plan.lower
+
+    @property
     def order(self) -> int:
         """The highest derivative: 0 positions, 1 velocities, 2 accelerations, 3 jerks."""
         return len(self.rates)
@@ -102,52 +107,15 @@ class Motion(Brief):
 
     def angle(self, link: str) -> Reals:
         """The angle of a link's x axis against the frame's, in radians, continuous; (rows,)."""
-        k = self._link(link)
-        out: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
-        return out
+        k = self.link_index(link)
+        angles: Reals = np.angle(self.turns[:, k] + 0.0) + 2 * np.pi * self.whole[:, k]  # -1 - 0j is counted as pi
+        return angles
 
     def angular(self, link: str, order: int = 1) -> Reals:
         """The angular velocity (1), acceleration (2) or jerk (3) of a link; (rows,)."""
-        self._ordered(order)
-        out: Reals = self.rates[order - 1, :, self._link(link)] if order else self.angle(link)
-        return out
-
-    def point(self, name: str | LinkPoint, order: int = 0) -> Reals:
-        """A named point or a joint: its position, or its velocity (1), acceleration (2), jerk (3); (rows, 2).
-
-        A joint is seen as a point of its link at the frame, else of the link named first.
-        """
-        z = self.complex_point(name, order)
-        return np.stack([z.real, z.imag], axis=1)
-
-    def complex_point(self, name: str | LinkPoint, order: int = 0) -> Complexes:
-        """`point` as x + iy; (rows,)."""
-        self._ordered(order)
-        place = name if isinstance(name, LinkPoint) else self.linkage.points_named(name)[-1]
-        k = self._link(place.link)
-        arm = self.turns[:, k] * complex(place.x, place.y)
-        if order == 0:
-            return self.places[0, :, k] + arm
-        w = self.rates[0, :, k]
-        if order == 1:
-            factor = 1j * w
-        elif order == 2:
-            factor = 1j * self.rates[1, :, k] - w**2
-        else:
-            factor = 1j * (self.rates[2, :, k] - w**3) - 3 * w * self.rates[1, :, k]
-        return self.places[order, :, k] + factor * arm
-
-    def displacement(self, joint: str | int, order: int = 0) -> Reals:
-        """The way of a sliding joint from the first link's point to the second's, or its derivative; (rows,)."""
-        return _displacement(self, joint, order)
-
-    def pose(self, row: int = 0) -> dict[str, Pose2D]:
-        """Where the links lie in a row, as a home for `Linkage.with_reference_pose`."""
-        return {
-            link: Pose2D(float(z.real), float(z.imag), float(self.angle(link)[row]))
-            for link in self.linkage.mechanism.chain.links
-            for z in [self.places[0, row, self._link(link)]]
-        }
+        self.check_order(order)
+        rates: Reals = self.rates[order - 1, :, self.link_index(link)] if order else self.angle(link)
+        return rates
 
     @cached_property
     def closure_error(self) -> float:
@@ -165,19 +133,8 @@ class Motion(Brief):
         """The first pose with some others thinly, for notebooks."""
         return notebook.svg_of(self) if notebook.svg_of else None
 
-    def _link(self, link: str) -> int:
-        links: Sequence[str] = self.plan.lower.mechanism.chain.links
-        if link not in links:
-            known = self.linkage.mechanism.chain.links
-            raise LinkageError(
-                "there is no link {link!r}{suggestion}; the links are {known}",
-                link=link,
-                suggestion=nearest(link, known),
-                known=", ".join(known),
-            )
-        return links.index(link)
-
-    def _ordered(self, order: int) -> None:
+    def check_order(self, order: int) -> None:
+        """`LinkageError` for an order beyond that to which the motion was solved."""
         if not 0 <= order <= self.order:
             if 0 <= order <= 3:
                 raise LinkageError(
@@ -186,47 +143,6 @@ class Motion(Brief):
                     order=order,
                 )
             raise LinkageError("the order of a derivative is 0, 1, 2 or 3, not {order!r}", order=order)
-
-
-def _displacement(motion: Motion, joint: str | int, order: int) -> Reals:
-    """See `Motion.displacement`."""
-    mechanism = motion.linkage.mechanism
-    number = joint if isinstance(joint, int) else mechanism.chain.find_joint(joint)
-    if number is None or not sliding_joint(motion.linkage, number):
-        sliding = [n for k, n in enumerate(mechanism.chain.joint_names()) if sliding_joint(motion.linkage, k)]
-        raise LinkageError(
-            "{joint!r} is no sliding joint; there are {joints}",
-            joint=joint,
-            joints=", ".join(sliding) or message("none"),
-        )
-    first, other = mechanism.chain.joints[number].links[:2]
-    elements = motion.linkage.elements
-    if not isinstance(elements[number, first], Line) or (
-        other == mechanism.frame and isinstance(elements[number, other], Line)
-    ):
-        first, other = other, first
-    line = elements[number, first]
-    assert isinstance(line, Line)
-    far = elements[number, other]
-    gaps = [
-        motion.complex_point(LinkPoint(other, far.x, far.y), k)
-        - motion.complex_point(LinkPoint(first, line.x, line.y), k)
-        for k in range(order + 1)
-    ]
-    k = motion._link(first)
-    w, a, j = (motion.rates[m, :, k] if m < order else np.zeros(len(motion)) for m in range(3))
-    direction = np.conj(motion.turns[:, k] * rect(1, line.angle))
-    # the gap in coordinates that turn with the line
-    if order == 0:
-        seen = gaps[0]
-    elif order == 1:
-        seen = gaps[1] - 1j * w * gaps[0]
-    elif order == 2:
-        seen = gaps[2] - 2j * w * gaps[1] + (-1j * a - w**2) * gaps[0]
-    else:
-        seen = gaps[3] - 3j * w * gaps[2] + 3 * (-1j * a - w**2) * gaps[1] + (1j * (w**3 - j) - 3 * w * a) * gaps[0]
-    out: Reals = (direction * seen).real
-    return out
 
 
 _LEADING = (CamDisc, GenevaDriver, NonCircular)
@@ -264,7 +180,7 @@ def _open_contact(motion: Motion, number: int) -> float:
     gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
     touching = chain.joints[number].pair.name == "rolling" or isinstance(other, Circle)
     if isinstance(one, Line):
-        gap *= np.conj(motion.turns[:, motion._link(a)] * rect(1, one.angle))
+        gap *= np.conj(motion.turns[:, motion.link_index(a)] * rect(1, one.angle))
         radius = np.copysign(other.radius, gap.imag)
         far, rolled = np.abs(gap.imag - radius), radius * (motion.angle(b) - motion.angle(a)) + gap.real
     else:
@@ -291,7 +207,7 @@ def _open_curve(motion: Motion, number: int) -> float:
     one, other = elements[number, a], elements[number, b]
     assert isinstance(one, CamDisc | GenevaDriver | NonCircular)
     gap = _point_at(motion, b, other.x, other.y) - _point_at(motion, a, one.x, one.y)
-    along = motion.turns[:, motion._link(a)] * rect(1, one.angle)
+    along = motion.turns[:, motion.link_index(a)] * rect(1, one.angle)
     if isinstance(one, GenevaDriver | NonCircular):
         law = turn_law(one, other)
         bearing = np.unwrap(np.angle(gap))
@@ -302,7 +218,7 @@ def _open_curve(motion: Motion, number: int) -> float:
         return float(np.abs(off - off[0]).max()) * motion.linkage.size
     law = cam_law(one)
     if isinstance(other, Line):
-        normal = 1j * motion.turns[:, motion._link(b)] * rect(1, other.angle)
+        normal = 1j * motion.turns[:, motion.link_index(b)] * rect(1, other.angle)
         height = (np.conj(normal) * gap).real
         normal, height = normal * np.sign(height), np.abs(height)
         wanted = np.array([law_at(law, float(t)) for t in np.angle(normal / along)])
@@ -318,23 +234,25 @@ def joint_openings(motion: Motion, linkage: Linkage, number: int) -> Reals:
     The linkage is that of the motion, or the one with lower pairs.
     """
     joint = linkage.mechanism.chain.joints[number]
-    out = np.zeros(len(motion))
+    openings = np.zeros(len(motion))
     for first, other in ((joint.links[0], other) for other in joint.links[1:]):
         if not isinstance(linkage.elements[number, first], Line):
             first, other = other, first  # noqa: PLW2901
         one, two = linkage.elements[number, first], linkage.elements[number, other]
         gap = (_point_at(motion, other, two.x, two.y) - _point_at(motion, first, one.x, one.y)) / linkage.size
         if isinstance(one, Line):
-            line = motion.turns[:, motion._link(first)] * rect(1, one.angle)
+            line = motion.turns[:, motion.link_index(first)] * rect(1, one.angle)
             if joint.pair.name != "double_slide":
-                out = np.maximum(out, np.abs((np.conj(line) * gap).imag))
+                openings = np.maximum(openings, np.abs((np.conj(line) * gap).imag))
             if isinstance(two, Line):
-                out = np.maximum(out, np.abs(motion.turns[:, motion._link(other)] * rect(1, two.angle) - line))
+                openings = np.maximum(
+                    openings, np.abs(motion.turns[:, motion.link_index(other)] * rect(1, two.angle) - line)
+                )
         else:
-            out = np.maximum(out, np.abs(gap))
-    return out
+            openings = np.maximum(openings, np.abs(gap))
+    return openings
 
 
 def _point_at(motion: Motion, link: str, x: float, y: float) -> Complexes:
-    k = motion._link(link)
+    k = motion.link_index(link)
     return motion.places[0, :, k] + motion.turns[:, k] * complex(x, y)

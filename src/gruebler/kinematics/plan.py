@@ -27,6 +27,8 @@ _DYADS = {"RRR": RRR, "RRP": RRP, "RPR": RPR, "PRP": PRP, "RPP": RPP}
 _LETTERS = {"revolute": "R", "prismatic": "P"}
 _FORMS = {code: form for form, code in _DYADS.items()}
 _BRANCHING = ("RRR", "RRP", "RPR")  # the dyads with two assembly modes
+# Between two checks a drive moves no further: within that a pose is predicted so well that Newton's method stays on its
+# branch. A slide moves a third of the way that 5 degrees move a point at the distance of one size.
 _LONGEST_TURN = radians(5)
 _LONGEST_PUSH = 0.03  # of the linkage's size
 _ONE = 1e-9  # of the linkage's size: shortest ways of a slide that differ by less are one

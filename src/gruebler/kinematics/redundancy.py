@@ -21,6 +21,7 @@ from gruebler.chain.pairs import Pair, pair
 from gruebler.errors import LinkageError
 from gruebler.linkages import Element, Line, Linkage, Pin, with_lower_pairs
 from gruebler.linkages.elements import direction
+from gruebler.linkages.model import NEAR_REFERENCE
 from gruebler.linkages.wheels import round_joints
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.text import message
@@ -33,7 +34,8 @@ __all__ = [
 
 _RANK = 1e-8  # of the largest singular value: the same threshold as that of `screws.freedoms`
 _CLOSED = 1e-9  # sizes and radians: joints that are open by more in the reference pose are not closed there
-_NEAR = 0.05  # sizes and radians: a closed position farther away is not the reference pose
+_ROUNDING = 1e-14  # sizes and radians: a step of Newton's method that is shorter changes nothing
+_STRESSED = 1e-7  # of a unit vector of forces: a null space decided at 1e-8 is known to some 1e-16/1e-8
 _WELL = 0.1  # of the largest share in the redundancy: conditions with less are not released
 _TRIALS = 200  # exchanges that are looked at: 1 ms each
 _EQUAL = 1 - 1e-6  # shares that differ by less are equal: then the first one counts, on every machine
@@ -186,11 +188,11 @@ class ReferenceConditions:
             residual, matrix = self.linearised(x)
             step = np.linalg.lstsq(matrix, -residual, rcond=_RANK)[0]
             x = x + step
-            if np.abs(step).max(initial=0.0) < 1e-14:
+            if np.abs(step).max(initial=0.0) < _ROUNDING:
                 break
         residual = self.linearised(x)[0]
         far = np.abs(residual)
-        if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < _NEAR:
+        if not far.max(initial=0.0) < _CLOSED or not np.abs(x - start).max() < NEAR_REFERENCE:
             worst = self.chain.joint_names()[self.rows[int(np.argmax(far))].joint]
             raise LinkageError(
                 "home: the joints are not closed there; {worst} is open by {gap:.1e} sizes", worst=worst, gap=far.max()
@@ -252,7 +254,9 @@ def _stresses(matrix: Reals) -> Reals:
 
 def _stressed(conditions: ReferenceConditions, forces: Reals) -> set[int]:
     """The joints that hold one another."""
-    return {row.joint for row, mine in zip(conditions.rows, forces, strict=False) if np.abs(mine).max(initial=0) > 1e-7}
+    return {
+        row.joint for row, mine in zip(conditions.rows, forces, strict=False) if np.abs(mine).max(initial=0) > _STRESSED
+    }
 
 
 def _releases(conditions: ReferenceConditions, x: Reals) -> Iterator[_Release]:

@@ -14,6 +14,7 @@ from gruebler.errors import LinkageError
 from gruebler.kinematics.contacts import home_angles
 from gruebler.kinematics.plan import Dyad, Plan
 from gruebler.linkages import Line
+from gruebler.linkages.model import NEAR_REFERENCE
 
 __all__ = ["ReferencePose", "check_reference", "pose_at_reference"]
 
@@ -43,7 +44,7 @@ def check_reference(plan: Plan, places: NDArray[np.complex128], turns: NDArray[n
     for k, link in enumerate(plan.lower.mechanism.chain.links):
         home = plan.lower.required_pose[link]
         gap = max(abs(places[k] - complex(home.x, home.y)) / plan.lower.size, abs(turns[k] - rect(1, home.angle)))
-        if gap > 0.05:
+        if gap > NEAR_REFERENCE:
             raise LinkageError("home: the joints are not closed there; {link!r} would have to lie elsewhere", link=link)
 
 

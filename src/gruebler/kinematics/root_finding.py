@@ -23,6 +23,7 @@ _NONE = 1e-9  # of the usual size: a value below is taken for none; rounding rea
 _FLAT = 1e-4  # a slope below this part of the usual one asks whether the zero is a multiple one
 _JUMP = 1e-4  # of the usual size: a change of sign with larger values is a jump; next to change points 1e-6 is rounding
 _WINDOW = 0.1  # of a cell: how far from such a zero that of the last derivative may lie
+_EDGE = 0.01  # of a part between joints: so far from both at most, however short it is
 _INSIDE = 9  # places within each part between joints, besides those of the grid
 _BESIDE = 1e-9  # of the whole width: how far from a joint its two sides are looked at; joints are known to some 1e-15
 
@@ -170,7 +171,7 @@ def _parts(jet: Jet, samples: FunctionSamples) -> list[_SmoothPart]:
     inner = (1 - np.cos(np.pi * (np.arange(_INSIDE) + 0.5) / _INSIDE)) / 2
     places = []
     for low, high in pairwise(bounds):
-        edge = min(beside, 0.01 * (high - low))
+        edge = min(beside, _EDGE * (high - low))
         low, high = low + edge, high - edge  # noqa: PLW2901
         own = grid[(grid > low) & (grid < high)]
         places.append(np.unique(np.concatenate([[low], low + (high - low) * inner, own, [high]])))

@@ -16,6 +16,7 @@ from gruebler.linkages.elements import (
     Pose2D,
     Wheel,
 )
+from gruebler.linkages.gear_trains import linkage_of_train, train_of
 from gruebler.linkages.lower_pairs import with_lower_pairs
 from gruebler.linkages.model import Linkage
 
@@ -32,5 +33,7 @@ __all__ = [
     "Pin",
     "Pose2D",
     "Wheel",
+    "linkage_of_train",
+    "train_of",
     "with_lower_pairs",
 ]

@@ -31,7 +31,11 @@ from gruebler.linkages.wheels import check_wheels, resolve_wheels
 from gruebler.mechanism import Mechanism
 from gruebler.text import Message, message
 
-__all__ = ["Linkage"]
+__all__ = ["NEAR_REFERENCE", "Linkage"]
+
+
+NEAR_REFERENCE = 0.05
+"""Sizes and radians: a closed position farther away is not the reference pose that was meant."""
 
 
 class Linkage:

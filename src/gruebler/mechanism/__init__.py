@@ -1,9 +1,9 @@
-"""The mechanism: a chain with one link held as frame and with drives.
+"""The mechanism: a chain with one link fixed as frame and with drives.
 
 A drive is a freedom of a joint, anywhere: a revolute at the frame, a cylinder between two moving links. Whether the
-drives fix the motion is a question of generic rank with the drives locked (`check_drives`). What a link is called
-(frame, crank, rocker, coupler, slider) is said as far as structure alone can tell (`roles`); whether a rocker turns
-fully is a question of size.
+drives fix the motion is a question of generic rank with the drives locked (`check_drives`). `roles` names the links
+(frame, crank, rocker, coupler, slider) as far as the structure determines them; whether a rocker turns fully depends
+on the dimensions.
 """
 
 from gruebler.mechanism.drives import DriveReport, check_drives

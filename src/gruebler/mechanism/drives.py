@@ -36,7 +36,7 @@ class DriveReport:
 
     @property
     def message(self) -> Message:
-        """What `explain` says, in any language."""
+        """The text of `explain` as a message, for any language."""
         sentences = [message("Mobility {mobility}, drives {drives}.", mobility=self.mobility, drives=self.drives)]
         if self.fixed:
             sentences.append(message("The drives fix the motion."))
@@ -50,7 +50,7 @@ class DriveReport:
 
 
 def check_drives(mechanism: Mechanism) -> DriveReport:
-    """Lock the drives and see what still moves.
+    """Lock the drives and compute the mobility that remains.
 
     A drive is redundant if locking it is a consequence of the chain and of the other drives: it takes part in a
     dependency of the constraints. Cost: two generic ranks.

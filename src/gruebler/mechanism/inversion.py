@@ -1,4 +1,4 @@
-"""Inversions: the mechanisms that one chain gives when another link is held, or another joint driven.
+"""Inversions: the mechanisms of one chain with another link as frame, or another joint driven.
 
 Two choices of frame (or of frame and drives, or of frame, drives and output) give the same mechanism if an automorphism
 of the chain takes one to the other. One representative of each orbit is returned, the one with the lowest numbers; the
@@ -27,7 +27,7 @@ __all__ = ["DrivenMechanism", "driven_mechanisms", "family", "inversions"]
 
 @dataclass(frozen=True, slots=True)
 class DrivenMechanism:
-    """A driven mechanism, with its output link if one was asked for."""
+    """A driven mechanism, with its output link if an output was requested."""
 
     mechanism: Mechanism
     output: str | None = None
@@ -66,7 +66,7 @@ def driven_mechanisms(
     Args:
         chain: any chain.
         drives: how many freedoms are driven.
-        at_frame: whether every drive acts on the frame; otherwise drives may sit anywhere.
+        at_frame: whether every drive acts on the frame; otherwise a drive may be at any joint.
         output: whether to choose an output link too: any link but the frame and those that a drive moves directly
             against it.
         fixed_only: whether to leave out drives that do not fix the motion.
@@ -80,18 +80,18 @@ def driven_mechanisms(
         raise ChainError("a driven mechanism has at least one drive, not {drives}", drives=drives)
     freedoms = _freedoms(chain)
     choices = [
-        (frame, chosen, out)
+        (frame, chosen, output_link)
         for frame in range(chain.n)
         for chosen in combinations([f for f in freedoms if not at_frame or frame in f[2]], drives)
-        for out in (_outputs(chain, frame, chosen) if output else [-1])
+        for output_link in (_outputs(chain, frame, chosen) if output else [-1])
     ]
     group = symmetry(chain).generators
     images = [{choice: _image(choice, g) for choice in choices} for g in group]
     for orbit in orbits(choices, images):
-        frame, chosen, out = orbit[0]
+        frame, chosen, output_link = orbit[0]
         mechanism = Mechanism(chain, chain.links[frame], [_drive(chain, f) for f in chosen])
         if not fixed_only or check_drives(mechanism).fixed:
-            yield DrivenMechanism(mechanism, chain.links[out] if out >= 0 else None)
+            yield DrivenMechanism(mechanism, chain.links[output_link] if output_link >= 0 else None)
 
 
 Freedom = tuple[int, str, tuple[int, int]]
@@ -114,12 +114,12 @@ def _outputs(chain: Chain, frame: int, chosen: tuple[Freedom, ...]) -> list[int]
 
 
 def _image(choice: Choice, g: Permutation) -> Choice:
-    frame, chosen, out = choice
+    frame, chosen, output_link = choice
     moved = sorted(
         (g.joints[number], direction, (min(g.links[a], g.links[b]), max(g.links[a], g.links[b])))
         for number, direction, (a, b) in chosen
     )
-    return g.links[frame], tuple(moved), g.links[out] if out >= 0 else -1
+    return g.links[frame], tuple(moved), g.links[output_link] if output_link >= 0 else -1
 
 
 def _drive(chain: Chain, freedom: Freedom) -> Drive:
@@ -129,10 +129,10 @@ def _drive(chain: Chain, freedom: Freedom) -> Drive:
     return Drive(number, direction, (first, other))
 
 
-# Name, mechanism: what a frame makes of a chain. Sources: the seeds 2.4 and 2.6 for the four-bar
+# Name, mechanism. Sources: sections 2.4 and 2.6 of the teaching documents for the four-bar
 # and the slider-crank chain; Watt and Stephenson as numbered by McCarthy and Soh, Geometric Design of Linkages, 2nd ed.
 # 2011; the chains with two sliders as named in VDI 2145 and by Luck and Modler, Getriebetechnik, 1990. Guide and block
-# of a slide are alike in structure, and so are a block that turns and one that swings: size tells them apart.
+# of a slide have the same structure, and so have a block that turns and one that swings: dimensions distinguish them.
 _FAMILIES = (
     (message("four-bar linkage"), "R(0-1) R(1-2) R(2-3) R(3-0); frame=0"),
     (message("slider-crank (sliding lever with the block as frame)"), "R(0-1) R(1-2) R(2-3) P(3-0); frame=0"),

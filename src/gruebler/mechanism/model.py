@@ -33,18 +33,18 @@ class Drive:
 
 
 class Mechanism:
-    """A chain, its frame and its drives. A value: sound or not constructed, never changed.
+    """A chain, its frame and its drives: an immutable value, checked when it is constructed.
 
     Args:
         chain: any chain.
-        frame: the link that stands still.
+        frame: the fixed link.
         drives: each a joint number, a joint written as in the chain's text (``R(frame-crank)``), or a `Drive`. A joint
             with several freedoms needs the direction, a multiple joint the two links: ``C(a-b):Tz``,
             ``R(a-b-c):a-b``.
 
     Raises:
         ChainError: a frame or joint that the chain does not have, a direction that is no freedom of the joint, or
-            the same freedom driven twice. Whether the number of drives is right is asked of `check_drives`.
+            the same freedom driven twice. `check_drives` tests whether the number of drives is right.
 
     >>> print(Mechanism(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"), "frame", [0]))
     R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston); frame=frame; drive=R(frame-crank)
@@ -58,14 +58,14 @@ class Mechanism:
 
     def __init__(self, chain: Chain, frame: str, drives: Iterable[int | str | Drive | DriveMark] = ()) -> None:
         chain.index(frame)
-        made = tuple(sorted((_drive(chain, d) for d in drives), key=lambda d: (d.joint, d.direction, d.between)))
-        keys = [(d.joint, d.direction, frozenset(d.between)) for d in made]
+        checked = tuple(sorted((_drive(chain, d) for d in drives), key=lambda d: (d.joint, d.direction, d.between)))
+        keys = [(d.joint, d.direction, frozenset(d.between)) for d in checked]
         for k, key in enumerate(keys):
             if key in keys[:k]:
-                raise ChainError("the drive {drive} is named twice", drive=_drive_text(chain, made[k]))
+                raise ChainError("the drive {drive} is named twice", drive=_drive_text(chain, checked[k]))
         object.__setattr__(self, "chain", chain)
         object.__setattr__(self, "frame", frame)
-        object.__setattr__(self, "drives", made)
+        object.__setattr__(self, "drives", checked)
 
     @classmethod
     def parse(cls, text: str) -> Mechanism:
@@ -115,11 +115,11 @@ class Mechanism:
     @classmethod
     def from_json(cls, document: Mapping[str, Any]) -> Mechanism:
         """The mechanism of an object made by `to_json`."""
-        rest = dict(document)
-        frame, drives = rest.pop("frame", None), rest.pop("drives", [])
+        chain_document = dict(document)
+        frame, drives = chain_document.pop("frame", None), chain_document.pop("drives", [])
         if not isinstance(frame, str) or not isinstance(drives, list) or not all(isinstance(d, str) for d in drives):
             raise NotationError('a mechanism needs a text "frame" and a list of texts "drives"')
-        return cls(Chain.from_json(rest), frame, drives)
+        return cls(Chain.from_json(chain_document), frame, drives)
 
     def to_json(self) -> dict[str, Any]:
         """Plain data for `json.dumps`: the chain's object with frame and drives."""
@@ -140,7 +140,7 @@ class Mechanism:
         return f"Mechanism.parse({self.text()!r})"
 
     def drive_names(self, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> tuple[str, ...]:
-        """Each drive as a text: its joint, with direction and links where the joint alone does not tell.
+        """Each drive as a text: its joint, with direction and links where the joint alone is ambiguous.
 
         >>> Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)").drive_names("german")
         ('D(0-1)',)
@@ -174,7 +174,7 @@ class Mechanism:
         at_joint: dict[int, set[tuple[str, frozenset[str]]]] = {}
         for d in self.drives:
             at_joint.setdefault(d.joint, set()).add((d.direction, frozenset(d.between)))
-        # Joint by joint and counted: of equal joints between the same links one or several may be driven.
+        # Counted for each joint: of equal joints between the same links one or several may be driven.
         driven = Counter(
             (self.chain.joints[k].pair, frozenset(self.chain.joints[k].links), frozenset(drives))
             for k, drives in at_joint.items()
@@ -191,7 +191,7 @@ def _split_marks(text: str) -> list[str]:
 
 
 def _mark(chain: Chain, drive: Drive) -> int | DriveMark:
-    """What a code marks: the joint, or the part of it that is driven where it has others."""
+    """The mark in a code: the joint, or its driven part where it has several."""
     joint = chain.joints[drive.joint]
     several, multiple = joint.pair.f(chain.space) > 1, joint.count > 1
     if not several and not multiple:
@@ -273,9 +273,9 @@ def _read_drive(chain: Chain, text: str) -> tuple[int, str, tuple[str, ...]]:
 
 def _drive_text(chain: Chain, drive: Drive, alphabet: str | Alphabet = Alphabet.INTERNATIONAL) -> str:
     joint = chain.joints[drive.joint]
-    out = chain.joint_names(alphabet)[drive.joint]
+    text = chain.joint_names(alphabet)[drive.joint]
     if joint.pair.f(chain.space) > 1:
-        out += f":{drive.direction}"
+        text += f":{drive.direction}"
     if joint.count > 1:
-        out += ":" + "-".join(map(notation.link_text, drive.between))
-    return out
+        text += ":" + "-".join(map(notation.link_text, drive.between))
+    return text

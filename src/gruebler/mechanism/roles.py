@@ -1,4 +1,4 @@
-"""What the links of a mechanism are called."""
+"""The names of the links of a mechanism: frame, crank, rocker, coupler, slider, ..."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ __all__ = ["Role", "roles"]
 
 
 class Role(StrEnum):
-    """What a link is called, as far as structure alone can tell."""
+    """The role of a link, as far as the structure alone determines it."""
 
     FRAME = "frame"
     CRANK = "crank"
@@ -39,19 +39,19 @@ def roles(mechanism: Mechanism) -> dict[str, Role]:
     """The role of each link.
 
     The frame; a crank (a revolute at the frame that is driven); a slider (a sliding joint at the frame); a wheel (a
-    revolute at the frame and a rolling or roll-slide contact); a rocker (any other revolute at the frame: structure
-    cannot say whether it turns fully); a coupler (not joined to the frame).
+    revolute at the frame and a rolling or roll-slide contact); a rocker (any other revolute at the frame: the structure
+    does not determine whether it turns fully); a coupler (not joined to the frame).
 
     >>> [str(r) for r in roles(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)")).values()]
     ['frame', 'crank', 'coupler', 'rocker']
     """
     chain, frame = mechanism.chain, mechanism.frame
     driven = {(d.joint, link) for d in mechanism.drives for link in d.between if frame in d.between}
-    out = {}
+    named = {}
     for link in chain.links:
-        mine = {k: j for k, j in enumerate(chain.joints) if link in j.links}
-        at_frame = {k: j.pair.name for k, j in mine.items() if frame in j.links}
-        contacts = {"rolling", "roll_slide"} & {j.pair.name for j in mine.values()}
+        joints = {k: j for k, j in enumerate(chain.joints) if link in j.links}
+        at_frame = {k: j.pair.name for k, j in joints.items() if frame in j.links}
+        contacts = {"rolling", "roll_slide"} & {j.pair.name for j in joints.values()}
         if link == frame:
             role = Role.FRAME
         elif any(name == "revolute" and (k, link) in driven for k, name in at_frame.items()):
@@ -62,5 +62,5 @@ def roles(mechanism: Mechanism) -> dict[str, Role]:
             role = Role.ROLLER if contacts else Role.ROCKER
         else:
             role = Role.COUPLER
-        out[link] = role
-    return out
+        named[link] = role
+    return named

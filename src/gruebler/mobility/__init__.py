@@ -1,4 +1,4 @@
-"""How many freedoms a chain has, by the formula and in truth, and what is wrong where the two differ."""
+"""The mobility of a chain, by the formula and by rank, and the causes where the two differ."""
 
 from gruebler.mobility.circuits import Overconstrained, overconstrained
 from gruebler.mobility.counting import Count, count_freedoms, counted

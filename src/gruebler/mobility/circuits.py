@@ -1,14 +1,14 @@
-"""The overconstrained subchains: minimal sets of links that hold more constraints than they need.
+"""The overconstrained subchains: minimal sets of links with more constraints than they need.
 
 A dependency among the constraints is a *self-stress*: forces between links, carried by the joints, that balance
 on every link. The subchains that are overconstrained are the link sets that carry a stress, and the minimal
 ones are the minimal supports of the stress space. The redundancy of a set of links is the dimension of the
 stresses that load no other link; it equals the constraints of the induced subchain minus their rank.
 
-Everything happens in the stress space, whose dimension r is the redundancy of the whole chain: leaving out a link is
-intersecting with the kernel of its load map. For r = 1 the answer is read off; in general the search
-branches on links and remembers supports it has seen. Their number can grow exponentially with r, so the
-search has a budget; what it did not take apart is handed back whole with ``minimal=False``.
+The computation takes place in the stress space, whose dimension r is the redundancy of the entire chain: leaving out a
+link is intersecting with the kernel of its load map. For r = 1 the support of the stress is the answer; in general the
+search branches on links and keeps a set of the supports already visited. Their number can grow exponentially with r, so
+the search has a budget; a part that it did not decompose is returned undivided with ``minimal=False``.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ from gruebler.mobility.rank import Generic
 
 __all__ = ["Overconstrained", "overconstrained"]
 
-_BUDGET = 200  # subspaces met in one connected part of the stress space
-_LARGEST = 60  # the redundancy of a connected part up to which it is taken apart
+_BUDGET = 200  # subspaces visited in one connected part of the stress space
+_LARGEST = 60  # the redundancy of a connected part up to which it is decomposed
 
 Matrix = NDArray[np.int64]
 Column = NDArray[np.int64]
@@ -49,13 +49,13 @@ class Overconstrained:
     joints: tuple[int, ...]
     """The numbers of the joints that carry the stress."""
     redundancy: int
-    """By how much there are too many constraints."""
+    """The number of surplus constraints."""
     minimal: bool
     """Whether no smaller set of links within is overconstrained."""
-    mended_by_removing: tuple[int, ...]
-    """The joints each of which, taken out alone, ends the overconstraint."""
-    mended_by_freeing: tuple[int, ...]
-    """The joints each of which, given one more freedom, ends it."""
+    resolved_by_removing: tuple[int, ...]
+    """The joints whose removal, of any single one, ends the overconstraint."""
+    resolved_by_freeing: tuple[int, ...]
+    """The joints of which any single one, with one more freedom, ends it."""
 
 
 def overconstrained(rank: Generic) -> tuple[Overconstrained, ...]:
@@ -71,14 +71,14 @@ def overconstrained(rank: Generic) -> tuple[Overconstrained, ...]:
     """
     if rank.redundancy == 0:
         return ()
-    found = []
+    subchains = []
     basis = null_space_by_column(rank.stress_form)
     for part in _connected_parts(rank, basis):
         if basis is None or not 1 < part.dimension <= _LARGEST:
-            found.append(_as_a_whole(rank, part, basis))
+            subchains.append(_as_a_whole(rank, part, basis))
         else:
-            found += _StressedPart(rank, part, basis).minimal_supports()
-    return tuple(sorted(found, key=lambda one: (len(one.links), one.joints)))
+            subchains += _StressedPart(rank, part, basis).minimal_supports()
+    return tuple(sorted(subchains, key=lambda part: (len(part.links), part.joints)))
 
 
 class _Rows(NamedTuple):
@@ -97,8 +97,8 @@ def _connected_parts(rank: Generic, basis: dict[int, Support] | None) -> list[_R
     """Split the basis of the stresses, which is of the form [I | D], into parts that share no constraint.
 
     Within a multiple joint the loads on a link mix the constraints, so such a joint connects as a whole. Where the
-    basis is too large to be written down, a constraint is joined with those that its equation names; that may leave
-    parts together.
+    basis is too large to store, a constraint is joined with those that its equation contains; then parts may remain
+    undivided.
     """
     sharing, free = _sharing(rank, basis)
     joints, owners = rank.chain.joints, rank.placement.owners
@@ -119,10 +119,10 @@ def _connected_parts(rank: Generic, basis: dict[int, Support] | None) -> list[_R
 
 
 def _sharing(rank: Generic, basis: dict[int, Support] | None) -> tuple[dict[int, list[int]], list[int]]:
-    """For each loaded constraint those that it shares a stress with, and the one each basis vector has for itself."""
+    """For each loaded constraint those that share a stress with it, and the free constraint of each basis vector."""
     form = rank.stress_form
-    taken = {pivot for pivot, _, _ in form.pivots}
-    free = [row for row in range(form.columns) if row not in taken]
+    pivots = {pivot for pivot, _, _ in form.pivots}
+    free = [row for row in range(form.columns) if row not in pivots]
     if basis is not None:
         return {row: [free[k] for k in members.tolist()] for row, (members, _) in basis.items()}, free
     loaded: NDArray[np.bool_] = np.any(rank.some_stresses, axis=1)
@@ -134,7 +134,7 @@ def _sharing(rank: Generic, basis: dict[int, Support] | None) -> tuple[dict[int,
 
 
 def _as_a_whole(rank: Generic, part: _Rows, basis: dict[int, Support] | None) -> Overconstrained:
-    """A part as one subchain; minimal if its stress is the only one. A few random stresses tell what is loaded."""
+    """A part as one subchain; minimal if its stress is the only one. Random stresses show which joints are loaded."""
     single = part.dimension == 1
     on_links: set[int] = set()
     on_joints: list[int] = []
@@ -154,20 +154,20 @@ def _in_every_stress(rank: Generic, part: _Rows, basis: dict[int, Support]) -> t
     rows: dict[int, list[int]] = {}
     for row in part.rows:
         rows.setdefault(rank.placement.owners[row][0], []).append(row)
-    found = []
-    for joint, mine in sorted(rows.items()):
-        if len(mine) >= part.dimension:
-            entries = [dict(zip(basis[row][0].tolist(), basis[row][1].tolist(), strict=True)) for row in mine]
+    loaded_joints = []
+    for joint, joint_rows in sorted(rows.items()):
+        if len(joint_rows) >= part.dimension:
+            entries = [dict(zip(basis[row][0].tolist(), basis[row][1].tolist(), strict=True)) for row in joint_rows]
             if echelon(entries, rank.redundancy).rank == part.dimension:
-                found.append(joint)
-    return tuple(found)
+                loaded_joints.append(joint)
+    return tuple(loaded_joints)
 
 
 class _StressedPart:
     """One connected part of the stress space, with the loads that its stresses put on links and joints.
 
-    Links whose loads vanish for the same stresses are in or out together, and so are joints: one of each class is
-    asked.
+    Links whose loads vanish for the same stresses belong to the same subchains, and so do joints: one of each class is
+    tested.
     """
 
     def __init__(self, rank: Generic, part: _Rows, basis: dict[int, Support]) -> None:
@@ -190,30 +190,30 @@ class _StressedPart:
         self.joints, self.joint_classes = _by_kernel(on_joints)
 
     def minimal_supports(self) -> list[Overconstrained]:
-        whole = np.eye(self.dimension, dtype=np.int64)
+        whole_space = np.eye(self.dimension, dtype=np.int64)
         overconstraineds: list[Overconstrained] = []
-        seen = {whole.tobytes()}
-        todo = [whole]
+        visited = {whole_space.tobytes()}
+        todo = [whole_space]
         while todo:
             space = todo.pop()
             smaller = self._without_one_class(space)
             if not smaller:
                 overconstraineds.append(self._describe(space, minimal=True))
-            todo += [sub for key, sub in smaller.items() if key not in seen]
-            seen.update(smaller)
-            if len(seen) > _BUDGET:
-                return [*overconstraineds, self._describe(whole, minimal=False)]
+            todo += [sub for key, sub in smaller.items() if key not in visited]
+            visited.update(smaller)
+            if len(visited) > _BUDGET:
+                return [*overconstraineds, self._describe(whole_space, minimal=False)]
         return overconstraineds
 
     def _without_one_class(self, space: Matrix) -> dict[bytes, Matrix]:
-        """The subspaces, each once, that leave one class of links unloaded, where anything is left."""
-        out = {}
+        """The non-zero subspaces, each once, that leave one class of links unloaded."""
+        subspaces = {}
         if len(space) > 1:
             for kernel in left_null_spaces([modular_product(space, load) for load in self.classes.values()]):
                 if 0 < len(kernel) < len(space):
                     smaller = reduced_echelon(modular_product(kernel, space))
-                    out[smaller.tobytes()] = smaller
-        return out
+                    subspaces[smaller.tobytes()] = smaller
+        return subspaces
 
     def _describe(self, space: Matrix, *, minimal: bool) -> Overconstrained:
         loaded = {key for key, load in self.classes.items() if modular_product(space, load).any()}
@@ -237,18 +237,18 @@ def _by_kernel(loads: dict[int, list[Matrix]]) -> tuple[dict[int, bytes], dict[b
 def _loads(rank: Generic, columns: dict[int, Column]) -> dict[int, dict[int, Matrix]]:
     """For each joint and each of its links the load (stresses, u) in terms of the joint's functionals.
 
-    The joint's first link takes up what the others put in, so that the load on every link is independent of
-    the tree of constraints that stands for a multiple joint. ``columns`` has the entries of the stresses in each
+    The joint's first link carries the sum of the loads of the others, so that the load on every link is independent of
+    the tree of constraints that represents a multiple joint. ``columns`` has the entries of the stresses in each
     constraint.
     """
-    out: dict[int, dict[int, Matrix]] = {}
+    joint_loads: dict[int, dict[int, Matrix]] = {}
     width = [len(functionals) for functionals in rank.placement.functionals]
     for row, column in columns.items():
         joint, first, other, k = rank.placement.owners[row]
-        loads = out.setdefault(joint, {})
+        loads = joint_loads.setdefault(joint, {})
         for link, sign in ((first, -1), (other, 1)):
             load = loads.get(link)
             if load is None:
                 load = loads[link] = np.zeros((len(column), width[joint]), np.int64)
             load[:, k] = (load[:, k] + sign * column) % P
-    return out
+    return joint_loads

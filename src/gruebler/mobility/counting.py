@@ -12,7 +12,7 @@ __all__ = ["Count", "count_freedoms", "counted"]
 
 @dataclass(frozen=True, slots=True)
 class Count:
-    """The numbers that enter the formula, and what it gives."""
+    """The numbers that enter the formula, and its value."""
 
     n: int
     b: int
@@ -55,12 +55,12 @@ def _factor(u: int) -> str:
 
 
 def count_freedoms(chain: Chain, b: int | None = None) -> Count:
-    """The count with all that it is made of.
+    """The count with all its terms.
 
     Args:
         chain: any chain.
         b: the motions of a free link, where the chain moves in a smaller group than its space: 2 for screws
-            on one axis (turn and shift), 3 for translations in space. Otherwise what the space has.
+            on one axis (turn and shift), 3 for translations in space. By default the b of the space.
 
     Raises `ChainError` if a joint has more freedoms than b leaves room for, or b is not 1 to 6.
     """

@@ -1,11 +1,11 @@
 """Idle freedoms: motions of a part alone that change nothing else, such as the spin of a rod between two balls.
 
-Two kinds are told apart. *Certain*: with all its neighbours held, the constraints at a link's joints leave it a
-freedom at a random placement; or several links hang together between two balls, such as the rod and the barrel of a
+There are two kinds. *Certain*: with all its neighbours fixed, the constraints at a link's joints leave it a
+freedom at a random placement; or several connected links lie between two balls, such as the rod and the barrel of a
 hydraulic cylinder, and turn as one body about the line through the two centres, whatever joins them. *If round*: a
 binary link on one revolute and one roll-slide joint (a cam roller) spins idly when its contour is a circle about the
-pin. Structure cannot know that: a planet wheel looks the same. The condition is therefore reported with the freedom,
-only where the chain has freedoms to spare (mobility of two or more) and only for links whose pin is not on the frame.
+pin. The structure does not determine that: a planet wheel has the same structure. The condition is therefore reported
+with the freedom, only where the chain has a mobility of two or more and only for links whose pin is not on the frame.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ __all__ = ["IdleCondition", "IdleFreedom", "between_balls", "idle_freedoms"]
 
 
 class IdleCondition(StrEnum):
-    """Under which condition a freedom is idle."""
+    """The condition under which a freedom is idle."""
 
     ALWAYS = "always"
     ROUND = "round"
@@ -30,7 +30,7 @@ class IdleCondition(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class IdleFreedom:
-    """Freedoms that belong to one link alone, or to several that move as one body."""
+    """Freedoms of one link alone, or of several links that move as one body."""
 
     links: tuple[str, ...]
     freedoms: int
@@ -38,7 +38,7 @@ class IdleFreedom:
 
 
 def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
-    """The idle freedoms, in the order of the links. Links on a single joint are not idle: they hang free.
+    """The idle freedoms, in the order of the links. Links on a single joint are not idle: they move freely.
 
     >>> from gruebler.chain import Chain
     >>> from gruebler.mobility.rank import generic
@@ -54,21 +54,21 @@ def idle_freedoms(rank: Generic, frame: str) -> tuple[IdleFreedom, ...]:
     for k, joint in enumerate(chain.joints):
         for link in joint.links:
             joints[link].append(k)
-    found = []
-    for link, mine in joints.items():
-        if len(mine) < 2 or link == frame:
+    freedoms = []
+    for link, numbers in joints.items():
+        if len(numbers) < 2 or link == frame:
             continue
-        left = chain.space.b - _rank((f for k in mine for f in rank.placement.functionals[k]), chain.space.b)
-        if left:
-            found.append(IdleFreedom((link,), left, IdleCondition.ALWAYS))
-        elif rank.mobility >= 2 and _may_be_roller(rank, mine, frame):
-            found.append(IdleFreedom((link,), 1, IdleCondition.ROUND))
-    found += [IdleFreedom(part, 1, IdleCondition.ALWAYS) for part, _ in between_balls(chain, frame)]
-    return tuple(sorted(found, key=lambda idle: chain.index(idle.links[0])))
+        remaining = chain.space.b - _rank((f for k in numbers for f in rank.placement.functionals[k]), chain.space.b)
+        if remaining:
+            freedoms.append(IdleFreedom((link,), remaining, IdleCondition.ALWAYS))
+        elif rank.mobility >= 2 and _may_be_roller(rank, numbers, frame):
+            freedoms.append(IdleFreedom((link,), 1, IdleCondition.ROUND))
+    freedoms += [IdleFreedom(part, 1, IdleCondition.ALWAYS) for part, _ in between_balls(chain, frame)]
+    return tuple(sorted(freedoms, key=lambda idle: chain.index(idle.links[0])))
 
 
 def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple[int, int]]]:
-    """The parts of several links, joined by other pairs than balls, that two balls join to two links of the rest.
+    """The parts of several links, joined by other pairs than balls, that two balls join to two links outside.
 
     Each part with the numbers of its two balls. Cost O(joint elements).
     """
@@ -91,34 +91,34 @@ def between_balls(chain: Chain, frame: str) -> list[tuple[tuple[str, ...], tuple
     for k in balls:
         for link in chain.joints[k].links:
             at.setdefault(part(link), []).append(k)
-    out = []
+    parts = []
     for root, links in members.items():
-        mine = at.get(root, [])
-        if len(links) < 2 or frame in links or len(mine) != 2 or mine[0] == mine[1]:
+        part_balls = at.get(root, [])
+        if len(links) < 2 or frame in links or len(part_balls) != 2 or part_balls[0] == part_balls[1]:
             continue
-        outside = {link for k in mine for link in chain.joints[k].links} - set(links)
-        if len(outside) > 1:  # both balls on one and the same link make a hinge, and its turn is no idle one
-            out.append((tuple(links), (mine[0], mine[1])))
-    return out
+        outside = {link for k in part_balls for link in chain.joints[k].links} - set(links)
+        if len(outside) > 1:  # both balls on the same link are a hinge, and its rotation is not idle
+            parts.append((tuple(links), (part_balls[0], part_balls[1])))
+    return parts
 
 
 def _rank(rows: Iterable[tuple[int, ...]], most: int) -> int:
-    """The rank of short rows; what follows once it has reached ``most`` is not looked at."""
+    """The rank of short rows; the iteration ends when it reaches ``most``."""
     basis: list[tuple[int, list[int]]] = []
     for row in rows:
-        rest = list(row)
+        remainder = list(row)
         for pivot, known in basis:
-            if factor := rest[pivot]:
-                rest = [(a - factor * b) % P for a, b in zip(rest, known, strict=True)]
-        if any(rest):
-            pivot = next(k for k, value in enumerate(rest) if value)
-            scale = modular_inverse(rest[pivot])
-            basis.append((pivot, [value * scale % P for value in rest]))
+            if factor := remainder[pivot]:
+                remainder = [(a - factor * b) % P for a, b in zip(remainder, known, strict=True)]
+        if any(remainder):
+            pivot = next(k for k, value in enumerate(remainder) if value)
+            scale = modular_inverse(remainder[pivot])
+            basis.append((pivot, [value * scale % P for value in remainder]))
             if len(basis) == most:
                 break
     return len(basis)
 
 
 def _may_be_roller(rank: Generic, joints: list[int], frame: str) -> bool:
-    mine = {rank.chain.joints[k].pair.name: rank.chain.joints[k] for k in joints}
-    return len(joints) == 2 and set(mine) == {"revolute", "roll_slide"} and frame not in mine["revolute"].links
+    by_pair = {rank.chain.joints[k].pair.name: rank.chain.joints[k] for k in joints}
+    return len(joints) == 2 and set(by_pair) == {"revolute", "roll_slide"} and frame not in by_pair["revolute"].links

@@ -1,4 +1,4 @@
-"""A chain put at a random place: the linear constraints its joints lay on the twists of its links.
+"""A chain at a random placement: the linear constraints of its joints on the twists of its links.
 
 Everything is counted modulo the prime P of `gruebler._numeric.modular`. Each joint gets a random frame
 of its own (a rotation from a random quaternion, and a random origin), common to all its links. A pair with
@@ -32,7 +32,7 @@ _ENTRY_DEGREE = 4  # of an entry as a polynomial in the random numbers: 2 (rotat
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """The constraint matrix of a chain at one random placement; the first link stands still."""
+    """The constraint matrix of a chain at one random placement; the first link is fixed."""
 
     rows: list[Row]
     columns: int
@@ -43,12 +43,12 @@ class Placement:
     """For each joint its u functionals, each b residues."""
 
     def error_bound(self, rank: int) -> float:
-        """How likely at most it is that this placement shows less than the generic rank (Schwartz, Zippel)."""
+        """An upper bound of the probability that the rank here is below the generic rank (Schwartz, Zippel)."""
         return _ENTRY_DEGREE * (rank + 1) / P
 
 
 class LockedFreedom(NamedTuple):
-    """A freedom taken away: one motion direction of a joint, between two of its links."""
+    """A locked freedom: one motion direction of a joint, between two of its links."""
 
     joint: int
     direction: str
@@ -66,10 +66,10 @@ def random_placement(chain: Chain, seed: int, locks: Sequence[LockedFreedom] = (
     rows: list[Row] = []
     owners = []
     functionals = [frames.constraints(number, joint) for number, joint in enumerate(chain.joints)]
-    for number, (joint, mine) in enumerate(zip(chain.joints, functionals, strict=True)):
+    for number, (joint, joint_functionals) in enumerate(zip(chain.joints, functionals, strict=True)):
         first, *others = (chain.index(link) for link in joint.links)
         for other in others:
-            for k, functional in enumerate(mine):
+            for k, functional in enumerate(joint_functionals):
                 rows.append(_row(functional, first, other, b))
                 owners.append((number, first, other, k))
     for lock in locks:
@@ -81,7 +81,7 @@ def random_placement(chain: Chain, seed: int, locks: Sequence[LockedFreedom] = (
 
 
 def _row(functional: tuple[int, ...], first: int, other: int, b: int) -> Row:
-    """The functional of the relative twist, other against first; the link 0 stands still."""
+    """The functional of the relative twist, other against first; the link 0 is fixed."""
     row = {}
     if first:
         row = {k: P - v for k, v in enumerate(functional, b * (first - 1)) if v}
@@ -140,7 +140,7 @@ class _Frames:
     def constraints(self, number: int, joint: Joint) -> list[tuple[int, ...]]:
         """The functionals that vanish on the joint's freedoms."""
         freedoms = joint.pair.freedoms[self.space]
-        out = []
+        vanishing = []
         for direction in self.space.directions:
             if direction in freedoms or (direction == "Rz" and "Hz" in freedoms):
                 continue
@@ -149,5 +149,5 @@ class _Frames:
                 pitch = self._pitches[number]
                 turn = self.unit(number, "Rz")
                 functional = tuple((a - pitch * b) % P for a, b in zip(functional, turn, strict=True))
-            out.append(functional)
-        return out
+            vanishing.append(functional)
+        return vanishing

@@ -1,7 +1,7 @@
-"""Generic mobility: what almost all sizes of a chain give, by exact rank at a random placement.
+"""Generic mobility: the mobility at almost all dimensions of a chain, by exact rank at a random placement.
 
-A rank modulo a prime never exceeds the generic rank, so an error can go one way only: mobility and
-redundancy would come out too large, never too small. The answer is proved (`exact`) when the rank reaches the
+A rank modulo a prime never exceeds the generic rank, so an error has only one direction: mobility and
+redundancy would be too large, never too small. The answer is proved (`exact`) when the rank reaches the
 number of constraints or of unknowns, or when a theorem lets the pebble game confirm it. Otherwise two
 independent placements are compared and the bound on the probability of error is given.
 """
@@ -24,16 +24,16 @@ from gruebler.mobility.sparsity import pebble_mobility, theorem
 __all__ = ["Generic", "TooLargeError", "generic", "generic_mobility"]
 
 _FIRST_SEED = 20_261_121
-_SAMPLES = 3  # random motions or stresses that stand for all
-_LARGEST = 1e9  # bytes that are taken without being asked again
+_SAMPLES = 3  # random motions or stresses that represent all of them
+_LARGEST = 1e9  # bytes accepted without ``large``
 _SECONDS_A_ROW = 1e-4
 _BYTES_A_ROW = 2800  # of the process, measured with 20,000 links (benchmarks/README.md)
 _BYTES_WITH_STRESSES = 3500  # the same where some constraints depend on others: the transpose is eliminated, too
-_TRIES = 4  # placements tried before a rank below the theorem's is called impossible
+_TRIES = 4  # placements tried before a rank below the theorem's is an internal error
 
 
 class TooLargeError(GrueblerError):
-    """A chain whose rank takes more than about a minute or 1 GB, refused before it is begun."""
+    """The rank of this chain takes more than about a minute or 1 GB; raised before the elimination starts."""
 
 
 @dataclass(frozen=True)
@@ -45,13 +45,13 @@ class Generic:
     form: Echelon
     exact: bool
     error_bound: float
-    """0 if exact; else how likely at most it is that mobility and redundancy are stated too large."""
+    """0 if exact; else an upper bound of the probability that mobility and redundancy are too large."""
     large: bool = False
-    """Whether eliminations that take more than about a minute or 1 GB are begun."""
+    """Whether to start eliminations that take more than about a minute or 1 GB."""
 
     @property
     def mobility(self) -> int:
-        """The dimension of the motions when the first link stands still."""
+        """The dimension of the motions when the first link is fixed."""
         return self.placement.columns - self.form.rank
 
     @property
@@ -69,9 +69,9 @@ class Generic:
 
     @cached_property
     def some_motions(self) -> NDArray[np.int64]:
-        """Three random motions side by side, shape (n, 3 b); they stand for all of them.
+        """Three random motions side by side, shape (n, 3 b); they represent all motions.
 
-        The chance that two links agree in them that move against each other in some motion is 1/P^3.
+        Two links that move relative to each other in some motion agree in all three with probability 1/P^3.
         """
         b = self.chain.space.b
         moving = random_solutions(self.form, _SAMPLES).reshape(self.chain.n - 1, b * _SAMPLES)
@@ -79,11 +79,11 @@ class Generic:
 
     @cached_property
     def clusters(self) -> list[tuple[str, ...]]:
-        """The links by equal twists in every motion: they move alike, so they do not move against each other."""
-        found: dict[bytes, list[str]] = {}
+        """The links grouped by equal twists in every motion: no relative motion within a group."""
+        clusters: dict[bytes, list[str]] = {}
         for link, twists in zip(self.chain.links, self.some_motions, strict=True):
-            found.setdefault(twists.tobytes(), []).append(link)
-        return [tuple(cluster) for cluster in found.values()]
+            clusters.setdefault(twists.tobytes(), []).append(link)
+        return [tuple(cluster) for cluster in clusters.values()]
 
     @cached_property
     def stress_form(self) -> Echelon:
@@ -94,12 +94,12 @@ class Generic:
 
     @cached_property
     def some_stresses(self) -> NDArray[np.int64]:
-        """Three random self-stresses, shape (constraints, 3); they stand for all of them."""
+        """Three random self-stresses, shape (constraints, 3); they represent all self-stresses."""
         return random_solutions(self.stress_form, _SAMPLES)
 
 
 def generic(chain: Chain, locks: Sequence[LockedFreedom] = (), *, large: bool = False) -> Generic:
-    """The generic rank of a chain, with its certificate, some freedoms locked if wanted.
+    """The generic rank of a chain, with its certificate, optionally with locked freedoms.
 
     Cost: about linear for chains that grow dyad by dyad, cubic in the dense core of others; see
     benchmarks/README.md. Raises `TooLargeError` where that core takes more than about a minute or 1 GB, unless

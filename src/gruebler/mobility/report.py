@@ -1,4 +1,4 @@
-"""The mobility of a chain with all its evidence: the count, whether it is true, and what is wrong where."""
+"""The mobility of a chain with all its evidence: the count, whether it is true, and the faults with their places."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ __all__ = ["MobilityReport", "Verdict", "mobility_report", "verdict_word"]
 
 
 class Verdict(StrEnum):
-    """What the evidence amounts to. The first that fits, from the top."""
+    """The conclusion from the evidence: the first of these that applies."""
 
     OVERCONSTRAINED = "overconstrained"
-    """Some subchain holds more constraints than it needs, whatever the count of the whole says."""
+    """Some subchain has more constraints than it needs, whatever the count of the entire chain is."""
     RIGID = "rigid"
     """Nothing moves, and nothing is redundant: F = 0."""
     PARTLY_RIGID = "partly_rigid"
@@ -43,7 +43,7 @@ _VERDICTS = {
 }
 _MEANINGS = {
     Verdict.OVERCONSTRAINED: message(
-        "Some links hold more constraints than they need; such a machine runs only with exact or special dimensions."
+        "Some links have more constraints than they need; such a machine moves only with exact or special dimensions."
     ),
     Verdict.RIGID: message(
         "Nothing moves for almost all dimensions; only special dimensions (equal and parallel cranks, a contact on "
@@ -62,17 +62,17 @@ _OTHER_COUNTS = {
 
 @dataclass(frozen=True, repr=False)
 class MobilityReport(Brief):
-    """What `mobility_report` found. `explain` says it in words."""
+    """The result of `mobility_report`. `explain` returns it as text."""
 
     chain: Chain
     frame: str
     count: Count
     generic: int
-    """Mobility that almost all sizes give."""
+    """The mobility at almost all dimensions."""
     redundancy: int
     """Redundant constraints in all: generic mobility minus the count with the space's own b."""
     exact: bool
-    """Whether the generic mobility is proved; otherwise `error_bound` says how unlikely an error is."""
+    """Whether the generic mobility is proved; otherwise `error_bound` bounds the probability of an error."""
     error_bound: float
     overconstrained: tuple[Overconstrained, ...]
     rigid_clusters: tuple[tuple[str, ...], ...]
@@ -87,7 +87,7 @@ class MobilityReport(Brief):
 
     @property
     def verdict(self) -> Verdict:
-        """What the evidence amounts to."""
+        """The conclusion from the evidence."""
         if self.redundancy:
             return Verdict.OVERCONSTRAINED
         if self.generic == 0:
@@ -114,7 +114,7 @@ class MobilityReport(Brief):
         return "\n".join(line.in_language(lang) for line in lines)
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data for `json.dumps`; the joints as texts that tell one from another."""
+        """Plain data for `json.dumps`; the joints as unique texts."""
         names = self.chain.joint_names()
         return {
             "links": list(self.chain.links),
@@ -130,8 +130,8 @@ class MobilityReport(Brief):
                     "joints": [names[k] for k in part.joints],
                     "redundancy": part.redundancy,
                     "minimal": part.minimal,
-                    "mended_by_removing": [names[k] for k in part.mended_by_removing],
-                    "mended_by_freeing": [names[k] for k in part.mended_by_freeing],
+                    "resolved_by_removing": [names[k] for k in part.resolved_by_removing],
+                    "resolved_by_freeing": [names[k] for k in part.resolved_by_freeing],
                 }
                 for part in self.overconstrained
             ],
@@ -152,9 +152,9 @@ def mobility_report(
     Args:
         chain: any chain.
         b: the motions of a free link for the count, if the chain moves in a smaller group than its space.
-        frame: the link that stands still; the first one if left out. It matters only for rollers
+        frame: the fixed link; by default the first. It matters only for rollers
             (`gruebler.mobility.idle`): mobility does not depend on it.
-        large: begin even what takes more than about a minute or 1 GB, instead of raising `TooLargeError`.
+        large: start even an elimination of more than about a minute or 1 GB, instead of raising `TooLargeError`.
 
     Cost: see `gruebler.mobility.rank.generic`.
 
@@ -187,7 +187,7 @@ def mobility_report(
 
 
 def verdict_word(verdict: Verdict, lang: str) -> str:
-    """The verdict in one or two words.
+    """The name of the verdict.
 
     >>> verdict_word(Verdict.CONSTRAINED, "de")
     'zwangläufig'
@@ -238,7 +238,7 @@ def _numbers(report: MobilityReport) -> Iterator[Message]:
 
 def _count_and_rank(report: MobilityReport) -> Message:
     if report.redundancy:
-        text = message("The count is off by {difference}: so many constraints are redundant.")
+        text = message("The count is off by {difference}, the number of redundant constraints.")
         return text.filled(difference=report.redundancy)
     if report.generic and report.rigid_clusters:
         return message("The sum is right, but the chain is not sound: see below.")
@@ -262,7 +262,7 @@ def _details(report: MobilityReport, names: Sequence[str]) -> Iterator[Message]:
         yield _idle(idle, report.generic)
     for link, count in chain.degrees.items():
         if count == 1:
-            yield message("{link} hangs on a single joint; its freedom there belongs to it alone.", link=link)
+            yield message("{link} has a single joint; its freedom there affects no other link.", link=link)
 
 
 def _idle(idle: IdleFreedom, generic: int) -> Message:
@@ -283,7 +283,7 @@ def _idle(idle: IdleFreedom, generic: int) -> Message:
 def _overconstrained(part: Overconstrained, names: Sequence[str]) -> Message:
     links = ", ".join(part.links)
     if not part.minimal:
-        text = message("Overconstrained as a whole, not taken apart further: links {links} by {redundancy}.")
+        text = message("Overconstrained as a whole, not decomposed further: links {links} by {redundancy}.")
         return text.filled(links=links, redundancy=part.redundancy)
     line = message(
         "Overconstrained: links {links} by {redundancy}, at the joints {joints}.",
@@ -291,14 +291,14 @@ def _overconstrained(part: Overconstrained, names: Sequence[str]) -> Message:
         redundancy=part.redundancy,
         joints=_list(names, part.joints),
     )
-    if part.mended_by_freeing == part.mended_by_removing == part.joints:
+    if part.resolved_by_freeing == part.resolved_by_removing == part.joints:
         remedy = message(
             "One more freedom at any one of these joints resolves it, and so does removing any one of them."
         )
-    elif part.mended_by_removing == part.joints:
+    elif part.resolved_by_removing == part.joints:
         remedy = message("Removing any one of these joints resolves it.")
-    elif part.mended_by_removing:
-        remedy = message("Removing one of {joints} resolves it.", joints=_list(names, part.mended_by_removing))
+    elif part.resolved_by_removing:
+        remedy = message("Removing one of {joints} resolves it.", joints=_list(names, part.resolved_by_removing))
     else:
         remedy = message("No single joint resolves it: {redundancy} freedoms are missing.", redundancy=part.redundancy)
     return joined([line, remedy], " ")

@@ -1,4 +1,4 @@
-"""The combinatorial road to generic mobility: pebble games, where a theorem says that counting is enough.
+"""Generic mobility by combinatorics: pebble games, where a theorem proves that counting suffices.
 
 - A plane (or sphere) with turning, rolling and roll-slide joints: let every revolute or rolling joint be a point,
   every link a rigid graph on its points, every roll-slide joint a bar between two points of its own. The
@@ -8,7 +8,7 @@
   a roll-slide joint one (Tay 1984, 1989; Whiteley 1988).
 - Space with revolute joints (five bars) and balls on planes (one bar): (6,6)-sparsity (the same authors).
 
-Sliders, balls, cylinders and multiple joints in space are outside these theorems; `theorem` then says why.
+Sliders, balls, cylinders and multiple joints in space are outside these theorems; `theorem` then states the reason.
 Rolling is, at one instant, turning about the point of contact; "generic" takes that point at random.
 docs/theory/mobility.md has the statements and the reductions.
 """
@@ -36,14 +36,14 @@ _BARS = {
 
 @dataclass(frozen=True, slots=True)
 class License:
-    """Whether a theorem lets the pebble game answer for a chain."""
+    """Whether a theorem justifies the pebble game for a chain."""
 
     bodies: bool
     """Links as bodies: (3,3) or (6,6)."""
     points: bool
     """Joints as points: (2,3)."""
     reason: Message
-    """The theorem, or what stands outside every theorem used here."""
+    """The theorem, or the feature of the chain that no theorem used here covers."""
 
     def __bool__(self) -> bool:
         return self.bodies or self.points
@@ -84,7 +84,7 @@ def pebble_mobility(chain: Chain, *, points: bool | None = None) -> int:
         chain: a chain that a theorem covers.
         points: take joints as points (True), links as bodies (False), or whichever is licensed (None).
 
-    Raises `ChainError` where no theorem licenses the game: it never guesses. Cost O(n g).
+    Raises `ChainError` where no theorem licenses the game. Cost O(n g).
 
     >>> pebble_mobility(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
     1
@@ -116,11 +116,11 @@ def _point_graph(chain: Chain) -> tuple[int, list[tuple[int, int]]]:
                 points[link].append(vertices)
                 vertices += 1
             edges.append((vertices - 2, vertices - 1))
-    for mine in points.values():
-        while len(mine) < 2:
-            mine.append(vertices)
+    for link_points in points.values():
+        while len(link_points) < 2:
+            link_points.append(vertices)
             vertices += 1
-        first, second, *others = mine
+        first, second, *others = link_points
         edges.append((first, second))
         for point in others:
             edges += [(first, point), (second, point)]
@@ -136,13 +136,13 @@ def pebble_rank(vertices: int, edges: Iterable[tuple[int, int]], k: int, l: int)
     5
     """
     pebbles = [k] * vertices
-    out: list[list[int]] = [[] for _ in range(vertices)]
+    successors: list[list[int]] = [[] for _ in range(vertices)]
 
     def turn_path(came_from: dict[int, int], root: int, end: int) -> None:
         while end != root:
             back = came_from[end]
-            out[back].remove(end)
-            out[end].append(back)
+            successors[back].remove(end)
+            successors[end].append(back)
             end = back
 
     def fetch(root: int, other: int) -> bool:
@@ -150,17 +150,17 @@ def pebble_rank(vertices: int, edges: Iterable[tuple[int, int]], k: int, l: int)
         came_from = {root: root, other: other}
         stack = [root]
         while stack:
-            here = stack.pop()
-            for there in out[here]:
-                if there in came_from:
+            vertex = stack.pop()
+            for neighbour in successors[vertex]:
+                if neighbour in came_from:
                     continue
-                came_from[there] = here
-                if pebbles[there]:
-                    pebbles[there] -= 1
+                came_from[neighbour] = vertex
+                if pebbles[neighbour]:
+                    pebbles[neighbour] -= 1
                     pebbles[root] += 1
-                    turn_path(came_from, root, there)
+                    turn_path(came_from, root, neighbour)
                     return True
-                stack.append(there)
+                stack.append(neighbour)
         return False
 
     rank = 0
@@ -170,6 +170,6 @@ def pebble_rank(vertices: int, edges: Iterable[tuple[int, int]], k: int, l: int)
         if pebbles[u] + pebbles[v] > l:
             start, end = (u, v) if pebbles[u] else (v, u)
             pebbles[start] -= 1
-            out[start].append(end)
+            successors[start].append(end)
             rank += 1
     return rank

@@ -1,7 +1,7 @@
-"""Realisation: sensible dimensions for any planar mechanism, found by a search.
+"""Realisation: a search for sensible dimensions of any planar mechanism.
 
-`realise` draws a mechanism at random, makes its driven links small, and improves what moves;
-docs/theory/realisation.md says why that works.
+`realise` draws random layouts of a mechanism, shrinks the driven links, and improves the layouts that move;
+docs/theory/realisation.md explains why that works.
 """
 
 from gruebler.realisation.realise import realise, with_drives

@@ -1,4 +1,4 @@
-"""From a drawing to a linkage: laid straight, scaled, rounded to sensible numbers, and moved once more to be sure."""
+"""From a drawing to a linkage: aligned, scaled, rounded to sensible numbers, and checked by moving it again."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ Ranges = tuple[tuple[float, float], ...]
 
 _SIZE = 100.0
 _GRADES = ((1.0, 5.0), (0.5, 1.0), (0.1, 0.5), (0.01, 0.1), (1e-3, 1e-2))  # unit of lengths, of degrees
-_LOSS = 0.9  # of the quality that rounding may cost
+_LOSS = 0.9  # the share of the quality that remains at least after rounding
 _OPEN = 1e-12
 
 
 class FinishedLinkage(NamedTuple):
-    """A linkage of rounded sizes, where its drives move, and how well."""
+    """A linkage of rounded dimensions, the ranges of its drives, and its quality."""
 
     linkage: Linkage
     ranges: Ranges
@@ -36,17 +36,17 @@ class FinishedLinkage(NamedTuple):
 
 
 def finish_linkage(program: LayoutProgram, drawing: Reals, trial: LayoutTrial, unit: str) -> FinishedLinkage | None:
-    """The linkage of the coarsest rounding that moves as the drawing does, if there is one."""
+    """The linkage of the coarsest rounding that moves like the drawing, if there is one."""
     straight = _straight(program, drawing)
     scale = program.size(straight) / program.size(drawing)
     drawn = Linkage.from_drawing(program.mechanism, joint_places(program.mechanism, program.slots, straight), unit=unit)
-    asked = max(FLOOR, _LOSS * _moved(drawn, trial, scale, 0.0)[1])
+    required_quality = max(FLOOR, _LOSS * _moved(drawn, trial, scale, 0.0)[1])
     for length, angle in _GRADES:
-        linkage = _home_rounded(_rounded(drawn, length, radians(angle)), length)
+        linkage = _with_rounded_reference(_rounded(drawn, length, radians(angle)), length)
         if linkage is None:
             continue
         ranges, quality = _moved(linkage, trial, scale, length)
-        if quality >= asked:
+        if quality >= required_quality:
             return FinishedLinkage(linkage, ranges, quality)
     return None
 
@@ -60,9 +60,9 @@ def _moved(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) ->
 
 
 def motion_quality(motion: Motion, *, full: bool) -> float:
-    """The smallest measure of a motion; 0 if it does not reach its end, or, going round, does not close."""
+    """The smallest measure of a motion; 0 if it does not reach its end, or, for a full turn, does not close."""
     plan = motion.plan
-    if not motion.complete or (full and not returns_to_start(motion.places[0], motion.turns, plan.lower.size)):
+    if not motion.complete or (full and not returns_to_start(motion.places[0], motion.turns, motion.size)):
         return 0.0
     return float(conditioning(plan, plan.program, motion.places[0], motion.turns, motion.roots).min())
 
@@ -70,20 +70,20 @@ def motion_quality(motion: Motion, *, full: bool) -> float:
 def _straight(program: LayoutProgram, drawing: Reals) -> Reals:
     """The frame's driven (else first) joint at the origin, its slide or its farthest pin along the x axis; scaled."""
     mechanism, slides = program.mechanism, program.slides
-    mine = [k for k, joint in enumerate(mechanism.chain.joints) if mechanism.frame in joint.links]
-    driven = [drive.joint for drive in mechanism.drives if drive.joint in mine]
-    pins = [k for k in [*driven, *mine] if k not in slides] or mine
+    frame_joints = [k for k, joint in enumerate(mechanism.chain.joints) if mechanism.frame in joint.links]
+    driven = [drive.joint for drive in mechanism.drives if drive.joint in frame_joints]
+    pins = [k for k in [*driven, *frame_joints] if k not in slides] or frame_joints
     origin = drawing[pins[0], :2]
-    along = next((float(drawing[k, 2]) for k in mine if k in slides), None)
+    along = next((float(drawing[k, 2]) for k in frame_joints if k in slides), None)
     if along is None:
-        gaps = drawing[mine, :2] - origin
+        gaps = drawing[frame_joints, :2] - origin
         far = gaps[int(np.argmax(np.hypot(gaps[:, 0], gaps[:, 1])))]
         along = atan2(far[1], far[0])
-    out = drawing.copy()
+    straight = drawing.copy()
     turn = np.exp(-1j * along) * _SIZE / program.size(drawing)
     z = ((drawing[:, 0] - origin[0]) + 1j * (drawing[:, 1] - origin[1])) * turn
-    out[:, 0], out[:, 1], out[:, 2] = z.real, z.imag, drawing[:, 2] - along
-    return out
+    straight[:, 0], straight[:, 1], straight[:, 2] = z.real, z.imag, drawing[:, 2] - along
+    return straight
 
 
 def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
@@ -96,8 +96,8 @@ def _rounded(linkage: Linkage, length: float, angle: float) -> Linkage:
     return Linkage(linkage.mechanism, elements, unit=linkage.unit, reference_pose=linkage.required_pose)
 
 
-def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
-    """The linkage with a home position of sensible drive values that is closed; None if it cannot be assembled."""
+def _with_rounded_reference(linkage: Linkage, length: float) -> Linkage | None:
+    """The linkage with a closed reference pose of rounded drive values; None if it cannot be assembled."""
     reference = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
     turning = [drive.turning for drive in linkage.mechanism.drives]
     values: list[float] = [
@@ -121,15 +121,15 @@ def _home_rounded(linkage: Linkage, length: float) -> Linkage | None:
 def _ranges(linkage: Linkage, trial: LayoutTrial, scale: float, length: float) -> Ranges:
     """The ranges of a drawing as values of the linkage's drives, their ends rounded inwards if a unit is given."""
     reference = pose_at_reference(cached_plan(linkage), np.zeros(len(linkage.mechanism.drives)))
-    out = []
+    ranges = []
     for value, (low, high), drive in zip(reference.drives, trial.ranges, linkage.mechanism.drives, strict=True):
         turning = drive.turning
         unit, factor = (radians(1) if length else 0.0, 1.0) if turning else (length, scale)
         start, end = value + factor * low, value + factor * high
         if unit and not trial.full:
             start, end = np.ceil(start / unit) * unit, np.floor(end / unit) * unit
-        out.append((float(start), float(end)))
-    return tuple(out)
+        ranges.append((float(start), float(end)))
+    return tuple(ranges)
 
 
 def _grid(value: float, unit: float) -> float:

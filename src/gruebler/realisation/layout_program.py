@@ -1,4 +1,4 @@
-"""What there is to draw for a mechanism, and what a drawing means for the kernel.
+"""The layout of a mechanism: its joints to be drawn, and a drawing as input of the kernel.
 
 A drawing is an array (joints, 3): x, y and angle of each joint in one position (the angle counts for slides only).
 Every link has the coordinates of the plane in that position, so that all drives, places and angles are 0 there.
@@ -51,11 +51,12 @@ class LayoutProgram:
     slots: tuple[tuple[int, str], ...]
     """Which link has the slot of each pin in a slot."""
     plan: Plan
-    """The order of solving; its dimensions are of no account."""
+    """The order of solving; its dimensions are ignored."""
     joints: NDArray[np.int64]
     """The drawn joint of each element of the plan."""
     askew: Complexes
-    """How the line of each element is turned against its drawn joint: 1, or i for the second way of a double slide."""
+    """The direction of each element's line relative to its drawn joint: 1, or i for the second direction of a double
+    slide."""
 
     @cached_property
     def pins(self) -> tuple[tuple[int, ...], ...]:
@@ -78,7 +79,7 @@ class LayoutProgram:
     @cached_property
     def blocks(self) -> dict[int, tuple[int, ...]]:
         """For each slide the pins (one or two) that its line goes through: those of links with one pin besides it."""
-        chain, out = self.mechanism.chain, {}
+        chain, blocks = self.mechanism.chain, {}
         for k in self.slides:
             if chain.joints[k].pair.name != "prismatic":
                 continue
@@ -88,30 +89,30 @@ class LayoutProgram:
                 if link != self.mechanism.frame and len(others) == 1 and others[0] not in self.slides:
                     pins += others
             if pins:
-                out[k] = tuple(pins)
-        return out
+                blocks[k] = tuple(pins)
+        return blocks
 
     @cached_property
     def pairs(self) -> NDArray[np.int64]:
         """The two joints of each length: pins of one link; (pairs, 2)."""
-        found = {pair for mine in self.pins for pair in combinations(mine, 2)}
-        return np.array(sorted(found), np.int64).reshape(-1, 2)
+        pairs = {pair for link_pins in self.pins for pair in combinations(link_pins, 2)}
+        return np.array(sorted(pairs), np.int64).reshape(-1, 2)
 
     @cached_property
     def spans(self) -> NDArray[np.int64]:
-        """The same with the slides."""
+        """The pairs of all joints of one link, slides included; (pairs, 2)."""
         links, joints = self.mechanism.chain.links, self.mechanism.chain.joints
-        found = {pair for a in links for pair in combinations([k for k, j in enumerate(joints) if a in j.links], 2)}
-        return np.array(sorted(found), np.int64).reshape(-1, 2)
+        pairs = {pair for a in links for pair in combinations([k for k, j in enumerate(joints) if a in j.links], 2)}
+        return np.array(sorted(pairs), np.int64).reshape(-1, 2)
 
     @cached_property
     def apart(self) -> NDArray[np.bool_]:
         """Pairs of joints that are to be drawn apart: all but slides and the pins of their blocks; (joints, joints)."""
         count = len(self.mechanism.chain.joints)
-        out: NDArray[np.bool_] = np.triu(np.ones((count, count), bool), 1)
+        separate: NDArray[np.bool_] = np.triu(np.ones((count, count), bool), 1)
         for slide in self.slides:
-            out[slide, :] = out[:, slide] = False
-        return out
+            separate[slide, :] = separate[:, slide] = False
+        return separate
 
     @cached_property
     def crossings(self) -> NDArray[np.int64]:
@@ -119,24 +120,26 @@ class LayoutProgram:
         links = self.mechanism.chain.links
         rods = [
             (link, pair)
-            for link, mine in zip(links, self.pins, strict=True)
+            for link, link_pins in zip(links, self.pins, strict=True)
             if link != self.mechanism.frame
-            for pair in combinations(mine, 2)
+            for pair in combinations(link_pins, 2)
         ]
-        found = [
-            (*one, *other) for (a, one), (b, other) in combinations(rods, 2) if a != b and not set(one) & set(other)
+        crossings = [
+            (*rod, *other_rod)
+            for (a, rod), (b, other_rod) in combinations(rods, 2)
+            if a != b and not set(rod) & set(other_rod)
         ]
-        return np.array(found, np.int64).reshape(-1, 4)
+        return np.array(crossings, np.int64).reshape(-1, 4)
 
     def tied(self, drawing: Reals) -> Reals:
-        """The drawing with the lines of slides laid through the pins of their blocks."""
-        out = drawing.copy()
+        """The drawing with the lines of slides through the pins of their blocks."""
+        tied = drawing.copy()
         for slide, pins in self.blocks.items():
-            out[slide, :2] = out[pins[0], :2]
+            tied[slide, :2] = tied[pins[0], :2]
             if len(pins) == 2:
-                x, y = out[pins[1], :2] - out[pins[0], :2]
-                out[slide, 2] = np.arctan2(y, x)
-        return out
+                x, y = tied[pins[1], :2] - tied[pins[0], :2]
+                tied[slide, 2] = np.arctan2(y, x)
+        return tied
 
     def size(self, drawing: Reals) -> float:
         """The largest distance of joints on one link, as `Linkage.size`."""
@@ -146,24 +149,24 @@ class LayoutProgram:
     def frame_width(self, drawing: Reals) -> float:
         """The largest distance of joints of the frame; infinite if it has one only."""
         chain, frame = self.mechanism.chain, self.mechanism.frame
-        mine = [k for k, joint in enumerate(chain.joints) if frame in joint.links]
-        z = drawing[mine, 0] + 1j * drawing[mine, 1]
-        return float(np.abs(z[:, None] - z).max()) if len(mine) > 1 else np.inf
+        frame_joints = [k for k, joint in enumerate(chain.joints) if frame in joint.links]
+        z = drawing[frame_joints, 0] + 1j * drawing[frame_joints, 1]
+        return float(np.abs(z[:, None] - z).max()) if len(frame_joints) > 1 else np.inf
 
     def setting(self, drawing: Reals) -> KernelLayout:
-        """What the kernel takes."""
+        """The input of the kernel."""
         places = drawing[self.joints]
         points = places[:, 0] + 1j * places[:, 1]
         lines = np.exp(1j * places[:, 2]) * self.askew
         size, program = self.size(drawing), self.plan.program
         turning = [d.turning for d in self.mechanism.drives]
         most = np.where(turning, self.plan.longest_steps, self.plan.longest_steps * (size / self.plan.lower.size))
-        made = program._replace(points=points, lines=lines, size=size, most=most)
+        kernel_program = program._replace(points=points, lines=lines, size=size, most=most)
         signs = np.ones(len(self.plan.dyads))
         for row in self.plan.operations:
             if row[0] in (RRR, RRP, RPR):
                 signs[row[9]] = 1.0 if _side(row, points, lines) >= 0 else -1.0
-        return KernelLayout(made, signs, np.zeros(3 * len(program.roots)))
+        return KernelLayout(kernel_program, signs, np.zeros(3 * len(program.roots)))
 
 
 def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
@@ -177,26 +180,29 @@ def _side(row: tuple[int, ...], points: Complexes, lines: Complexes) -> float:
 
 
 def layout_program(mechanism: Mechanism) -> LayoutProgram:
-    """What there is to draw; `LinkageError` for joints without dimensions and for drives that do not fix the motion."""
+    """The layout program of a mechanism.
+
+    Raises `LinkageError` for joints without dimensions and for drives that do not fix the motion.
+    """
     chain = mechanism.chain
     check_drawable(chain)
     slots = tuple((k, _slotted(mechanism, k)) for k, j in enumerate(chain.joints) if j.pair.name == "roll_slide")
-    made = plan(Linkage.from_drawing(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
+    solving_plan = plan(Linkage.from_drawing(mechanism, joint_places(mechanism, slots, _anywhere(len(chain.joints)))))
     split = []
     for number, joint in enumerate(chain.joints):
-        ways = {"roll_slide": (1, 1), "double_slide": (1, 1j)}.get(joint.pair.name, (1,))
-        split += [(number, way) for way in ways]
+        directions = {"roll_slide": (1, 1), "double_slide": (1, 1j)}.get(joint.pair.name, (1,))
+        split += [(number, direction) for direction in directions]
     return LayoutProgram(
         mechanism,
         slots,
-        made,
-        np.array([split[joint][0] for joint, _ in made.keys], np.int64),
-        np.array([split[joint][1] for joint, _ in made.keys], np.complex128),
+        solving_plan,
+        np.array([split[joint][0] for joint, _ in solving_plan.keys], np.int64),
+        np.array([split[joint][1] for joint, _ in solving_plan.keys], np.complex128),
     )
 
 
 def check_drawable(chain: Chain) -> None:
-    """`LinkageError` for joints whose dimensions are not known."""
+    """Raise `LinkageError` for joints whose dimensions are not known."""
     if chain.space is not Space.PLANAR:
         raise LinkageError("dimensions are found for planar mechanisms; this one is {space}", space=chain.space)
     for name, joint in zip(chain.joint_names(), chain.joints, strict=True):
@@ -213,13 +219,13 @@ def joint_places(
     mechanism: Mechanism, slots: tuple[tuple[int, str], ...], drawing: Reals
 ) -> dict[str | int, tuple[object, ...]]:
     """A drawing as `Linkage.from_drawing` takes it."""
-    out: dict[str | int, tuple[object, ...]] = {}
+    places: dict[str | int, tuple[object, ...]] = {}
     owner = dict(slots)
     for number, joint in enumerate(mechanism.chain.joints):
         x, y, angle = (float(v) for v in drawing[number])
         line = () if joint.pair.name == "revolute" else (angle,)
-        out[number] = (x, y, *line, *([owner[number]] if number in owner else []))
-    return out
+        places[number] = (x, y, *line, *([owner[number]] if number in owner else []))
+    return places
 
 
 def _anywhere(joints: int) -> Reals:

@@ -1,4 +1,4 @@
-"""One drawing tried: how far its drives move it, how well, and how it looks."""
+"""The trial of one drawing: the ranges of its drives, its conditioning, and the look of the layout."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ FLOOR = 0.1
 _ROWS = 73
 _WINDINGS = (1, 5, 7, 11, 13)
 _SWINGS = (1.0, 0.7, 0.5, 0.35, 0.25, 0.15, 0.08)
-_STROKE = 0.3  # of the size, to either side: a longer stroke is not sought
+_STROKE = 0.3  # of the size, to either side: the search tries no longer stroke
 _LENGTH, _GAP, _FRAME, _CROSSING = 0.15, 0.1, 0.4, 0.97
 
 
 class LayoutTrial(NamedTuple):
-    """What a drawing is worth."""
+    """The quality of a drawing."""
 
     score: float
-    """The greater the better: 1 and more if every drive turns fully, 0 if it does not move."""
+    """Higher is better: 1 and more if every drive turns fully, 0 if it does not move."""
     ranges: tuple[tuple[float, float], ...]
-    """From where to where each drive moves, seen from the drawn position."""
+    """The range of each drive, relative to the drawn position."""
     full: bool
     """Whether every drive turns fully."""
     quality: float
@@ -41,12 +41,12 @@ _NOTHING = LayoutTrial(0.0, (), False, 0.0)
 
 
 def try_layout(program: LayoutProgram, drawing: Reals, target_quality: float) -> LayoutTrial:
-    """Move a drawing and judge it.
+    """Move a drawing and evaluate it.
 
     Args:
-        program: what is drawn.
+        program: the layout program.
         drawing: (joints, 3).
-        target_quality: the measure above which more is of no use.
+        target_quality: the measure above which a higher one does not count.
     """
     beauty = _beauty(program, drawing)
     if beauty < 1e-3:
@@ -70,13 +70,13 @@ def try_layout(program: LayoutProgram, drawing: Reals, target_quality: float) ->
 def range_path(ranges: tuple[tuple[float, float], ...], *, full: bool, rows: int = _ROWS) -> Reals:
     """A path through ranges of drives: (rows, drives).
 
-    One drive goes from end to end. Several wind at different speeds: fully turning ones around, others to and fro.
+    One drive moves from end to end. Several move at different speeds: fully turning ones around, others to and fro.
     """
     count = (rows - 1) * _WINDINGS[len(ranges) - 1] + 1
-    way = np.linspace(0.0, 1.0, count)
+    parameter = np.linspace(0.0, 1.0, count)
     if len(ranges) == 1 or full:
-        return np.stack([a + (b - a) * n * way for (a, b), n in zip(ranges, _WINDINGS, strict=False)], axis=1)
-    waves = [np.sin(2 * np.pi * n * way) for n in _WINDINGS]
+        return np.stack([a + (b - a) * n * parameter for (a, b), n in zip(ranges, _WINDINGS, strict=False)], axis=1)
+    waves = [np.sin(2 * np.pi * n * parameter) for n in _WINDINGS]
     return np.stack([(a + b) / 2 + (b - a) / 2 * wave for (a, b), wave in zip(ranges, waves, strict=False)], axis=1)
 
 
@@ -87,7 +87,7 @@ def _run(program: LayoutProgram, setting: KernelLayout, path: Reals) -> tuple[So
 
 
 def returns_to_start(places: NDArray[np.complex128], turns: NDArray[np.complex128], size: float) -> bool:
-    """Whether the last pose is the first: a larger group may come back in another assembly mode."""
+    """Whether the last pose equals the first: a larger group may return in another assembly mode."""
     return bool(abs(places[-1] - places[0]).max() < 1e-6 * size and abs(turns[-1] - turns[0]).max() < 1e-6)
 
 
@@ -100,18 +100,18 @@ def closed_path_quality(program: LayoutProgram, setting: KernelLayout, path: Rea
 
 
 def _limited(program: LayoutProgram, setting: KernelLayout) -> tuple[tuple[tuple[float, float], ...], float]:
-    """How far one drive moves to both sides of the drawn position, and the smallest measure there."""
+    """The range of one drive to both sides of the drawn position, and the smallest measure there."""
     turning = program.mechanism.drives[0].turning
     most = 2 * np.pi if turning else _STROKE * setting.program.size
     ends, worst = [], 1.0
     for side in (-most, most):
         path = np.linspace(0.0, side, _ROWS).reshape(-1, 1)
         _, measures = _run(program, setting, path)
-        good = len(measures) if (measures >= FLOOR).all() else int(np.argmax(measures < FLOOR))
-        if good < 2:
+        usable = len(measures) if (measures >= FLOOR).all() else int(np.argmax(measures < FLOOR))
+        if usable < 2:
             return (), 0.0
-        ends.append(float(path[good - 1, 0]))
-        worst = min(worst, float(measures[:good].min()))
+        ends.append(float(path[usable - 1, 0]))
+        worst = min(worst, float(measures[:usable].min()))
     if turning and ends[1] - ends[0] > 2 * np.pi:  # it does not close after one turn
         ends = [max(ends[0], -np.pi), min(ends[1], np.pi)]
     return ((ends[0], ends[1]),), worst
@@ -141,11 +141,11 @@ def _beauty(program: LayoutProgram, drawing: Reals) -> float:
 
 
 def _crossed(z: NDArray[np.complex128], quads: NDArray[np.int64]) -> int:
-    """How many of the pairs of segments cross."""
+    """The number of pairs of segments that cross."""
     a, b, c, d = z[quads].T
 
     def side(p: NDArray[np.complex128], q: NDArray[np.complex128], r: NDArray[np.complex128]) -> Reals:
-        out: Reals = ((q - p).conj() * (r - p)).imag
-        return out
+        orientation: Reals = ((q - p).conj() * (r - p)).imag
+        return orientation
 
     return int(np.count_nonzero((side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)))

@@ -1,6 +1,6 @@
-"""How far the poses of a linkage are from singular ones: a number for each row, 0 where assembly modes meet.
+"""The distance of the poses of a linkage from singular ones: a number for each row, 0 where assembly modes meet.
 
-For a dyad it is the sine of its transmission angle, or what stands for it; for a larger group the smallest singular
+For a dyad it is the sine of its transmission angle, or its equivalent; for a larger group the smallest singular
 value of its closing conditions (docs/theory/realisation.md).
 """
 
@@ -24,7 +24,7 @@ __all__ = ["conditioning"]
 
 _ARM = 0.3  # the length by which angles are multiplied, in parts of the size
 _SCALE = 2.0  # a larger group: singular value to sine
-_SHORT = 1 / 3  # RPR: ways below this part of the size count as short
+_SHORT = 1 / 3  # RPR: distances below this part of the size count as short
 
 
 def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complexes, roots: Reals) -> Reals:
@@ -39,8 +39,8 @@ def conditioning(plan: Plan, program: Program, places: Complexes, turns: Complex
     """
     worst = np.ones(len(turns))
     for dyad in plan.dyads:
-        mine = np.abs(roots[:, dyad.number])
-        worst = np.minimum(worst, mine / _SHORT if dyad.form == "RPR" else mine)
+        sines = np.abs(roots[:, dyad.number])
+        worst = np.minimum(worst, sines / _SHORT if dyad.form == "RPR" else sines)
     if plan.conditions:
         points = places[:, program.links] + turns[:, program.links] * program.points
         lines = turns[:, program.links] * program.lines
@@ -55,22 +55,24 @@ def _closing(conditions: Sequence[Condition], bodies: int, points: Complexes, li
 
     A body moves by the velocity of the mean of its joints and by its angular velocity times `arm`.
     """
-    sides = [(body, element) for _, (a, b), (one, other), *_ in conditions for body, element in ((one, a), (other, b))]
+    sides = [
+        (body, element) for _, (a, b), (first, second), *_ in conditions for body, element in ((first, a), (second, b))
+    ]
     centres = [np.mean([points[:, e] for body, e in sides if body == k], axis=0) for k in range(bodies)]
-    out = np.zeros((len(points), 3 * bodies, 3 * bodies))
+    matrix = np.zeros((len(points), 3 * bodies, 3 * bodies))
     row = 0
-    for kind, (a, b), (one, other), *_ in conditions:
-        for body, sign in ((one, -1.0), (other, 1.0)):
+    for kind, (a, b), (first, second), *_ in conditions:
+        for body, sign in ((first, -1.0), (second, 1.0)):
             if body < 0:
                 continue
             lever = (points[:, a if kind != PIN else b] - centres[body]) * 1j / arm
             if kind == PIN:
-                out[:, row, 3 * body] = out[:, row + 1, 3 * body + 1] = sign
-                out[:, row, 3 * body + 2], out[:, row + 1, 3 * body + 2] = sign * lever.real, sign * lever.imag
+                matrix[:, row, 3 * body] = matrix[:, row + 1, 3 * body + 1] = sign
+                matrix[:, row, 3 * body + 2], matrix[:, row + 1, 3 * body + 2] = sign * lever.real, sign * lever.imag
                 continue
             normal = 1j * lines[:, a]
-            out[:, row, 3 * body], out[:, row, 3 * body + 1] = sign * normal.real, sign * normal.imag
-            out[:, row, 3 * body + 2] = sign * (normal.conjugate() * lever).real
-            out[:, row + 1, 3 * body + 2] = sign
+            matrix[:, row, 3 * body], matrix[:, row, 3 * body + 1] = sign * normal.real, sign * normal.imag
+            matrix[:, row, 3 * body + 2] = sign * (normal.conjugate() * lever).real
+            matrix[:, row + 1, 3 * body + 2] = sign
         row += 2
-    return out
+    return matrix

@@ -29,19 +29,19 @@ def realise(
         mechanism: a planar mechanism of turning and sliding joints and pins in slots; without drives, `with_drives`
             chooses them.
         seed: of the random numbers; the same seed gives the same linkage.
-        budget: how many drawings to try; up to three times as many if nothing turns fully.
-        target_quality: the measure of conditioning above which more is not sought; 0.5 is a transmission angle of 30
+        budget: the number of drawings to try; up to three times as many if nothing turns fully.
+        target_quality: the measure of conditioning at which the search stops; 0.5 is a transmission angle of 30
             degrees.
         unit: the name of the unit of lengths; the largest length on a link is about 100.
 
-    An honest failure (drives that do not fix the motion, nothing found) is a result with ``found`` False and a
+    A failure (drives that do not fix the motion, nothing found) is a result with ``found`` False and a
     ``message``. Cost: about 0.3 ms a drawing, 1 to 3 ms with groups beyond dyads.
 
     Raises:
         LinkageError: joints whose dimensions are not known (rolling pairs), other spaces, numbers out of range.
 
-    >>> found = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"), seed=1)
-    >>> found.full, found.quality > 0.4
+    >>> result = realise(Mechanism.parse("R(0-1) R(1-2) R(2-3) R(3-0); drive=R(0-1)"), seed=1)
+    >>> result.full, result.quality > 0.4
     (True, True)
     """
     _check("seed", seed, 0)
@@ -57,24 +57,24 @@ def realise(
     drawn = layout_program(driven)
     turning = all(drive.turning for drive in driven.drives)
     best, tries = None, 0
-    for again in range(_AGAIN):
-        result = search_layouts(drawn, seed=seed + (again << 32), budget=budget, target_quality=target_quality)
+    for attempt in range(_AGAIN):
+        result = search_layouts(drawn, seed=seed + (attempt << 32), budget=budget, target_quality=target_quality)
         tries += result.tries
-        done = finish_linkage(drawn, result.drawing, result.trial, unit) if result.trial.score else None
-        if done is not None and (best is None or result.trial.score > best[1].score):
-            best = done, result.trial
+        finished = finish_linkage(drawn, result.drawing, result.trial, unit) if result.trial.score else None
+        if finished is not None and (best is None or result.trial.score > best[1].score):
+            best = finished, result.trial
         if best is not None and (best[1].full or not turning):
             break
     if best is None:
         return Realisation(driven, None, (), False, 0.0, tries, seed)
-    done, trial = best
-    return Realisation(driven, done.linkage, done.ranges, trial.full, done.quality, tries, seed)
+    finished, trial = best
+    return Realisation(driven, finished.linkage, finished.ranges, trial.full, finished.quality, tries, seed)
 
 
 def with_drives(mechanism: Mechanism) -> Mechanism:
     """The mechanism with as many drives as its mobility: turning joints at the frame if possible, else any.
 
-    Without drives that fix the motion: those that come first.
+    If no choice of drives fixes the motion, it has the first ones.
 
     >>> with_drives(Mechanism.parse("P(0-1) R(1-2) R(2-3) R(3-0)")).drive_names()
     ('R(3-0)',)

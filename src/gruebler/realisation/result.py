@@ -1,4 +1,4 @@
-"""What a search for dimensions brings."""
+"""The result of a search for dimensions."""
 
 from __future__ import annotations
 
@@ -35,23 +35,23 @@ _SLIDING = {
 
 @dataclass(frozen=True, repr=False)
 class Realisation(Brief):
-    """Dimensions of a mechanism and how its drives move it, or why there are none."""
+    """Dimensions of a mechanism and the ranges of its drives, or the reason why there are none."""
 
     mechanism: Mechanism
     linkage: Linkage | None
     """None if none was found."""
     ranges: tuple[tuple[float, float], ...]
-    """From where to where each drive moves well conditioned: radians, or the linkage's unit; all drives at once within
-    the ranges."""
+    """The well-conditioned range of each drive: radians, or the linkage's unit; all drives at once within the
+    ranges."""
     full: bool
     """Whether every drive turns fully; the range is then one turn."""
     quality: float
     """The smallest measure of conditioning in the range: 1 is best, 0 singular."""
     tries: int
-    """How many drawings were tried."""
+    """The number of drawings tried."""
     seed: int
     reason: Message | None = None
-    """Why nothing was sought; None if it was."""
+    """The reason why there was no search; None if there was one."""
 
     @property
     def found(self) -> bool:
@@ -60,17 +60,17 @@ class Realisation(Brief):
 
     @cached_property
     def span(self) -> CycleSpan | None:
-        """From where to where a single drive moves at all, between its limits, as `measures` has it; else None."""
+        """The range of a single drive between its limits, as in `measures`; None for several drives."""
         return drive_cycle(self.linkage).span if self.linkage is not None and len(self.ranges) == 1 else None
 
     def path(self, rows: int = 361) -> NDArray[np.float64]:
-        """Drive values through the ranges, for `move`: (rows, drives); several drives wind at different speeds."""
+        """Drive values through the ranges, for `move`: (rows, drives); several drives move at different speeds."""
         if self.linkage is None:
             raise LinkageError("there is no motion: no dimensions were found")
         return range_path(self.ranges, full=self.full, rows=rows)
 
     def message(self, lang: str = "en") -> str:
-        """What was found, in English (``en``) or German (``de``)."""
+        """The result as text, in English (``en``) or German (``de``)."""
         if self.reason is not None:
             return self.reason.in_language(lang)
         if self.linkage is None:

@@ -10,7 +10,8 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.linkages import Line, Linkage, Pin
-from gruebler.screws.closing import Closing, JointFrames
+from gruebler.linkages.model import NEAR_REFERENCE
+from gruebler.screws.closing import CLOSED, RANK, Closing, JointFrames
 from gruebler.screws.double_roots import refined_at_double_root
 from gruebler.screws.following import follow_joints, joint_value
 from gruebler.screws.instant_mobility import instant_mobility
@@ -22,11 +23,8 @@ __all__ = ["closed_pose", "has_only_lower_pairs"]
 
 
 _EXACT = 1e-15  # a home that is closed so well is meant as it is
-_NEAR = 0.05  # a closed position farther away, in radians or sizes, is not the one that was meant
 _STARTS = 60  # random poses from which a linkage without a home is assembled
-# Of the size: joints that are closed; that may be closed at a double root. Newton's method leaves some 1e-15, and at a
-# double root, where the pose is known to 1e-8 only, its square: so 1e-12 is rounding, and 1e-9 is a gap.
-_CLOSED, _NEARLY = 1e-12, 1e-8
+_NEARLY = 1e-8  # of the size: joints that may be closed at a double root, where a pose is known to that only
 _PATIENT = 60  # steps of Newton's method: beside a double root each halves the error only
 _ENOUGH = 6  # closed poses among which the best is taken
 _GOOD = 0.01  # a smallest singular value, for each unknown, with which the search for a pose stops
@@ -92,7 +90,7 @@ def _home(linkage: Linkage) -> Reals:
 def _settled(closing: Closing, home: Reals) -> Reals:
     """The pose near home in which the joints are closed."""
     pose = closing.settled(home)
-    if abs(closing.residual(pose)).max() > _CLOSED or abs(pose - home).max() > _NEAR:
+    if abs(closing.residual(pose)).max() > CLOSED or abs(pose - home).max() > NEAR_REFERENCE:
         gap = abs(closing.residual(home)).max()
         raise LinkageError(
             "the joints cannot be closed there: they are open by {gap:.1e} of the linkage's size", gap=gap
@@ -127,7 +125,7 @@ def _at(linkage: Linkage, closing: Closing, at: Sequence[float] | None, branch: 
     chain = linkage.mechanism.chain
     rows = []
     for link in chain.links:
-        k = motion.plan.lower.mechanism.chain.index(link)
+        k = motion.link_index(link)
         z, turn = motion.places[0, 0, k] / linkage.size, motion.turns[0, k]
         rows.append(_matrix(z.real, z.imag, float(np.angle(turn))))
     return _centred(closing, _settled(closing, np.array(rows)))
@@ -170,7 +168,7 @@ def _driven(closing: Closing, home: Reals, at: Sequence[float], size: float) -> 
 def _assembled(closing: Closing) -> Reals:
     """A pose with closed joints: of some the most movable, with the drives and most joints moving, the most regular."""
     random = np.random.default_rng(20_261_121)
-    found: list[tuple[int, tuple[bool, int], float, Reals]] = []
+    candidates: list[tuple[int, tuple[bool, int], float, Reals]] = []
     driven = {drive.joint for drive in closing.mechanism.drives}
     least = np.inf
     frame = closing.mechanism.chain.index(closing.mechanism.frame)
@@ -178,22 +176,22 @@ def _assembled(closing: Closing) -> Reals:
         start = np.array([_matrix(x, y, np.pi * t) for x, y, t in random.uniform(-1, 1, (len(closing.home), 3))])
         pose = closing.settled(inverse_motion(start[frame]) @ start, most=_PATIENT)
         open_by = float(abs(closing.residual(pose)).max())
-        if _CLOSED < open_by < _NEARLY:  # at a double root steps only halve
+        if CLOSED < open_by < _NEARLY:  # at a double root steps only halve
             pose = refined_at_double_root(closing, pose)
             open_by = float(abs(closing.residual(pose)).max())
         least = min(least, open_by)
-        if open_by > _CLOSED:
+        if open_by > CLOSED:
             continue
-        instant = instant_mobility(closing, pose, 1e-9)
+        instant = instant_mobility(closing, pose, RANK)
         margin = float(instant.values[instant.rank - 1]) / closing.unknowns
         moving = driven.isdisjoint(instant.immobile), -len(instant.immobile)
-        found.append((instant.mobility, moving, margin, pose))
-        if len(found) >= _ENOUGH or (not instant.redundancy and not instant.immobile and margin > _GOOD):
+        candidates.append((instant.mobility, moving, margin, pose))
+        if len(candidates) >= _ENOUGH or (not instant.redundancy and not instant.immobile and margin > _GOOD):
             break
-    if not found:
+    if not candidates:
         raise LinkageError(
             "no position was found in which the joints can be closed: they stay open by {least:.1e} of the "
             "linkage's size at least",
             least=least,
         )
-    return _centred(closing, refined_at_double_root(closing, max(found, key=lambda one: one[:3])[3]))
+    return _centred(closing, refined_at_double_root(closing, max(candidates, key=lambda candidate: candidate[:3])[3]))

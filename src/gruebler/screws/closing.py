@@ -15,8 +15,23 @@ from gruebler.screws.joint_places import JointPlace
 from gruebler.screws.model import SpatialLinkage
 from gruebler.screws.rigid_motions import exponential, exponential_rate, inverse_motion
 
-__all__ = ["Closing", "JointFrames"]
+__all__ = ["CLOSED", "RANK", "TINY", "Closing", "JointFrames"]
 
+CLOSED = 1e-12
+"""Sizes and radians: joints that are open by less are closed.
+
+Newton's method leaves some 1e-15, and at a double root, where the pose is known to 1e-8 only, its square: so 1e-12 is
+rounding, and 1e-9 is a gap.
+"""
+RANK = 1e-9
+"""Of the largest singular value: on the way to a closed pose equations that add less are taken as repetitions.
+
+Redundant constraints repeat others up to what is still open, and a step along smaller singular values would be longer
+than the way that is left.
+"""
+TINY = 1e-300
+"""What a divisor is at least, so that 0/0 is 0."""
+_SETTLED = 1e-13  # sizes and radians: one step more would change rounding only
 
 _COLUMNS = {Space.PLANAR: [2, 3, 4], Space.SPHERICAL: [0, 1, 2], Space.SPATIAL: [0, 1, 2, 3, 4, 5]}
 
@@ -145,7 +160,7 @@ class Closing:
         blocks = by_twist.reshape(self.equations, len(self.moving), len(self.columns))
         return value, np.einsum("cmi,mij->cmj", blocks, rate).reshape(self.equations, self.unknowns)
 
-    def settled(self, pose: Reals, *, tolerance: float = 1e-13, most: int = 30) -> Reals:
+    def settled(self, pose: Reals, *, tolerance: float = _SETTLED, most: int = 30) -> Reals:
         """The nearest closed pose by Gauss and Newton's method; what it reached if the joints cannot be closed."""
         best, least = pose, np.inf
         for _ in range(most):
@@ -155,6 +170,6 @@ class Closing:
                 best, least = pose, gap
             if gap <= tolerance or not np.isfinite(gap):
                 break
-            step = np.linalg.lstsq(by_twist, -value, rcond=1e-9)[0]
-            pose = self.moved(pose, step * min(1.0, 1.0 / max(abs(step).max(), 1e-300)))
+            step = np.linalg.lstsq(by_twist, -value, rcond=RANK)[0]
+            pose = self.moved(pose, step * min(1.0, 1.0 / max(abs(step).max(), TINY)))
         return best

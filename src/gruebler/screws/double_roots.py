@@ -22,7 +22,8 @@ __all__ = ["is_near_double_root", "refined_at_double_root"]
 _ROUNDING = 1e-16  # no residual is known better
 _SAFETY = 3.0  # by which the root of the residual is taken larger
 _WORSE = 4.0  # by how much the residual may grow on the way to the double root
-_MOST = 12
+_MOST = 12  # steps of Newton's method: at a simple zero of F' five reach the rounding
+_FORMS_RANK = 1e-6  # of the largest: second derivatives by differences are known to that, so less is zero
 _ZERO = 1e-10  # singular values at a double root, against the largest: such a pose is found to rounding
 
 
@@ -56,10 +57,10 @@ def refined_at_double_root(closing: Closing, pose: Reals) -> Reals:
     for _ in range(_MOST):
         if forms is None or point is None:
             return pose
-        k = k - np.linalg.lstsq(forms.reshape(-1, loose.mobility), point.slope.ravel(), rcond=1e-6)[0]
+        k = k - np.linalg.lstsq(forms.reshape(-1, loose.mobility), point.slope.ravel(), rcond=_FORMS_RANK)[0]
         point = excess(k)
     if point is None:
         return pose
-    found = closing.moved(pose, point.motion)
-    closed = _gap(closing, found) <= _WORSE * _gap(closing, pose)
-    return found if closed and instant_mobility(closing, found, _ZERO).rank == loose.rank else pose
+    refined = closing.moved(pose, point.motion)
+    closed = _gap(closing, refined) <= _WORSE * _gap(closing, pose)
+    return refined if closed and instant_mobility(closing, refined, _ZERO).rank == loose.rank else pose

@@ -15,6 +15,7 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.notebook import Brief
+from gruebler.screws.closing import RANK
 from gruebler.screws.double_roots import is_near_double_root
 from gruebler.screws.instant_mobility import InstantMobility, instant_mobility
 from gruebler.screws.obstruction import ObstructionMap
@@ -31,6 +32,8 @@ _APART = 0.999  # the cosine of directions that count as different
 _BESIDE = 0.7  # the cosine of directions between which F is looked at as well
 _ALIKE = 2  # zeros with the same mobility and redundancy whose dimension is looked at
 _SHARPER = 1e-2  # joints that open by the tolerance of the rank times that, and times the way, are open
+_FORM = 1e-5  # a second order that is smaller is none: ten times what `ObstructionMap.second` sets to zero
+_ON_SPHERE = 1e-6  # of the radius squared: a zero so near to the sphere lies on it; its distance decides nothing
 _OPEN = 3e-12  # a joint that is open by less may be so by rounding
 
 
@@ -121,7 +124,7 @@ def _some_or_none(excess: ObstructionMap, random: np.random.Generator, radius: f
     if forms is None or not radius:
         return FiniteMobility(0, Evidence.UNDECIDED)
     order = _order(excess, random, _RADII[0])
-    if (instant.mobility == 1 and abs(forms).max() > 1e-5) or (instant.mobility > 1 and is_definite(forms)):
+    if (instant.mobility == 1 and abs(forms).max() > _FORM) or (instant.mobility > 1 and is_definite(forms)):
         return FiniteMobility(0, Evidence.STRESSED, radius, order, gap)
     ends = _zeros(excess, forms, np.eye(instant.mobility), _RADII[0], random) if instant.mobility > 1 else []
     if not ends:
@@ -139,28 +142,28 @@ def _zeros(
     One of each pair of opposite directions, and of each group of near ones or of such as F does not tell apart.
     """
     starts = directions(np.einsum("pi,sij,qj->spq", basis, forms, basis), random, _STARTS)
-    out: list[Reals] = []
+    zeros: list[Reals] = []
     # where forms have a double zero, F may have zeros beside it on one side only: a cusp
     beside = [sign * k + 0.1 * random.normal(size=len(k)) for k in starts for sign in (1, -1)]
     for start in [*starts, *(-k for k in starts), *beside]:
         k = _on_sphere(excess, basis, radius * start / np.linalg.norm(start))
-        if k is not None and not any(_same(excess, k, other) for other in out):
-            out.append(k)
-            if len(out) >= most:
+        if k is not None and not any(_same(excess, k, other) for other in zeros):
+            zeros.append(k)
+            if len(zeros) >= most:
                 break
-    return out
+    return zeros
 
 
-def _same(excess: ObstructionMap, one: Reals, other: Reals) -> bool:
+def _same(excess: ObstructionMap, first: Reals, other: Reals) -> bool:
     """Whether two zeros lie in about the same direction, or F is below its threshold all the way between them."""
-    radius = float(np.linalg.norm(one))
-    cosine = float(one @ other) / radius**2
+    radius = float(np.linalg.norm(first))
+    cosine = float(first @ other) / radius**2
     if abs(cosine) >= _APART:
         return True
     if abs(cosine) < _BESIDE:
         return False
     for part in (0.25, 0.5, 0.75):
-        between = (1 - part) * one + part * np.sign(cosine) * other
+        between = (1 - part) * first + part * np.sign(cosine) * other
         point = excess(radius * between / np.linalg.norm(between))
         if point is None or abs(point.value).max() >= _closed(excess, radius):
             return False
@@ -176,7 +179,7 @@ def _dimensions(excess: ObstructionMap, ends: list[Reals], random: np.random.Gen
     """The dimension of the set of positions at each of these zeros; alike ones are looked at only a few times."""
     closing = excess.instant.closing
     known: dict[tuple[int, int], list[int]] = {}
-    out = []
+    dimensions = []
     for k in ends:
         point = excess(k)
         assert point is not None  # k is a zero of F
@@ -185,8 +188,8 @@ def _dimensions(excess: ObstructionMap, ends: list[Reals], random: np.random.Gen
         seen = known.setdefault((there.mobility, there.redundancy), [])
         if len(seen) < _ALIKE:
             seen.append(_dimension(there, random))
-        out.append(max(seen))
-    return out
+        dimensions.append(max(seen))
+    return dimensions
 
 
 def _dimension(instant: InstantMobility, random: np.random.Generator) -> int:
@@ -197,7 +200,7 @@ def _dimension(instant: InstantMobility, random: np.random.Generator) -> int:
     excess = ObstructionMap(instant)
     if _all_closed(excess, random, (_NEAR,))[0]:
         return instant.mobility
-    forms = excess.second(1e-4)
+    forms = excess.second(_NEAR / 100)
     for dimension in range(instant.mobility - 1, 1, -1) if forms is not None else ():
         space = np.linalg.qr(random.normal(size=(instant.mobility, instant.mobility - dimension + 1)))[0].T
         if forms is not None and _zeros(excess, forms, space, _NEAR, random, most=1):
@@ -221,10 +224,10 @@ def _on_sphere(excess: ObstructionMap, basis: Reals, start: Reals) -> Reals | No
         if point is None:
             return None
         open_by = abs(point.value).max()
-        if open_by < _closed(excess, radius) and abs(u @ u - radius**2) < 1e-6 * radius**2:
+        if open_by < _closed(excess, radius) and abs(u @ u - radius**2) < _ON_SPHERE * radius**2:
             return np.asarray(u @ basis)
         system = np.vstack([point.slope @ basis.T, 2 * u])
-        step = np.linalg.lstsq(system, -np.append(point.value, u @ u - radius**2), rcond=1e-9)[0]
+        step = np.linalg.lstsq(system, -np.append(point.value, u @ u - radius**2), rcond=RANK)[0]
         if not np.linalg.norm(step) < radius:
             return None
         u = u + step

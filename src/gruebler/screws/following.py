@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
-from gruebler.screws.closing import Closing
+from gruebler.screws.closing import CLOSED, RANK, Closing
 from gruebler.screws.model import SpatialLinkage
 from gruebler.text import joined, message
 
@@ -17,7 +17,6 @@ __all__ = ["follow_from_pose", "follow_joint", "follow_joints", "joint_value"]
 
 
 _STEP = 0.05  # of the driven joint, in radians or sizes, between two corrections
-_CLOSED = 1e-11
 
 
 def joint_value(closing: Closing, pose: Reals, joint: int) -> float:
@@ -71,14 +70,14 @@ def follow_joints(closing: Closing, pose: Reals, joints: Sequence[int], values: 
                 "{joint}: only a revolute or prismatic joint of two links is driven",
                 joint=chain.joint_names()[joint],
             )
-    now, out = np.array([joint_value(closing, pose, joint) for joint in joints]), []
+    now, poses = np.array([joint_value(closing, pose, joint) for joint in joints]), []
     for row in values:
         steps = max(1, int(np.ceil(abs(row - now).max() / _STEP)))
         for target in np.linspace(now, row, steps + 1)[1:]:
             pose = _reached(closing, pose, joints, target)
         now = row
-        out.append(pose)
-    return out
+        poses.append(pose)
+    return poses
 
 
 def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals) -> Reals:
@@ -89,10 +88,10 @@ def _reached(closing: Closing, pose: Reals, joints: Sequence[int], target: Reals
         value, by_twist = closing.linearised(pose)
         missing = target - np.array([joint_value(closing, pose, joint) for joint in joints])
         missing = np.where(turns, (missing + np.pi) % (2 * np.pi) - np.pi, missing)
-        if max(abs(value).max(initial=0.0), abs(missing).max()) < _CLOSED:
+        if max(abs(value).max(initial=0.0), abs(missing).max()) < CLOSED:
             return pose
         system = np.vstack([by_twist, *(row(pose) for row in drivers)])
-        pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=1e-9)[0])
+        pose = closing.moved(pose, np.linalg.lstsq(system, np.append(-value, missing), rcond=RANK)[0])
     names = ", ".join(chain.joint_names()[joint] for joint in joints)
     values = joined(message("{value:.6g}", value=float(value)) for value in target)
     raise LinkageError(
@@ -116,10 +115,10 @@ def _driving_row(closing: Closing, joint: int) -> Callable[[Reals], Reals]:
         else:
             far = (pose[tie.second] @ tie.on_second)[:3, 3]
             functional[:3], functional[3:] = np.cross(far, frame[:3, 0]), frame[:3, 0]
-        out = np.zeros((len(pose), len(closing.columns)))
-        out[tie.second] += functional[closing.columns]
-        out[tie.first] -= functional[closing.columns]
-        flat: Reals = out[closing.moving].ravel()
+        by_link = np.zeros((len(pose), len(closing.columns)))
+        by_link[tie.second] += functional[closing.columns]
+        by_link[tie.first] -= functional[closing.columns]
+        flat: Reals = by_link[closing.moving].ravel()
         return flat
 
     return row

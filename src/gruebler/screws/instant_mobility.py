@@ -9,9 +9,11 @@ import numpy as np
 
 from gruebler.arrays import Reals
 from gruebler.notebook import Brief
-from gruebler.screws.closing import Closing
+from gruebler.screws.closing import TINY, Closing
 
 __all__ = ["InstantMobility", "instant_mobility"]
+
+_STILL = 1e-7  # shares of unit vectors: a null space whose rank is decided at 1e-8 is known to some 1e-16/1e-8
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -32,7 +34,7 @@ class InstantMobility(Brief):
     @cached_property
     def rank(self) -> int:
         """Independent constraints."""
-        return int(np.sum(self.values > self.tolerance * max(self.values[0], 1e-300)))
+        return int(np.sum(self.values > self.tolerance * max(self.values[0], TINY)))
 
     @property
     def constraints(self) -> int:
@@ -55,7 +57,7 @@ class InstantMobility(Brief):
 
         The second is 0 if none is missing.
         """
-        relative = self.values / max(self.values[0], 1e-300)
+        relative = self.values / max(self.values[0], TINY)
         below = float(relative[self.rank]) if self.rank < len(relative) else 0.0
         return (float(relative[self.rank - 1]) if self.rank else 0.0), below
 
@@ -72,24 +74,24 @@ class InstantMobility(Brief):
     @cached_property
     def redundant(self) -> dict[int, int]:
         """For each joint that holds redundant constraints, how many of its own could be left out."""
-        out = {}
+        redundant = {}
         for joint in np.unique(self.closing.joint_of_row).tolist():
-            mine = self.stresses[:, self.closing.joint_of_row == joint]
-            many = int(np.linalg.matrix_rank(mine, tol=1e-7)) if mine.size else 0
+            stresses = self.stresses[:, self.closing.joint_of_row == joint]
+            many = int(np.linalg.matrix_rank(stresses, tol=_STILL)) if stresses.size else 0
             if many:
-                out[joint] = many
-        return out
+                redundant[joint] = many
+        return redundant
 
     @cached_property
     def immobile(self) -> tuple[int, ...]:
         """The joints between links that have the same velocity in every motion."""
-        out = []
+        immobile = []
         twists = np.array([self.closing.twists(motion) for motion in self.motions])
         for joint in range(len(self.closing.mechanism.chain.joints)):
             ties = [tie for tie in self.closing.ties if tie.joint == joint]
-            if not len(twists) or all(abs(twists[:, t.first] - twists[:, t.second]).max() < 1e-7 for t in ties):
-                out.append(joint)
-        return tuple(out)
+            if not len(twists) or all(abs(twists[:, t.first] - twists[:, t.second]).max() < _STILL for t in ties):
+                immobile.append(joint)
+        return tuple(immobile)
 
 
 def instant_mobility(closing: Closing, pose: Reals, tolerance: float) -> InstantMobility:

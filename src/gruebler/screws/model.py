@@ -17,6 +17,8 @@ from gruebler.screws.joint_places import JointPlace, Vector, joint_axes, read_pl
 
 __all__ = ["SpatialLinkage"]
 
+_ORTHOGONAL = 1e-9  # by how much a rotation matrix may miss its transpose as inverse: nine digits were written
+
 
 @dataclass(frozen=True, eq=True)
 class SpatialLinkage:
@@ -97,7 +99,11 @@ class SpatialLinkage:
     def moved(self, motion: ArrayLike) -> SpatialLinkage:
         """The same linkage elsewhere: every point and axis taken along with a rigid motion (4, 4)."""
         m = np.asarray(motion, float)
-        if m.shape != (4, 4) or abs(m[:3, :3] @ m[:3, :3].T - np.eye(3)).max() > 1e-9 or np.linalg.det(m[:3, :3]) < 0:
+        if (
+            m.shape != (4, 4)
+            or abs(m[:3, :3] @ m[:3, :3].T - np.eye(3)).max() > _ORTHOGONAL
+            or np.linalg.det(m[:3, :3]) < 0
+        ):
             raise LinkageError("expected a rigid motion, a 4 x 4 matrix with a rotation in it")
 
         def turned(v: Vector | None) -> Vector | None:

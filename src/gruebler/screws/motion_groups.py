@@ -20,7 +20,7 @@ from gruebler.screws.rigid_motions import adjoint, lie_bracket
 __all__ = ["MotionGroup", "MotionGroupKind", "common_group", "screws_of", "smallest_algebra"]
 
 
-_SAME = 1e-9
+_SAME = 1e-9  # directions and shares of twists that differ by less are one: poses are closed to 1e-12
 
 
 class MotionGroupKind(StrEnum):

@@ -11,6 +11,9 @@ from gruebler.screws.instant_mobility import InstantMobility
 
 __all__ = ["NearbyPose", "ObstructionMap"]
 
+_SHORT, _ROUNDING = 1e-13, 1e-15  # sizes and radians: a step, and what is open, that are rounding
+_NOISE = 1e-6  # second derivatives: differences of values known to some 1e-15 over steps of 1e-3 err by 1e-9 at most
+
 
 class NearbyPose(NamedTuple):
     """A motion from the pose in which all but the redundant constraints are closed."""
@@ -43,7 +46,7 @@ class ObstructionMap:
             except np.linalg.LinAlgError:
                 return None
             step = solved[:, 0]
-            if abs(step).max() < 1e-13 or abs(rest).max() < 1e-15:
+            if abs(step).max() < _SHORT or abs(rest).max() < _ROUNDING:
                 return NearbyPose(motion, instant.stresses @ value, instant.stresses @ by_motion @ solved[:, 1:])
             motion = motion - step
             if not abs(motion).max() < 3:
@@ -56,7 +59,7 @@ class ObstructionMap:
         if any(nearby_pose is None or other is None for nearby_pose, other in ahead):
             return None
         slopes = [(one.slope - other.slope) / (2 * step) for one, other in ahead if one and other]
-        out = np.stack(slopes, axis=2)
-        out = (out + np.swapaxes(out, 1, 2)) / 2
-        out[abs(out) < 1e-6] = 0.0
-        return out
+        forms = np.stack(slopes, axis=2)
+        forms = (forms + np.swapaxes(forms, 1, 2)) / 2
+        forms[abs(forms) < _NOISE] = 0.0
+        return forms

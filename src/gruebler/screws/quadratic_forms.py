@@ -5,10 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from gruebler.arrays import Reals
+from gruebler.screws.closing import TINY
 
 __all__ = ["directions", "is_definite"]
 
 
+_DIFFERENT = 1e-4  # 1 less the cosine: directions that differ by less (0.8 degrees) are one
+_RANK = 1e-10  # of the largest singular value: slopes of exact forms that are smaller are rounding
+_ROUNDING = 1e-14  # of a unit vector: a shorter step changes nothing
+_ZERO = 1e-5  # of the largest coefficient: at a double zero, known to the root of the rounding, forms are smaller
 _CLEAR = 1e-3  # an eigenvalue smaller than that times the largest is none
 
 
@@ -29,13 +34,13 @@ def is_definite(forms: Reals) -> bool:
             if min(abs(values)) > _CLEAR * max(abs(values)) and (values[0] > 0 or values[-1] < 0):
                 return True
             # the vector that spoils it gains with the forms' values there
-            weights = weights / max(np.linalg.norm(weights), 1e-300) + 0.5 * _values(forms, vectors[:, 0])
+            weights = weights / max(np.linalg.norm(weights), TINY) + 0.5 * _values(forms, vectors[:, 0])
     return False
 
 
 def _values(forms: Reals, k: Reals) -> Reals:
     out = np.einsum("sij,i,j->s", forms, k, k)
-    unit: Reals = out / max(np.linalg.norm(out), 1e-300)
+    unit: Reals = out / max(np.linalg.norm(out), TINY)
     return unit
 
 
@@ -45,23 +50,23 @@ def directions(forms: Reals, random: np.random.Generator, many: int) -> list[Rea
     Where the forms are all zero these are random directions.
     """
     size = float(abs(forms).max())
-    out: list[Reals] = []
+    zeros: list[Reals] = []
     for start in _starts(random, forms.shape[1], many):
         k = _zero(forms / size, start) if size > 0 else start
-        if k is not None and all(abs(abs(k @ other) - 1) > 1e-4 for other in out):
-            out.append(k)
-    return out
+        if k is not None and all(abs(abs(k @ other) - 1) > _DIFFERENT for other in zeros):
+            zeros.append(k)
+    return zeros
 
 
 def _zero(forms: Reals, k: Reals) -> Reals | None:
     """A common zero of the forms on the unit sphere, or None."""
     for _ in range(60):
         value, slope = np.einsum("sij,i,j->s", forms, k, k), 2 * np.einsum("sij,j->si", forms, k)
-        step = np.linalg.lstsq(np.vstack([slope, k]), -np.append(value, 0.0), rcond=1e-10)[0]
+        step = np.linalg.lstsq(np.vstack([slope, k]), -np.append(value, 0.0), rcond=_RANK)[0]
         k = (k + step) / np.linalg.norm(k + step)
-        if np.linalg.norm(step) < 1e-14:
+        if np.linalg.norm(step) < _ROUNDING:
             break
-    return k if abs(np.einsum("sij,i,j->s", forms, k, k)).max() < 1e-5 else None
+    return k if abs(np.einsum("sij,i,j->s", forms, k, k)).max() < _ZERO else None
 
 
 def _starts(random: np.random.Generator, size: int, many: int) -> Reals:

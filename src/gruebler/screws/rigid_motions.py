@@ -14,6 +14,7 @@ from gruebler.arrays import Reals
 __all__ = ["adjoint", "exponential", "exponential_rate", "inverse_motion", "lie_bracket", "twist_matrix"]
 
 
+_SMALL = 1e-2  # radians: below, four terms of the series are exact to rounding, and 1 - cos has lost digits
 _TERMS = 16  # of the series of the rate of an exponential; twists below 1 leave an error below 1e-16
 
 
@@ -40,7 +41,7 @@ def exponential(twists: ArrayLike) -> Reals:
     t = np.asarray(twists, float)
     x = twist_matrix(t)
     angle = np.linalg.norm(t[..., :3], axis=-1)[..., None, None]
-    small = angle < 1e-2
+    small = angle < _SMALL
     safe = np.where(small, 1.0, angle)
     square = angle * angle
     second = np.where(small, 1 / 2 - square / 24 + square**2 / 720 - square**3 / 40320, (1 - np.cos(safe)) / safe**2)

@@ -1,7 +1,8 @@
-"""Dimensions as they are written in exact form, such as ``5/2*sqrt(3)``: read safely, kept, and valued exactly.
+"""Dimensions in exact form, such as ``5/2*sqrt(3)``: read safely and evaluated exactly.
 
 Numbers, ``+ - * / **``, parentheses, ``sqrt`` and ``pi``; whole exponents only. The value is known as a sum of square
-roots with rational factors wherever it is one (`surds`), and in any case to any number of digits (`brackets`).
+roots with rational factors wherever it is one (`surds`), and in any case to any number of digits
+(`interval_arithmetic`).
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ _ALIKE = str.maketrans("−·×", "-**")
 
 
 class _Step(NamedTuple):
-    """A step of the calculation, its operands being the last results; ``at`` is its column in the text."""
+    """A step of the calculation, with the last results as operands; ``at`` is its column in the text."""
 
     kind: str
     at: int
@@ -39,7 +40,7 @@ class _Step(NamedTuple):
 
 @dataclass(frozen=True)
 class Expression:
-    """A number as it is written. Two are equal if they are written alike; `same` compares the values.
+    """A number with its text. Two expressions are equal if their texts are; `same` compares the values.
 
     Raises `LinkageError` for a text that is no such number, naming the column.
 
@@ -57,13 +58,15 @@ class Expression:
     value: float = field(init=False, repr=False, compare=False)
     """The nearest double."""
     exact: Surd | None = field(init=False, repr=False, compare=False)
-    """The value as a sum of roots, factors by what is under them; None if it is not known as one."""
+    """The value as a sum of roots, factors by radicand; None if it is not known as one."""
 
     def __post_init__(self) -> None:
         if not isinstance(self.text, str) or len(self.text) > _LONGEST:
-            found = f"one of {len(self.text)}" if isinstance(self.text, str) else repr(self.text)[:40]
+            description = f"one of {len(self.text)}" if isinstance(self.text, str) else repr(self.text)[:40]
             raise LinkageError(
-                "an expression is a text of at most {longest} characters, not {found}", longest=_LONGEST, found=found
+                "an expression is a text of at most {longest} characters, not {found}",
+                longest=_LONGEST,
+                found=description,
             )
         object.__setattr__(self, "steps", tuple(_Reader(self.text).whole()))
         object.__setattr__(self, "value", _nearest(self.text, self.steps))
@@ -82,7 +85,7 @@ class Expression:
 
     @property
     def typeset(self) -> str:
-        """The text in print, as it is written.
+        """The text in print, not simplified.
 
         >>> Expression("1/3*sqrt(2)*(5*sqrt(11)-9*sqrt(3))").typeset
         '1/3·√2·(5·√11 − 9·√3)'
@@ -95,8 +98,8 @@ class Expression:
         """Whether the values are equal: exactly if both are known as sums of roots, else to 1000 binary places."""
         if self.exact is not None and other.exact is not None:
             return dict(self.exact) == dict(other.exact)
-        mine, others = (_bracketed(expression.text, expression.steps, 4096) for expression in (self, other))
-        return mine[0] - others[1] <= 1 << 3096 and others[0] - mine[1] <= 1 << 3096
+        first, second = (_bracketed(expression.text, expression.steps, 4096) for expression in (self, other))
+        return first[0] - second[1] <= 1 << 3096 and second[0] - first[1] <= 1 << 3096
 
 
 def _wrong(text: str, at: int, problem: Message) -> LinkageError:
@@ -108,7 +111,7 @@ def _wrong(text: str, at: int, problem: Message) -> LinkageError:
 
 
 def _nearest(text: str, steps: tuple[_Step, ...]) -> float:
-    """From ever narrower brackets; what none tells from half-way between two doubles is there."""
+    """The nearest double, from narrower and narrower brackets; if none separates it from a midpoint of two, that."""
     for p in _PRECISIONS:
         try:
             low, high = (Fraction(end, 1 << p) for end in _bracketed(text, steps, p))
@@ -126,14 +129,14 @@ def _bracketed(text: str, steps: tuple[_Step, ...], p: int) -> Bracket:
     stack: list[Bracket] = []
     for step in steps:
         try:
-            made = _bracket(step, stack, p)
+            result = _bracket(step, stack, p)
         except PrecisionTooLowError:
             raise PrecisionTooLowError(step.at) from None
-        if made is None:
+        if result is None:
             raise _wrong(text, step.at, message("the root of a negative number"))
-        if max(abs(made[0]), abs(made[1])) >> p + _RANGE:
+        if max(abs(result[0]), abs(result[1])) >> p + _RANGE:
             raise _wrong(text, step.at, message("a number beyond 2^{power}", power=_RANGE))
-        stack.append(made)
+        stack.append(result)
     return stack[0]
 
 
@@ -157,13 +160,13 @@ def _bracket(step: _Step, stack: list[Bracket], p: int) -> Bracket | None:
 
 
 def _exactly(steps: tuple[_Step, ...]) -> Surd | None:
-    """The value as a sum of roots; None as soon as it leaves their realm. No step is wrong: see `_nearest`."""
+    """The value as a sum of roots; None if it is not one. Invalid steps have raised in `_nearest`."""
     stack: list[Surd] = []
     for step in steps:
-        made = _surd(step, stack)
-        if made is None:
+        result = _surd(step, stack)
+        if result is None:
             return None
-        stack.append(made)
+        stack.append(result)
     return stack[0]
 
 
@@ -191,8 +194,10 @@ class _Reader:
 
     def __init__(self, text: str) -> None:
         self.text = text
-        found = _TOKEN.finditer(text.translate(_ALIKE))
-        self.tokens = [(token, match.start(match.lastindex or 0) + 1) for match in found if (token := match[0].strip())]
+        matches = _TOKEN.finditer(text.translate(_ALIKE))
+        self.tokens = [
+            (token, match.start(match.lastindex or 0) + 1) for match in matches if (token := match[0].strip())
+        ]
         self.tokens.append(("", len(text) + 1))
         self.depth = 0
 
@@ -268,7 +273,7 @@ class _Reader:
             raise self.unexpected(message("a number"))
 
     def taken(self) -> int:
-        """Go on to the next token; the column of the one left behind."""
+        """Advance to the next token; returns the column of the previous one."""
         return self.tokens.pop(0)[1]
 
     def deeper(self) -> int:
@@ -278,12 +283,12 @@ class _Reader:
             raise _wrong(self.text, self.tokens[0][1], problem)
         return self.taken()
 
-    def unexpected(self, wanted: Message) -> LinkageError:
+    def unexpected(self, expected: Message) -> LinkageError:
         token, at = self.tokens[0]
         if token == "^":
-            problem = message("expected {wanted}, but found '^'; powers are written **", wanted=wanted)
+            problem = message("expected {wanted}, but found '^'; powers are written **", wanted=expected)
         elif token:
-            problem = message("expected {wanted}, but found {found!r}", wanted=wanted, found=token[:20])
+            problem = message("expected {wanted}, but found {found!r}", wanted=expected, found=token[:20])
         else:
-            problem = message("expected {wanted}, but found the end", wanted=wanted)
+            problem = message("expected {wanted}, but found the end", wanted=expected)
         return _wrong(self.text, at, problem)

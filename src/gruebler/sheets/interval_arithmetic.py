@@ -1,6 +1,6 @@
-"""Real numbers between two bounds: arithmetic that never loses the true value, at any precision.
+"""Real numbers between two bounds: arithmetic that always encloses the true value, at any precision.
 
-A bracket (low, high) at the precision p stands for low/2^p <= x <= high/2^p; every operation rounds outwards.
+A bracket (low, high) at the precision p means low/2^p <= x <= high/2^p; every operation rounds outwards.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ Bracket = tuple[int, int]
 
 
 class PrecisionTooLowError(Exception):
-    """The precision does not tell whether a divisor is zero; ``at`` is where."""
+    """The precision does not exclude a zero divisor; ``at`` is its column."""
 
     def __init__(self, at: int = 0) -> None:
         super().__init__(at)
@@ -32,8 +32,8 @@ class PrecisionTooLowError(Exception):
 
 def interval_of_fraction(value: Fraction, p: int) -> Bracket:
     """A rational number."""
-    low, rest = divmod(value.numerator << p, value.denominator)
-    return low, low + (rest > 0)
+    low, remainder = divmod(value.numerator << p, value.denominator)
+    return low, low + (remainder > 0)
 
 
 def interval_pi(p: int) -> Bracket:
@@ -71,7 +71,7 @@ def _quotient(a: Bracket, b: Bracket, p: int) -> Bracket:
 
 
 def interval_sqrt(a: Bracket, p: int) -> Bracket:
-    """The square root; of what may be negative, that of the part that is not."""
+    """The square root; of a bracket with negative values, the root of its non-negative part."""
     low, high = isqrt(max(a[0], 0) << p), isqrt(a[1] << p)
     return low, high + (high * high < a[1] << p)
 
@@ -86,7 +86,7 @@ OPERATIONS: dict[str, Callable[[Bracket, Bracket, int], Bracket]] = {
 
 def interval_power(a: Bracket, exponent: int, p: int) -> Bracket:
     """A whole power."""
-    out: Bracket = (1 << p, 1 << p)
+    result: Bracket = (1 << p, 1 << p)
     for _ in range(abs(exponent)):
-        out = _product(out, a, p)
-    return out if exponent >= 0 else _quotient((1 << p, 1 << p), out, p)
+        result = _product(result, a, p)
+    return result if exponent >= 0 else _quotient((1 << p, 1 << p), result, p)

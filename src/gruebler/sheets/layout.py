@@ -1,4 +1,4 @@
-"""A collection sheet on its page: what stands where."""
+"""The layout of a collection sheet on its page."""
 
 from __future__ import annotations
 
@@ -59,9 +59,9 @@ def page(sheet: Sheet, lang: str = "en") -> Page:
         items.append(TextLine(_LEFT, y, f"–  {task.in_language(lang)}", _BODY))
         y += _LEAD
     y = _pictures(items, sheet, y, lang) + 22
-    left = _features(items, sheet, y, lang)
+    features_bottom = _features(items, sheet, y, lang)
     explained = translate("Explanation", lang)
-    y = max(left, _paragraphs(items, explained, explanation_paragraphs(sheet, lang), _MIDDLE, y)) + 14
+    y = max(features_bottom, _paragraphs(items, explained, explanation_paragraphs(sheet, lang), _MIDDLE, y)) + 14
     _straightness(items, sheet, y, lang)
     _footer(items, sheet, lang)
     about = " ".join(f"{label}: {value}." for label, value in sheet.features.described(lang))
@@ -168,7 +168,7 @@ def _footer(items: list[Item], sheet: Sheet, lang: str) -> None:
 
 
 def _heading(items: list[Item], text: str, x: float, y: float, right: float) -> float:
-    """A heading with a rule below; the base line of what follows."""
+    """A heading with a rule below; returns the base line of the following text."""
     items += [TextLine(x, y, text, _BODY + 0.5, bold=True), HorizontalRule(x, y + 5, right - x)]
     return y + 5 + _LEAD
 
@@ -198,7 +198,7 @@ def _wrapped(text: str, wide: float, size: float) -> list[str]:
 
 
 def _fitted(items: list[Item], figure: Figure, x: float, y: float, wide: float, high: float) -> None:
-    """A picture as large as its box allows, in the middle of it, and not enlarged."""
+    """A picture in the middle of a box, reduced to fit it but not enlarged."""
     scale = min(wide / figure.width, high / figure.height, 1.0)
     left, top = x + (wide - scale * figure.width) / 2, y + (high - scale * figure.height) / 2
     items.append(PlacedPicture(left, top, scale, figure))

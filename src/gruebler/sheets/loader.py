@@ -1,4 +1,4 @@
-"""The collection sheets that come with the library."""
+"""The collection sheets of the library."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ def sheets() -> dict[str, Sheet]:
     >>> sheets()["mzc"].features.drive_joints
     1
     """
-    out = {}
+    records = {}
     for path in sorted((catalog_folder() / "sheets").glob("*.toml")):
         record = read_sheet(path)
         if record.id != path.stem:
             raise CatalogError(
                 "{path}: id: {id!r} should be the name of the file, {stem!r}", path=path, id=record.id, stem=path.stem
             )
-        out[record.id] = Sheet(record)
-    return out
+        records[record.id] = Sheet(record)
+    return records
 
 
 def sheet(id: str) -> Sheet:

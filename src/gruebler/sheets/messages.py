@@ -1,4 +1,4 @@
-"""The words of a sheet, and numbers as they are printed."""
+"""The texts of a sheet, and its numbers in print."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def with_subscripts(name: str) -> str:
 
 
 def typeset_number(value: float, lang: str, form: str = "g") -> str:
-    """A number as it is printed: the decimal sign of the language and a minus sign.
+    """A number in print: the decimal sign of the language and a minus sign.
 
     >>> typeset_number(-2.5, "de", ".2f"), typeset_number(2.5, "en")
     ('−2,50', '2.5')
@@ -32,7 +32,7 @@ def typeset_number(value: float, lang: str, form: str = "g") -> str:
 
 
 class _ValueSlot:
-    """A value in a text: exact without a form, else with so many digits."""
+    """A value in a text: exact without a format, else with its number of digits."""
 
     def __init__(self, value: StatedValue, lang: str) -> None:
         self.exact, self.derived, self.lang = value.exact, value.derived, lang
@@ -50,7 +50,7 @@ def explanation_paragraphs(sheet: Sheet, lang: str) -> list[str]:
 
 
 def value_lines(sheet: Sheet, lang: str) -> list[str]:
-    """Each value of the mechanism that the sheet tells: symbol, exact, decimal, and what the source has instead."""
+    """Each value of the mechanism: symbol, exact, decimal, and the source's value if it differs."""
     lines = []
     for value, row in zip(sheet.quantities, sheet.record.quantities, strict=True):
         if row.rocker is not None:

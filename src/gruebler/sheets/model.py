@@ -1,4 +1,4 @@
-"""A collection sheet: the words of its record, and everything else derived from the mechanism."""
+"""A collection sheet: the texts of its record, and everything else derived from the mechanism."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def _expression(text: str | None) -> Expression | None:
 
 @dataclass(frozen=True)
 class StatedValue:
-    """A value of the sheet: what it is, exactly, as derived from the mechanism, and as the source prints it."""
+    """A value of the sheet: its name, exact value, value derived from the mechanism, and printed value."""
 
     id: str
     symbol: str
@@ -54,9 +54,9 @@ class StatedValue:
     printed: Expression | None
     name: Readable | None = None
     reason: Text | None = None
-    """Why what is printed is not so."""
+    """The reason for a wrong printed value."""
     remark: Text | None = None
-    """What is to be said about a right one."""
+    """A remark about a right printed value."""
     unit: str = ""
     of: tuple[str, ...] = ()
     """The points of a distance."""
@@ -140,7 +140,7 @@ class Sheet(Brief):
         return move(self.linkage, np.radians(degrees), speed=1.0)
 
     def place(self, motion: Motion, name: str, row: int = 0) -> complex:
-        """Where one of the sheet's points is."""
+        """The position of one of the sheet's points."""
         if name not in self.record.names:
             known = ", ".join(self.record.names)
             raise CatalogError("sheet {id}: {name!r} is none of the names {known}", id=self.id, name=name, known=known)
@@ -155,19 +155,19 @@ class Sheet(Brief):
 
     @cached_property
     def dimensions(self) -> tuple[StatedValue, ...]:
-        """The lengths of the mechanism, exact and as it has them."""
+        """The lengths of the mechanism, exact and derived from its dimensions."""
         motion = self.motion(self.record.guide.centre)
-        out = []
+        values = []
         for row in self.record.dimensions:
             first, second = (self.place(motion, name) for name in row.of)
             exact = Expression(row.value)
             derived = abs(first - second) / self.unit_length
-            out.append(StatedValue(row.symbol, row.symbol, derived, exact, exact, of=row.of))
-        return tuple(out)
+            values.append(StatedValue(row.symbol, row.symbol, derived, exact, exact, of=row.of))
+        return tuple(values)
 
     @cached_property
     def quantities(self) -> tuple[StatedValue, ...]:
-        """All values that the sheet tells beside."""
+        """All other values of the sheet."""
         return tuple(
             StatedValue(
                 row.id,
@@ -211,7 +211,7 @@ class Sheet(Brief):
     def sized(self, length: float, tolerance: float) -> SizedMechanism:
         """The smallest mechanism whose point is straight over a length within a tolerance, both in one unit.
 
-        Raises `LinkageError` if no window is so straight.
+        Raises `LinkageError` if no window is straight enough.
         """
         sizing = scale_for(self.path, self.window, length, tolerance)
         lengths = tuple((value.symbol, value.derived * sizing.factor) for value in self.dimensions)
@@ -224,7 +224,7 @@ class Sheet(Brief):
 
     @cached_property
     def example_values(self) -> tuple[StatedValue, ...]:
-        """What comes out of the task, beside what the source prints of it."""
+        """The results of the task, with the printed ones of the source."""
         sized_mechanism, guide, scale = self.example, self.record.guide, self.record.dimensions[0].symbol
         start, end = (math.degrees(angle) for angle in sized_mechanism.sizing.piece[:2])
         rows = (
@@ -241,9 +241,9 @@ class Sheet(Brief):
 
 def _derived_value(sheet: Sheet, row: Quantity) -> float:
     """The value of a quantity; lengths in the sheet's unit, angles in degrees."""
-    way, at = next((make, getattr(row, key)) for key, make in _WAYS.items() if getattr(row, key) is not None)
-    value = way(sheet, at, row.at)
-    return value if row.less_at is None else value - way(sheet, at, row.less_at)
+    derive, at = next((make, getattr(row, key)) for key, make in _DERIVATIONS.items() if getattr(row, key) is not None)
+    value = derive(sheet, at, row.at)
+    return value if row.less_at is None else value - derive(sheet, at, row.less_at)
 
 
 def _angle(sheet: Sheet, names: tuple[str, str, str], at: float) -> float:
@@ -267,31 +267,31 @@ def _contact(sheet: Sheet, at: float, _: float) -> float:
     return lever_contact(size, u, v, phi, branch=branch).points
 
 
-def _cognate(sheet: Sheet, wanted: CognateLength, at: float) -> float:
+def _cognate(sheet: Sheet, cognate: CognateLength, at: float) -> float:
     size, u, v, phi, branch = lever_pose(sheet.linkage, sheet.record.names[sheet.record.point], math.radians(at))
     if not isinstance(size, FourBar):
         raise CatalogError("sheet {id}: cognates are those of four-bars", id=sheet.id)
-    length = getattr(cognates(size, u, v, branch=branch, phi=phi)[wanted.number - 1].size, wanted.length)
+    length = getattr(cognates(size, u, v, branch=branch, phi=phi)[cognate.number - 1].size, cognate.length)
     return float(length) / sheet.unit_length
 
 
-def _rocker(sheet: Sheet, wanted: RockerValue, _: float) -> float:
-    made = symmetric_rocker(Expression(wanted.ratio).value)
-    lever = made.lever
-    if wanted.value == "k_by_cognate":  # in the size in which it draws the sheet's own curve
+def _rocker(sheet: Sheet, request: RockerValue, _: float) -> float:
+    rocker = symmetric_rocker(Expression(request.ratio).value)
+    lever = rocker.lever
+    if request.value == "k_by_cognate":  # in the size in which it draws the sheet's own curve
         return lever.k * _cognate(sheet, CognateLength(number=2, length="a"), 0.0) / lever.size.a
     return {
-        "phi0": math.degrees(made.phi0),
-        "sin_phi0": math.sin(made.phi0),
+        "phi0": math.degrees(rocker.phi0),
+        "sin_phi0": math.sin(rocker.phi0),
         "l1": lever.size.a,
         "l2": lever.size.b,
         "l4": lever.size.d,
         "k": lever.k,
         "tan_kappa": math.tan(lever.kappa),
-    }[wanted.value]
+    }[request.value]
 
 
-_WAYS: dict[str, Callable[..., float]] = {
+_DERIVATIONS: dict[str, Callable[..., float]] = {
     "angle": _angle,
     "cosine": _cosine,
     "distance": _distance,

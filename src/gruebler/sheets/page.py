@@ -1,4 +1,4 @@
-"""A page of paper: words, rules and pictures at places; as SVG, HTML, PDF and PNG, always on light ground."""
+"""A page of paper: texts, rules and pictures at places; as SVG, HTML, PDF and PNG, always on light ground."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from xml.sax.saxutils import escape
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.files import suffix_of
 from gruebler.drawing.canvas.styles import COLOURS
-from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_words
+from gruebler.drawing.canvas.svg import style_sheet, svg_element, svg_number, svg_text
 
 __all__ = ["HEIGHT", "SUFFIXES", "WIDTH", "HorizontalRule", "Page", "PlacedPicture", "TextLine", "suffix_of"]
 
@@ -46,7 +46,7 @@ class HorizontalRule:
 
 @dataclass(frozen=True, slots=True)
 class PlacedPicture:
-    """A picture with its upper left corner there."""
+    """A picture with the place of its upper left corner."""
 
     x: float
     y: float
@@ -64,7 +64,7 @@ class Page:
     lang: str
 
     def svg(self) -> str:
-        """The page as SVG of the size of the paper, text as text."""
+        """The page as SVG of the size of the paper, with text as text elements."""
         used = sorted({shape.style for item in self._pictures() for shape in item.figure.shapes})
         rules = style_sheet(used).partition("@media")[0]
         return "\n".join(
@@ -80,7 +80,7 @@ class Page:
         )
 
     def html(self) -> str:
-        """A document that holds the page alone and is printed on A4 without margins."""
+        """A document with the page alone, printed on A4 without margins."""
         return (
             f'<!DOCTYPE html>\n<html lang="{self.lang}"><head><meta charset="utf-8"><title>{escape(self.title)}</title>'
             "<style>@page{size:A4;margin:0}body{margin:0;background:#fff}"
@@ -113,9 +113,9 @@ class Page:
 
 def _words_svg(item: TextLine) -> str:
     style = f'font-size="{item.size:g}" fill="{COLOURS[item.role][0]}"' + ' font-weight="bold"' * item.bold
-    words = svg_words(item.text, item.size)
+    text = svg_text(item.text, item.size)
     anchor = "" if item.anchor == "start" else f' text-anchor="{item.anchor}"'
-    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{words}</text>'
+    return f'<text x="{svg_number(item.x)}" y="{svg_number(item.y)}" {style}{anchor}>{text}</text>'
 
 
 def _rule_svg(item: HorizontalRule) -> str:
@@ -136,13 +136,13 @@ _SVG: dict[type, Any] = {TextLine: _words_svg, HorizontalRule: _rule_svg, Placed
 
 
 def _paint_words(canvas: Any, item: TextLine) -> None:
-    from gruebler.drawing.canvas.matplotlib_files import math_words
+    from gruebler.drawing.canvas.matplotlib_files import math_text
 
-    words, has_subscripts = math_words(item.text)
+    text, has_subscripts = math_text(item.text)
     canvas.text(
         item.x / WIDTH,
         1 - item.y / HEIGHT,
-        words,
+        text,
         fontsize=item.size * _POINTS,
         fontweight="bold" if item.bold else "normal",
         color=COLOURS[item.role][0],

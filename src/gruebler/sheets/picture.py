@@ -40,7 +40,7 @@ def scale_picture(sheet: Sheet, lang: str = "en") -> Figure:
 
 
 def _offset(figure: Figure, posed: PosedLinkage) -> Point:
-    """How the figure was moved against the stage: by the places of its turning joints."""
+    """The shift of the figure relative to the posed linkage, from the places of its turning joints."""
     names = posed.linkage.mechanism.chain.joint_names()
     pins = [posed.place(posed.linkage.points_named(name)[0]) for name in names if name.startswith("R")]
     rings = [shape.at for shape in figure.shapes if isinstance(shape, CircleShape) and shape.style == "joint"]
@@ -66,16 +66,18 @@ def _lines(sheet: Sheet, posed: PosedLinkage) -> list[Shape]:
         foot = sheet.place(sheet.motion(math.degrees(window.centre)), name)
         marks = [sheet.place(sheet.motion(at), sheet.record.point) for at in sheet.record.picture.marks.values()]
         low, high = posed.local(foot), posed.local(max([touch, *marks], key=lambda z: abs(z - foot)))
-        way = high.minus(low).unit
-        shapes.insert(0, _dashed(low.plus(way, -_BEYOND), high.plus(way, _BEYOND)))
+        direction = high.minus(low).unit
+        shapes.insert(0, _dashed(low.plus(direction, -_BEYOND), high.plus(direction, _BEYOND)))
     return shapes
 
 
 def _dashed(a: Point, b: Point) -> Polylines:
-    """A line of dashes, itself no style: as a centre line has them."""
-    way, length = b.minus(a).unit, b.minus(a).length
+    """A line of dashes as separate strokes, like a centre line."""
+    direction, length = b.minus(a).unit, b.minus(a).length
     starts = [k * (_DASH + _GAP) for k in range(int(length / (_DASH + _GAP)) + 1)]
-    return Polylines(tuple((a.plus(way, s), a.plus(way, min(s + _DASH, length))) for s in starts), "measure")
+    return Polylines(
+        tuple((a.plus(direction, s), a.plus(direction, min(s + _DASH, length))) for s in starts), "measure"
+    )
 
 
 def _moved(shape: Shape, by: Point) -> Shape:

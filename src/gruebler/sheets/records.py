@@ -1,4 +1,4 @@
-"""What stands in the file of a collection sheet: words, exact dimensions, printed values, and how to derive each."""
+"""The file of a collection sheet: texts, exact dimensions, printed values, and the derivation of each."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class RockerValue(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
 
 
 class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """A value that the sheet tells, derived in one of six ways."""
+    """A value of the sheet, with one of six derivations."""
 
     id: str
     symbol: str
@@ -61,20 +61,20 @@ class Quantity(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
     at: float = 0.0
     """The drive value, in degrees."""
     less_at: float | None = None
-    """A drive value whose own value is taken off."""
+    """A drive value whose value of the quantity is subtracted."""
     value: str | None = None
     """The exact expression."""
     printed: str | None = None
-    """What the source prints: an expression, or a number with as many digits."""
+    """The printed value of the source: an expression, or a decimal number."""
     reason: Text | None = None
-    """Why what is printed is not so."""
+    """The reason for a wrong printed value."""
     remark: Text | None = None
-    """What is to be said about a right one."""
+    """A remark about a right printed value."""
     unit: str = ""
 
 
 class Guide(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
-    """Where the point runs straight (drive values in degrees), and a task to be sized."""
+    """The straight part of the path (drive values in degrees), and a sizing task."""
 
     centre: float
     start: float
@@ -83,7 +83,7 @@ class Guide(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
     tolerance: float
     unit: str
     printed: dict[str, str] = {}
-    """What the source prints of phi_G, phi_A, ratio and scale."""
+    """The printed values of phi_G, phi_A, ratio and scale."""
 
 
 class Picture(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -110,24 +110,24 @@ class SheetRecord(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_on
     scale: tuple[str, str]
     """The length that is the sheet's unit."""
     names: dict[str, str]
-    """What the sheet calls joints and points."""
+    """The sheet's names of joints and points."""
     picture: Picture
     guide: Guide
     dimensions: tuple[Dimension, ...]
     quantities: tuple[Quantity, ...] = ()
     explanation: tuple[Text, ...] = ()
-    """Words with ``{id:.3f}`` for derived values, and ``{id}`` for exact ones."""
+    """Text with ``{id:.3f}`` for derived values, and ``{id}`` for exact ones."""
     literature: tuple[str, ...] = ()
 
 
 _LONGEST = 1e9
 _TURNS = 3600.0
 _PRINTED = ("phi_G", "phi_A", "ratio", "scale")
-_WAYS = ("angle", "cosine", "distance", "contact_at", "cognate", "rocker")
+_DERIVATIONS = ("angle", "cosine", "distance", "contact_at", "cognate", "rocker")
 
 
 def read_sheet(path: Path) -> SheetRecord:
-    """The sheet in a TOML file; `CatalogError` names file and key of the first thing that does not fit."""
+    """The sheet in a TOML file; `CatalogError` names file and key of the first fault."""
 
     def fail(problem: Message) -> CatalogError:
         return CatalogError("{path}: {problem}", path=path, problem=problem)
@@ -139,7 +139,7 @@ def read_sheet(path: Path) -> SheetRecord:
 
 
 def _faults(record: SheetRecord) -> Iterator[Message]:
-    """What the shape of a record cannot say."""
+    """The faults that the types of a record do not detect."""
     named: list[tuple[str, tuple[str, ...]]] = [
         ("scale", record.scale),
         *((f"dimensions {d.symbol}", d.of) for d in record.dimensions),
@@ -147,16 +147,16 @@ def _faults(record: SheetRecord) -> Iterator[Message]:
     if record.picture.axis_through is not None:
         named.append(("picture.axis_through", (record.picture.axis_through,)))
     for quantity in record.quantities:
-        ways = [way for way in _WAYS if getattr(quantity, way) is not None]
-        if len(ways) != 1:
+        derivations = [derivation for derivation in _DERIVATIONS if getattr(quantity, derivation) is not None]
+        if len(derivations) != 1:
             yield message(
                 "quantities {quantity}: expected one of {known}, but found {count}",
                 quantity=quantity.id,
-                known=", ".join(_WAYS),
-                count=len(ways),
+                known=", ".join(_DERIVATIONS),
+                count=len(derivations),
             )
-        if ways[0] in ("angle", "cosine", "distance"):
-            named.append((f"quantities {quantity.id}", getattr(quantity, ways[0])))
+        if derivations[0] in ("angle", "cosine", "distance"):
+            named.append((f"quantities {quantity.id}", getattr(quantity, derivations[0])))
     named.append(("point", (record.point,)))
     for where, names in named:
         for name in names:
@@ -209,7 +209,7 @@ def _wrong_numbers(record: SheetRecord) -> Iterator[Message]:
 
 
 def _wrong_places(record: SheetRecord) -> Iterator[Message]:
-    """Names stand for points of the machine, dimensions for lengths on one link, the axis goes through the frame."""
+    """Names are those of points of the machine, dimensions lie on one link, the axis contains a joint of the frame."""
     try:
         machine = entry(record.machine).linkage()
     except GrueblerError as error:
@@ -260,7 +260,7 @@ def _expressions(record: SheetRecord) -> Iterator[tuple[str, str]]:
 def _wrong_words(record: SheetRecord) -> Iterator[Message]:
     """Places in the explanation are those of quantities, with a number of digits."""
     known = [quantity.id for quantity in record.quantities]
-    for text in (said for both in record.explanation for said in (both.en, both.de)):
+    for text in (translation for paragraph in record.explanation for translation in (paragraph.en, paragraph.de)):
         for place in re.findall(r"\{[^}]*\}?|\}", text):
             form = re.fullmatch(r"\{(\w+)(?::\.\df)?\}", place)
             if form is None or form[1] not in known:

@@ -1,6 +1,6 @@
 """Sums of square roots with rational factors, exactly: the numbers q1 sqrt(d1) + q2 sqrt(d2) + ... .
 
-A number is a table from whole numbers without square factors to rational factors that are not zero; 1 stands for the
+A number is a table from whole numbers without square factors to rational factors that are not zero; 1 is the key of the
 rational part. The roots of different such numbers are linearly independent over the rationals (Besicovitch 1940), so
 two numbers are equal if, and only if, their tables are.
 """
@@ -35,7 +35,7 @@ def rational_surd(value: Fraction) -> Surd:
 
 
 def surd_product(a: Surd, b: Surd) -> Surd | None:
-    """A times b; None if that is too large to be handled.
+    """The product a b; None if it is too large.
 
     >>> surd_product({2: Fraction(1)}, {6: Fraction(1), 1: Fraction(3)})
     {3: Fraction(2, 1), 2: Fraction(3, 1)}
@@ -49,15 +49,15 @@ def surd_product(a: Surd, b: Surd) -> Surd | None:
 
 
 def surd_power(a: Surd, exponent: int) -> Surd | None:
-    """A whole power; negative ones of what is not zero."""
-    made: Surd | None = {1: Fraction(1)}
+    """A whole power; negative exponents only for numbers that are not zero."""
+    power: Surd | None = {1: Fraction(1)}
     for _ in range(abs(exponent)):
-        made = None if made is None else surd_product(made, a)
-    return made if exponent >= 0 or made is None else surd_inverse(made)
+        power = None if power is None else surd_product(power, a)
+    return power if exponent >= 0 or power is None else surd_inverse(power)
 
 
 def surd_inverse(a: Surd) -> Surd | None:
-    """1/a for a that is not zero: multiplied with its conjugates until no root is left.
+    """1/a for a that is not zero: multiplied by conjugates until no root remains.
 
     >>> surd_inverse({1: Fraction(1), 2: Fraction(1)})
     {1: Fraction(-1, 1), 2: Fraction(1, 1)}
@@ -68,8 +68,8 @@ def surd_inverse(a: Surd) -> Surd | None:
     prime = _least_factor(roots[0])
     conjugate = {d: -q if d % prime == 0 else q for d, q in a.items()}
     norm = surd_product(a, conjugate)
-    rest = None if norm is None else surd_inverse(norm)
-    return None if rest is None else surd_product(conjugate, rest)
+    inverse = None if norm is None else surd_inverse(norm)
+    return None if inverse is None else surd_product(conjugate, inverse)
 
 
 def surd_sqrt(a: Surd) -> Surd | None:
@@ -103,33 +103,33 @@ OPERATIONS: dict[str, Callable[[Surd, Surd], Surd | None]] = {
     "*": surd_product,
     "/": _quotient,
 }
-"""None where a number would be too large to be handled."""
+"""None where a number would be too large."""
 
 
 def surd_text(a: Surd) -> str:
-    """In print, the largest root first.
+    """The number in print, the largest root first.
 
     >>> surd_text({22: Fraction(5, 3), 6: Fraction(-3)})
     '5/3·√22 − 3·√6'
     """
     terms = sorted(a.items(), reverse=True)
-    said = ""
+    text = ""
     for d, q in terms:
-        sign = ("− " if q < 0 else "+ ") if said else ("−" if q < 0 else "")
+        sign = ("− " if q < 0 else "+ ") if text else ("−" if q < 0 else "")
         size = abs(q)
-        word = str(size) if d == 1 else f"√{d}" if size == 1 else f"{size}·√{d}"
-        said += (" " if said else "") + sign + word
-    return said or "0"
+        term = str(size) if d == 1 else f"√{d}" if size == 1 else f"{size}·√{d}"
+        text += (" " if text else "") + sign + term
+    return text or "0"
 
 
 def _collected(terms: Iterable[tuple[int, Fraction]]) -> Surd | None:
-    """The number of these terms; None if it would be too large to be handled."""
-    out: dict[int, Fraction] = {}
+    """The number of these terms; None if it would be too large."""
+    factors: dict[int, Fraction] = {}
     for d, q in terms:
-        out[d] = out.get(d, Fraction(0)) + q
-    out = {d: q for d, q in out.items() if q}
-    long = any(max(q.numerator.bit_length(), q.denominator.bit_length()) > _LONGEST for q in out.values())
-    return None if long or len(out) > _MOST or max(out, default=1) > _LARGEST else out
+        factors[d] = factors.get(d, Fraction(0)) + q
+    factors = {d: q for d, q in factors.items() if q}
+    long = any(max(q.numerator.bit_length(), q.denominator.bit_length()) > _LONGEST for q in factors.values())
+    return None if long or len(factors) > _MOST or max(factors, default=1) > _LARGEST else factors
 
 
 def _least_factor(number: int) -> int:

@@ -121,7 +121,7 @@ class DesignClosure:
         for link, c in self.column.items():
             k = found.lower.mechanism.chain.links.index(link)
             z = found.places[0, :, k]
-            out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.turns[0, :, k]
+            out[:, c], out[:, c + 1], out[:, c + 2] = z.real, z.imag, found.angles[:, k]
         return out
 
     def joined(self, q: Reals, p: Reals) -> _Joined:

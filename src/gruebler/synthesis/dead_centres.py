@@ -154,7 +154,7 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
             return None
         if task.swing is not None and not _same_sense(centre, outer, inner):
             return None
-        return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest))
+        return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest.mu))
     except LinkageError:
         return None
 
@@ -214,4 +214,4 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
     error = abs(centres.travel - (task.swing if task.swing is not None else 1.0))
     verdict = DesignVerdict(True, True, True, True, True, member.transmission, ratio, inside, error, tuple(reasons))
     kind = "four-bar" if task.swing is not None else "slider-crank"
-    return Design(linkage, verdict, kind, (centres.outer.phi, centres.inner.phi))
+    return Design(linkage, verdict, kind, (centres.outer.drive, centres.inner.drive))

@@ -288,7 +288,7 @@ class _TargetPath(NamedTuple):
 
 def _path(course: Circuit, met: list[Reals]) -> _TargetPath:
     """The shortest way through the targets, in order and without a limit of the drive if there is one."""
-    limits = np.array([extreme.arc for extreme in course.drive_limits])
+    limits = np.array([extreme.at for extreme in course.drive_limits])
     best: tuple[tuple[bool, bool, float], _TargetPath] | None = None
     for start in met[0]:
         for sense in (1.0, -1.0):

@@ -1,6 +1,6 @@
-"""Chains made from chains: dyads, couplers and Assur groups put in and taken out, links merged and split.
+"""Transformations of chains: dyads, couplers and Assur groups inserted and removed, links merged and split.
 
-Each transformation is a function of a chain that returns a `Step`; steps make a `Derivation` that can be done again.
+Each transformation is a function of a chain that returns a `Step`; a `Derivation` records steps and can replay them.
 """
 
 from gruebler.transformations.contacts import replace_roll_slide, restore_roll_slide

@@ -1,4 +1,4 @@
-"""Contraction: the two links of a joint become one. Expansion, its inverse, splits a link."""
+"""Contraction merges the two links of a joint into one. Expansion, its inverse, splits a link."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ __all__ = ["contract", "expand"]
 
 
 def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> Step:
-    """Make two links of a joint one, which keeps the first name; F falls by the joint's freedoms.
+    """Merge two links of a joint into one, which keeps the first name; F falls by the joint's freedoms.
 
     Args:
         chain: any chain.
-        joint: the number of the joint. It goes, or loses a link if it has more than two.
+        joint: the number of the joint. It is removed, or loses a link if it has more than two.
         links: the two links of a multiple joint; else the joint's own, in either order.
 
-    Raises `TransformationError` if the two links meet in a second joint, which would have nothing left to do.
+    Raises `TransformationError` if the two links share a second joint, which would connect the merged link to itself.
 
     >>> print(contract(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"), 0).chain)
     R(0-2) R(2-3) R(3-4) R(4-0)
@@ -30,24 +30,26 @@ def contract(chain: Chain, joint: int, links: Sequence[str] | None = None) -> St
     chosen = list(carriers if links is None else links)
     if len(chosen) != 2 or len(set(chosen)) != 2 or not set(chosen) <= set(carriers):
         raise TransformationError("say which two links of {joints} become one", joints=chain.joints[joint])
-    kept, gone = chosen
-    again = next((j for k, j in enumerate(chain.joints) if k != joint and kept in j.links and gone in j.links), None)
+    keeper, merged = chosen
+    again = next(
+        (j for k, j in enumerate(chain.joints) if k != joint and keeper in j.links and merged in j.links), None
+    )
     if again is not None:
         raise TransformationError(
-            "{kept} and {gone} cannot become one: they meet in {again} too", kept=kept, gone=gone, again=again
+            "{kept} and {gone} cannot become one: they meet in {again} too", kept=keeper, gone=merged, again=again
         )
     joints = []
     for number, old in enumerate(chain.joints):
-        left = [kept if link == gone else link for link in old.links if number != joint or link != gone]
-        if len(left) > 1:
-            joints.append((old.pair, left))
+        remaining = [keeper if link == merged else link for link in old.links if number != joint or link != merged]
+        if len(remaining) > 1:
+            joints.append((old.pair, remaining))
     try:
-        new = Chain(joints, links=[link for link in chain.links if link != gone], space=chain.space)
+        contracted = Chain(joints, links=[link for link in chain.links if link != merged], space=chain.space)
     except ChainError as error:
         raise TransformationError(
-            "with {kept} and {gone} as one link there is no chain left: {error}", kept=kept, gone=gone, error=error
+            "with {kept} and {gone} as one link there is no chain left: {error}", kept=keeper, gone=merged, error=error
         ) from None
-    return Step("contract", {"joint": joint, "links": [kept, gone]}, chain, new)
+    return Step("contract", {"joint": joint, "links": [keeper, merged]}, chain, contracted)
 
 
 def expand(
@@ -67,7 +69,7 @@ def expand(
         joints: the numbers of its joints that go to the new link.
         pair: the pair of the new joint between the two (revolute if neither this nor `at` is given), or
         at: the number of a joint of the link that the new link joins too.
-        new: the name of the new link; the lowest free number if left out.
+        new: the name of the new link; by default the lowest free number.
 
     >>> print(expand(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), "0", [0], new="4").chain)
     R(4-1) R(1-2) R(2-3) R(3-0) R(0-4)

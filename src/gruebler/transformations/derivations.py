@@ -1,4 +1,4 @@
-"""Derivations: a chain and the steps that lead on from it, done again from their record."""
+"""Derivations: a chain and the recorded steps from it, which can be replayed."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ OPERATIONS: dict[str, Callable[..., Step]] = {
 
 
 def replay(chain: Chain, kind: str, where: Mapping[str, Any]) -> Step:
-    """Do a recorded step on a chain.
+    """Apply a recorded step to a chain.
 
     Raises `TransformationError` for an unknown kind, for arguments that the kind does not have, and where the step is
     not possible.
@@ -59,11 +59,11 @@ def replay(chain: Chain, kind: str, where: Mapping[str, Any]) -> Step:
 
 @dataclass(frozen=True)
 class Derivation:
-    """A chain to start from and steps, each on the chain that the one before leaves.
+    """A start chain and steps, each from the chain that results from the previous one.
 
-    >>> way = Derivation(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"))
-    >>> way = way.then("insert_coupler", between=["1", "4"]).then("insert_dyad", form="RRR", between=["2", "5"])
-    >>> way.chain.n, Derivation.from_json(way.to_json()) == way
+    >>> steps = Derivation(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-4) R(4-0)"))
+    >>> steps = steps.then("insert_coupler", between=["1", "4"]).then("insert_dyad", form="RRR", between=["2", "5"])
+    >>> steps.chain.n, Derivation.from_json(steps.to_json()) == steps
     (8, True)
     """
 
@@ -93,22 +93,22 @@ class Derivation:
         return Derivation(self.start, (*self.steps, replay(self.chain, kind, where)))
 
     def replayed(self, start: Chain | None = None) -> Derivation:
-        """All steps done again, from the same chain or from another one with the links and joints that they name."""
-        out = Derivation(self.start if start is None else start)
+        """All steps replayed, from the same chain or from another one with the links and joints that they name."""
+        derivation = Derivation(self.start if start is None else start)
         for step in self.steps:
-            out = out.then(step.kind, **step.where)
-        return out
+            derivation = derivation.then(step.kind, **step.where)
+        return derivation
 
     def to_json(self) -> dict[str, Any]:
-        """Plain data for `json.dumps`: the chain to start from, and kind, where and result of each step."""
+        """Plain data for `json.dumps`: the start chain, and kind, where and result of each step."""
         return {"start": self.start.to_json(), "steps": [step.to_json() for step in self.steps]}
 
     @classmethod
     def from_json(cls, document: str | Mapping[str, Any]) -> Derivation:
-        """The derivation of a document made by `to_json` (the text, or the object read); every step is done again.
+        """The derivation of a document made by `to_json` (the text, or the object read); every step is replayed.
 
         Raises `NotationError` for another document, `TransformationError` for a step that is impossible or leads to
-        another chain than the document says.
+        another chain than the document states.
         """
         if isinstance(document, str):
             try:
@@ -117,25 +117,25 @@ class Derivation:
                 raise NotationError("not a JSON document: {error}", error=error) from None
         match document:
             case {"start": start, "steps": [*steps], **rest} if not rest:
-                out = cls(Chain.from_json(start))
+                derivation = cls(Chain.from_json(start))
             case _:
                 raise NotationError('a derivation is an object with "start" (a chain) and "steps" (a list)')
         for number, step in enumerate(steps, 1):
             match step:
                 case {"kind": str(kind), "where": Mapping() as where, **rest} if rest.keys() <= {"result"}:
-                    out = out.then(kind, **where)
+                    derivation = derivation.then(kind, **where)
                 case _:
                     raise NotationError(
                         'step {number} must be an object with "kind", "where" and perhaps "result"', number=number
                     )
-            if "result" in step and str(out.chain) != step["result"]:
+            if "result" in step and str(derivation.chain) != step["result"]:
                 raise TransformationError(
                     "step {number} gives {chain}, but the document says {step}",
                     number=number,
-                    chain=out.chain,
+                    chain=derivation.chain,
                     step=step["result"],
                 )
-        return out
+        return derivation
 
     def explain(self, lang: str = "en") -> str:
         """A line for the start and for each step, in English (``en``) or German (``de``)."""

@@ -1,4 +1,4 @@
-"""Assur groups of any size: put on a chain, or taken out again; F stays."""
+"""Assur groups of any size: attached to a chain, or removed; F is unchanged."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ __all__ = ["insert_group", "remove_group"]
 def insert_group(
     chain: Chain, group: AssurGroup | str, at: Sequence[Attachment], links: Sequence[str] | None = None
 ) -> Step:
-    """Attach an Assur group; F stays.
+    """Attach an Assur group; F is unchanged.
 
     Args:
         chain: a planar chain.
         group: the group, or its text, code or dyad form.
         at: for each of the group's places, in their order, a link's name or the number of a joint that it joins.
-        links: names for the group's links, in their order; the lowest free numbers if left out.
+        links: names for the group's links, in their order; by default the lowest free numbers.
 
     >>> four_bar = Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
     >>> triad = AssurGroup.parse("R(a-1) R(1-2) R(2-3) R(3-b) R(2-4) R(4-c)")
@@ -46,40 +46,40 @@ def insert_group(
         )
     check_not_on_one_link(chain, at, message("group"))
     names = new_link_names(chain, len(group.links), links)
-    new = dict(zip(group.links, names, strict=True))
+    new_names = dict(zip(group.links, names, strict=True))
     outside = dict(zip(group.places, at, strict=True))
     builder = ChainBuilder(chain)
     for joint in group.chain.joints:
-        mine = [new[link] for link in joint.links if link in new]
+        inner = [new_names[link] for link in joint.links if link in new_names]
         place = next((outside[link] for link in joint.links if link in outside), None)
         if place is None:
-            builder.add(joint.pair, mine)
+            builder.add(joint.pair, inner)
         else:
-            builder.attach(place, joint.pair, mine)
+            builder.attach(place, joint.pair, inner)
     where = {"group": str(group), "at": list(at), "links": names}
     return Step("insert_group", where, chain, builder.done(names))
 
 
 def remove_group(chain: Chain, links: Sequence[str]) -> Step:
-    """Take links away that are an Assur group in the chain; F stays.
+    """Remove links that are an Assur group in the chain; F is unchanged.
 
-    Raises `AssurError` if they are none, `TransformationError` if all its places are on one link or nothing sound is
-    left.
+    Raises `AssurError` if they are none, `TransformationError` if all its places are on one link or the remainder is
+    not a chain.
     """
     check_counting(chain)
     if not links or len(set(links)) < len(links):
         raise TransformationError("expected the names of the links of a group, each once")
     for link in links:
         chain.index(link)
-    mine = set(links)
+    group_links = set(links)
     joints, outside = [], []
     for joint in chain.joints:
-        inner = [link for link in joint.links if link in mine]
-        others = [link for link in joint.links if link not in mine]
+        inner = [link for link in joint.links if link in group_links]
+        others = [link for link in joint.links if link not in group_links]
         if inner and others:
             outside.append(set(others))
             place = f"place {len(outside)}"
-            while place in mine:
+            while place in group_links:
                 place += "'"
             inner.append(place)
         if len(inner) > 1:

@@ -1,8 +1,8 @@
-"""How a chain grows by dyads: from a closed loop, or from a core in which there is no dyad left to take.
+"""The growth of a chain by dyads: from a closed loop, or from a core without a removable dyad.
 
-A dyad of a closed chain is *removable* if every other link keeps two joints or more. Taking one away may spoil another
-(they share a neighbour with three joints), so in general the order matters and all are tried. For a sound chain with
-F = 1 it does not: docs/theory/transformations.md, "Growth".
+A dyad of a closed chain is *removable* if every other link keeps two joints or more. Removing one may make another
+irremovable (they share a neighbour with three joints), so in general the order matters and all are tried. For a sound
+chain with F = 1 it does not: docs/theory/transformations.md, "Growth".
 """
 
 from __future__ import annotations
@@ -22,22 +22,22 @@ from gruebler.transformations.places import Attachment
 
 __all__ = ["Growth", "derive", "is_loop", "removable_dyads"]
 
-_BUDGET = 5_000  # chains looked at
+_BUDGET = 5_000  # chains visited
 
 
 @dataclass(frozen=True)
 class Growth:
-    """How a chain grows by dyads."""
+    """The growth of a chain by dyads."""
 
     chain: Chain
     derivation: Derivation
     """From the loop or the core, dyad by dyad, to the chain."""
     exact: bool
-    """False if the chain does not grow from a loop as far as was searched, but the search was cut short."""
+    """False if the search ended early and had not found a growth from a loop."""
 
     @property
     def core(self) -> Chain:
-        """The loop, or what is left when no dyad can be removed."""
+        """The loop, or the chain that remains when no dyad can be removed."""
         return self.derivation.start
 
     @property
@@ -80,7 +80,7 @@ class Growth:
                 )
             if not self.exact:
                 lines.append(
-                    translate("The search was cut short: another order of the dyads might lead to a loop.", lang)
+                    translate("The search ended early: another order of the dyads might lead to a loop.", lang)
                 )
         if steps:
             lines.append(self.derivation.explain(lang))
@@ -97,7 +97,7 @@ def is_loop(chain: Chain) -> bool:
 
 
 def removable_dyads(chain: Chain) -> Iterator[Insertion]:
-    """The dyads that can be removed such that every link left keeps two joints or more.
+    """The dyads that can be removed such that every remaining link keeps two joints or more.
 
     >>> [dyad.links for dyad in removable_dyads(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))]
     [('0', '1'), ('4', '5')]
@@ -119,46 +119,46 @@ def removable_dyads(chain: Chain) -> Iterator[Insertion]:
 
 
 def derive(chain: Chain) -> Growth:
-    """How a chain grows by dyads from a closed loop; if it does not, from the smallest core that was found.
+    """The growth of a chain by dyads from a closed loop; without one, from the smallest core found.
 
-    Exact: the answer that it does not is proved by trying all orders, or by the theorem for sound chains with F = 1.
-    Only for other chains of many dyads is the search cut short, and `Growth.exact` says so. Cost O(dyads · links) where
-    the order does not matter.
+    Exact: that there is no growth from a loop is proved by trying all orders, or by the theorem for sound chains with
+    F = 1. Only for other chains of many dyads the search ends early, and `Growth.exact` is False. Cost O(dyads · links)
+    where the order does not matter.
 
     >>> growth = derive(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))
     >>> print(growth.core)
     R(2-3) R(2-4) R(4-5) R(5-3)
     """
-    best: list[Insertion] = []
-    seen: set[frozenset[str]] = set()
+    longest: list[Insertion] = []
+    visited: set[frozenset[str]] = set()
     stack: list[tuple[Chain, list[Insertion]]] = [(chain, [])]
     one_order: bool | None = None
     complete = True
     while stack:
-        here, taken = stack.pop()
-        if len(taken) > len(best):
-            best = taken
-        if is_loop(here):
-            best = taken
+        current, removed = stack.pop()
+        if len(removed) > len(longest):
+            longest = removed
+        if is_loop(current):
+            longest = removed
             break
-        if len(seen) >= _BUDGET:
+        if len(visited) >= _BUDGET:
             complete = False
             break
-        dyads = list(removable_dyads(here))
+        dyads = list(removable_dyads(current))
         if not dyads:
             one_order = _order_does_not_matter(chain) if one_order is None else one_order
             if one_order:
                 break
         for dyad in reversed(dyads):
-            left = frozenset(dyad.rest.links)
-            if left not in seen:
-                seen.add(left)
-                stack.append((dyad.rest, [*taken, dyad]))
-    way = Derivation(best[-1].rest if best else chain)
-    for dyad in reversed(best):
-        places = [_same_place(dyad.rest, place, way.chain) for place in dyad.between]
-        way = way.then("insert_dyad", form=dyad.letters, between=places, links=list(dyad.links))
-    return Growth(chain, way, complete or is_loop(way.start))
+            remaining = frozenset(dyad.remainder.links)
+            if remaining not in visited:
+                visited.add(remaining)
+                stack.append((dyad.remainder, [*removed, dyad]))
+    derivation = Derivation(longest[-1].remainder if longest else chain)
+    for dyad in reversed(longest):
+        places = [_same_place(dyad.remainder, place, derivation.chain) for place in dyad.between]
+        derivation = derivation.then("insert_dyad", form=dyad.letters, between=places, links=list(dyad.links))
+    return Growth(chain, derivation, complete or is_loop(derivation.start))
 
 
 def _same_place(chain: Chain, place: Attachment, other: Chain) -> Attachment:

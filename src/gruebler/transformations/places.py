@@ -1,6 +1,6 @@
-"""Where something is attached, taken away or named: what all transformations share.
+"""Places of attachment, new names and removed links, shared by all transformations.
 
-A *place* is a link, given by its name, on which a new joint is put; or a joint, given by its number, which a further
+A *place* is a link, given by its name, that gets a new joint; or a joint, given by its number, which a further
 link joins, so that it becomes a multiple joint.
 """
 
@@ -33,7 +33,7 @@ _GERMAN = {"D": "R", "S": "P"}
 
 
 def check_counting(chain: Chain) -> None:
-    """Refuse spatial chains: there a dyad or a coupler of joints with one freedom changes F by other numbers."""
+    """Raise for spatial chains: there a dyad or a coupler of joints with one freedom changes F by other numbers."""
     if chain.space.b != 3:
         raise TransformationError(
             "dyads, couplers and groups keep F by a count with three freedoms a link; this chain is {space}",
@@ -41,21 +41,21 @@ def check_counting(chain: Chain) -> None:
         )
 
 
-def pairs_from_letters(letters: str, number: int, thing: Message) -> tuple[Pair, ...]:
-    """The pairs of a word such as RRP (German DDS), all with one freedom."""
-    word = "".join(_GERMAN.get(letter, letter) for letter in letters.strip().upper())
-    if len(word) != number or not set(word) <= set(_PAIRS):
+def pairs_from_letters(letters: str, number: int, subject: Message) -> tuple[Pair, ...]:
+    """The pairs of letters such as RRP (German DDS), all with one freedom."""
+    symbols = "".join(_GERMAN.get(letter, letter) for letter in letters.strip().upper())
+    if len(symbols) != number or not set(symbols) <= set(_PAIRS):
         raise TransformationError(
             "{letters!r} is not the form of a {thing}: expected {number} letters, each R, P or W (German D, S or W)",
             letters=letters,
-            thing=thing,
+            thing=subject,
             number=number,
         )
-    return tuple(pair(_PAIRS[letter]) for letter in word)
+    return tuple(pair(_PAIRS[letter]) for letter in symbols)
 
 
 def letters_of_pairs(pairs: Iterable[Pair]) -> str | None:
-    """The word of these pairs, or None if one of them has no letter here."""
+    """The letters of these pairs, or None if one of them has no letter here."""
     known = {name: letter for letter, name in _PAIRS.items()}
     letters = [known.get(p.name) for p in pairs]
     return "".join(letter for letter in letters if letter) if all(letters) else None
@@ -75,43 +75,45 @@ def links_at(chain: Chain, place: Attachment) -> tuple[str, ...]:
     return chain.joints[place].links
 
 
-def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], thing: Message) -> None:
-    """Refuse places that all lie on one link: what is attached there cannot move against it."""
+def check_not_on_one_link(chain: Chain, places: Sequence[Attachment], subject: Message) -> None:
+    """Raise for places that all lie on one link: anything attached there is rigid against it."""
     joints = [place for place in places if not isinstance(place, str)]
     if len(set(joints)) < len(joints):
         raise TransformationError(
-            "two places of the {thing} are the same joint; attach them to links or other joints", thing=thing
+            "two places of the {thing} are the same joint; attach them to links or other joints", thing=subject
         )
     shared = set.intersection(*(set(links_at(chain, place)) for place in places))
     if shared:
         link = next(link for link in chain.links if link in shared)
         raise TransformationError(
             "the places of the {thing} all lie on the link {link!r}: it would be rigid against it",
-            thing=thing,
+            thing=subject,
             link=link,
         )
 
 
-def new_link_names(chain: Chain, number: int, wished: Sequence[str] | None) -> list[str]:
-    """Names for new links: those wished for if they are new, else the lowest whole numbers that no link has."""
-    if wished is None:
+def new_link_names(chain: Chain, number: int, requested: Sequence[str] | None) -> list[str]:
+    """Names for new links: the requested ones, which must be new; by default the lowest free whole numbers."""
+    if requested is None:
         free = (str(k) for k in count() if str(k) not in chain.links)
         return [next(free) for _ in range(number)]
-    names = list(wished)
+    names = list(requested)
     if len(names) != number or len(set(names)) != number:
         raise TransformationError(
             "expected {number} different names for the new links, found {names}",
             number=number,
             names=", ".join(names) or message("none"),
         )
-    taken = next((name for name in names if name in chain.links), None)
-    if taken is not None:
-        raise TransformationError("the chain has a link {taken!r} already; name the new link otherwise", taken=taken)
+    duplicate = next((name for name in names if name in chain.links), None)
+    if duplicate is not None:
+        raise TransformationError(
+            "the chain has a link {taken!r} already; name the new link otherwise", taken=duplicate
+        )
     return names
 
 
 class ChainBuilder:
-    """A chain on its way to the next one: joints that can still change."""
+    """A chain under construction: a list of joints that can still change."""
 
     def __init__(self, chain: Chain) -> None:
         self.chain = chain
@@ -142,22 +144,22 @@ class ChainBuilder:
 
 
 def without_links(chain: Chain, links: Sequence[str]) -> tuple[Chain, dict[int, int]]:
-    """The chain without these links, and the new number of each joint that is left.
+    """The chain without these links, and the new number of each remaining joint.
 
-    Raises `TransformationError` if what is left is not a chain.
+    Raises `TransformationError` if the remainder is not a chain.
     """
-    gone = set(links)
+    removed = set(links)
     joints: list[Joint] = []
     number: dict[int, int] = {}
     for k, joint in enumerate(chain.joints):
-        left = tuple(link for link in joint.links if link not in gone)
-        if len(left) > 1:
+        remaining = tuple(link for link in joint.links if link not in removed)
+        if len(remaining) > 1:
             number[k] = len(joints)
-            joints.append(Joint(joint.pair, left))
+            joints.append(Joint(joint.pair, remaining))
     try:
-        rest = Chain(joints, links=[link for link in chain.links if link not in gone], space=chain.space)
+        remainder = Chain(joints, links=[link for link in chain.links if link not in removed], space=chain.space)
     except ChainError as error:
         raise TransformationError(
             "without {links} there is no chain left: {error}", links=", ".join(links), error=error
         ) from None
-    return rest, number
+    return remainder, number

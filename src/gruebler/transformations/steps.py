@@ -36,10 +36,10 @@ _STEPS = {
 
 @dataclass(frozen=True)
 class Step:
-    """One transformation: what was done, where, and the chains before and after.
+    """One transformation: its kind, its arguments, and the chains before and after.
 
-    `where` holds the arguments of the function that is called like `kind`, all names written out, as plain data; so the
-    step can be done again (`gruebler.transformations.replay`).
+    `where` holds the arguments of the function named `kind`, with all names explicit, as plain data, so that
+    `gruebler.transformations.replay` can apply the step again.
     """
 
     kind: str

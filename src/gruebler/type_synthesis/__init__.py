@@ -1,4 +1,4 @@
-"""From a chain of revolutes to typed chains and mechanisms that answer requirements, each once."""
+"""From a chain of revolutes to typed chains and mechanisms that satisfy requirements, each once."""
 
 from gruebler.type_synthesis.assignment import assignments, every_joint_moves, joint_types
 from gruebler.type_synthesis.contacts import with_contacts

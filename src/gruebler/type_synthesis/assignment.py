@@ -1,8 +1,8 @@
-"""Joint types: a chain of revolutes becomes typed chains, each assignment of pairs once up to the chain's symmetry.
+"""Joint types: the typed chains of a chain of revolutes, each assignment of pairs once up to the chain's symmetry.
 
-An assignment counts only if, at almost all sizes, the chain has the wanted mobility and every joint moves. No rule of
-thumb stands in for that test: forbidding two sliders on a binary link, for instance, is neither necessary (the double
-slider moves) nor sufficient.
+An assignment counts only if, at almost all dimensions, the chain has the required mobility and every joint moves. No
+rule of thumb replaces that test: forbidding two sliders on a binary link, for instance, is neither necessary (the
+double slider moves) nor sufficient.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ def joint_types(
 
     Args:
         chain: a chain of the plane or the sphere; only its simple revolute joints are replaced.
-        pairs: how many joints become which pair, such as ``{"prismatic": 2}``; the others stay.
-        mobility: the wanted generic mobility; the chain's own if left out.
-        conditions: False gives every assignment up to symmetry, also those that jam.
+        pairs: the number of joints for each new pair, such as ``{"prismatic": 2}``; the others are kept.
+        mobility: the required generic mobility; by default the chain's own.
+        conditions: False gives every assignment up to symmetry, also those that cannot move.
 
     Raises `ChainError` for pairs with more than one freedom (see `contacts`) or more joints than there are.
     Cost: one generic rank for each orbit of assignments.
@@ -44,9 +44,9 @@ def joint_types(
                 pair=kind.title,
                 f=kind.f(chain.space),
             )
-    wanted = generic(chain).mobility if mobility is None else mobility
+    target = generic(chain).mobility if mobility is None else mobility
     for typed in assignments(chain, kinds):
-        if not conditions or every_joint_moves(typed, wanted):
+        if not conditions or every_joint_moves(typed, target):
             yield typed
 
 
@@ -73,31 +73,31 @@ def assignments(chain: Chain, kinds: Mapping[Pair, int]) -> Iterator[Chain]:
         yield Chain(joints, links=chain.links, space=chain.space)
 
 
-def _choices(current: list[Pair], places: Sequence[int], left: list[tuple[Pair, int]]) -> Iterator[list[Pair]]:
-    """All ways to put the pairs that are left on the places that are left, in lexicographic order."""
-    total = sum(number for _, number in left)
+def _choices(current: list[Pair], places: Sequence[int], remaining: list[tuple[Pair, int]]) -> Iterator[list[Pair]]:
+    """All assignments of the remaining pairs to the remaining places, in lexicographic order."""
+    total = sum(number for _, number in remaining)
     if total == 0:
         yield current
         return
     if total > len(places):
         return
-    first, rest = places[0], places[1:]
-    for k, (kind, number) in enumerate(left):
+    first, later_places = places[0], places[1:]
+    for k, (kind, number) in enumerate(remaining):
         if number:
-            fewer = [*left[:k], (kind, number - 1), *left[k + 1 :]]
-            yield from _choices([*current[:first], kind, *current[first + 1 :]], rest, fewer)
-    yield from _choices(current, rest, left)
+            fewer = [*remaining[:k], (kind, number - 1), *remaining[k + 1 :]]
+            yield from _choices([*current[:first], kind, *current[first + 1 :]], later_places, fewer)
+    yield from _choices(current, later_places, remaining)
 
 
 def _moved(choice: tuple[Pair, ...], joints: Sequence[int]) -> tuple[Pair, ...]:
-    out = list(choice)
+    image_choice = list(choice)
     for k, image in enumerate(joints):
-        out[image] = choice[k]
-    return tuple(out)
+        image_choice[image] = choice[k]
+    return tuple(image_choice)
 
 
 def every_joint_moves(chain: Chain, mobility: int) -> bool:
-    """Whether the generic mobility is the wanted one and no joint is immobile.
+    """Whether the generic mobility is the given one and no joint is immobile.
 
     >>> every_joint_moves(Chain.parse("R(0-1) P(1-2) P(2-3) P(3-0)"), 1)
     False

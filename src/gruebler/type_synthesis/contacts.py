@@ -1,4 +1,4 @@
-"""Roll-slide joints: a contact stands for a binary link between two turning pairs.
+"""Roll-slide joints: a contact replaces a binary link between two turning pairs.
 
 A roll-slide joint takes away one motion, along the common normal at the point of contact. So does a binary link with
 two revolutes, along its own line: the two centres of curvature lie at its ends. Counted and generic mobility are the
@@ -19,9 +19,9 @@ __all__ = ["with_contacts"]
 
 
 def with_contacts(chain: Chain, number: int) -> Iterator[Chain]:
-    """The chain with this many of its binary links, joined by revolutes, turned into roll-slide joints.
+    """The chain with this number of its binary links, joined by revolutes, replaced by roll-slide joints.
 
-    One for each orbit of choices; links that carry no binary link away keep their names. Cost O(choices · generators).
+    One for each orbit of choices; the remaining links keep their names. Cost O(choices · generators).
 
     >>> [str(gears) for gears in with_contacts(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), 1)]
     ['R(1-2) R(2-3) G(1-3)']
@@ -41,14 +41,14 @@ def with_contacts(chain: Chain, number: int) -> Iterator[Chain]:
     ]
     for orbit in orbits(choices, images):
         chosen = orbit[0]
-        kept = [joint for joint in chain.joints if not chosen & set(joint.links)]
+        remaining = [joint for joint in chain.joints if not chosen & set(joint.links)]
         contacts = [("roll_slide", ends[link]) for link in chain.links if link in chosen]
         links = [link for link in chain.links if link not in chosen]
-        yield Chain([*kept, *contacts], links=links, space=chain.space)
+        yield Chain([*remaining, *contacts], links=links, space=chain.space)
 
 
 def _neighbours(chain: Chain, link: str) -> list[str]:
-    """The links at the other ends of a link's simple revolutes; other joints end nowhere."""
+    """The links at the other ends of a link's simple revolutes; other joints do not count."""
     return [
         other
         for joint in chain.joints_of(link)

@@ -1,4 +1,4 @@
-"""How long a list of typed chains and mechanisms will take, told before it is begun."""
+"""Estimates of the time for a list of typed chains and mechanisms, before the computation."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ _CHAIN = 1e-3
 _TYPED = 2e-4
 _RANK = 6e-4  # the mobility of a typed chain with sliders
 _FRAME = 3e-4
-_DRIVEN = 1e-3  # a frame with its drives, whether they fix the motion
+_DRIVEN = 1e-3  # a frame with its drives, and the check that they fix the motion
 
 
 def expected_seconds_of_variants(requirements: Requirements, *, mechanisms: bool, drives: bool) -> float:
-    """About how long `variants` takes, to a factor of three or so; symmetry makes it shorter.
+    """The estimated time of `variants`, to a factor of about three; symmetry shortens it.
 
     Args:
         requirements: the requirements.
         mechanisms: whether frames are distinguished.
         drives: whether drives are, too.
 
-    Every way to put the pairs on the joints of every chain is tried.
+    Every assignment of the pairs to the joints of every chain counts.
 
     >>> few = expected_seconds_of_variants(Requirements(6, prismatic=2), mechanisms=False, drives=False)
     >>> many = expected_seconds_of_variants(Requirements(10, prismatic=5), mechanisms=False, drives=False)
@@ -40,12 +40,12 @@ def expected_seconds_of_variants(requirements: Requirements, *, mechanisms: bool
     simple = (joint_count(links, requirements.mobility) or 0) - 2 * (
         requirements.multiple_joints + requirements.roll_slide
     )
-    left = max(0, simple - requirements.prismatic)
+    revolutes = max(0, simple - requirements.prismatic)
     typed = (
         chains
         * comb(links, requirements.roll_slide)
         * comb(max(0, simple), requirements.prismatic)
-        * comb(left, requirements.rolling)
+        * comb(revolutes, requirements.rolling)
     )
     seconds = chains * _CHAIN + typed * (_TYPED + _RANK * (requirements.prismatic > 0))
     if drives:

@@ -1,4 +1,4 @@
-"""All variants: every typed chain, or every mechanism, that answers a set of requirements, each once."""
+"""All variants: every typed chain, or every mechanism, that satisfies a set of requirements, each once."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ __all__ = ["typed_chains", "variants"]
 
 
 def typed_chains(requirements: Requirements) -> Iterator[Chain]:
-    """All typed chains with the wanted links, mobility and pairs, in which every joint moves.
+    """All typed chains with the required links, mobility and pairs, in which every joint moves.
 
-    The chains of revolutes with one more link for each contact are enumerated, contacts are put in the place of binary
-    links, and the other pairs on the revolutes that are left; each chain once. Different chains of revolutes give
-    different chains with contacts (a contact is undone in one way), so no isomorphism test is needed.
+    The chains of revolutes with one more link for each contact are enumerated, contacts replace binary links, and the
+    other pairs replace revolutes among the remaining ones; each chain once. Different chains of revolutes give
+    different chains with contacts (the inverse of a contact is unique), so no isomorphism test is needed.
     """
     from gruebler.enumeration import chains
 
@@ -46,7 +46,7 @@ def typed_chains(requirements: Requirements) -> Iterator[Chain]:
 
 
 def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
-    """Everything that answers the requirements: typed chains, or mechanisms where frame, drive or output matter.
+    """All results that satisfy the requirements: typed chains, or mechanisms where frame, drive or output matter.
 
     Drives fix the motion: as many as the mobility, none against another.
     """

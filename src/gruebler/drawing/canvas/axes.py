@@ -1,4 +1,4 @@
-"""Scales of a plot: where a value lies, and the round numbers at which it is read."""
+"""Scales of a plot: the position of a value, and ticks at round numbers."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from gruebler.text import decimal_sign_in
 
 __all__ = ["Axis", "Scale", "angles", "as_text", "decades", "decimals", "tick_labels"]
 
-_FEW = 7  # ticks of an axis, about
+_FEW = 7  # approximate number of ticks of an axis
 _ANGLES = (1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720)  # degrees
-_TINY = 1e-9  # steps: as far beyond a tick a value may lie
+_TINY = 1e-9  # steps: the tolerance for a value beyond a tick
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -24,19 +24,19 @@ class Scale(NamedTuple):
     ticks: tuple[float, ...]
     logarithmic: bool = False
     names: tuple[str, ...] = ()
-    """What is written at the ticks; empty words where nothing is."""
+    """The labels of the ticks; empty for ticks without one."""
 
     def part(self, value: float) -> float:
-        """Where a value lies: 0 at the lowest, 1 at the highest."""
+        """The relative position of a value: 0 at the lowest, 1 at the highest."""
         if self.logarithmic:
             return math.log(value / self.low) / math.log(self.high / self.low)
         return (value - self.low) / (self.high - self.low)
 
 
 class Axis(NamedTuple):
-    """A scale and what it measures, unit included."""
+    """A scale and the name of its quantity, unit included."""
 
-    words: str
+    text: str
     scale: Scale
 
 
@@ -85,7 +85,7 @@ def decades(low: float, high: float) -> Scale:
 
 
 def tick_labels(values: Sequence[float], step: float) -> tuple[str, ...]:
-    """Numbers with as many places as the step between them has; with a power of ten if they are huge or tiny.
+    """Numbers with the decimals of the step between them; with a power of ten if they are huge or tiny.
 
     >>> tick_labels((-0.5, 0.0, 0.5), 0.5), tick_labels((0.0, 2e7), 1e7)
     (('−0.5', '0.0', '0.5'), ('0', '2×10⁷'))
@@ -121,7 +121,7 @@ def _power(value: float) -> str:
 
 
 def _apart(low: float, high: float) -> tuple[float, float]:
-    """Two values with something between them."""
+    """The two values, moved apart if they are equal."""
     least = max(abs(low), abs(high)) * 1e-9
     if high - low > least:
         return low, high

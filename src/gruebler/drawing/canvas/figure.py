@@ -1,6 +1,6 @@
-"""A picture as a value: shapes in the order in which they are painted, whatever the file will be.
+"""A picture as a value: shapes in painting order, independent of the file format.
 
-Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; nothing else tells how it looks.
+Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`, which alone determines its look.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ class Figure(Brief):
     title: str
     description: str
     notes: tuple[str, ...] = ()
-    """What was asked for and could not be shown, in sentences."""
+    """Sentences about requested elements that could not be shown."""
 
     def svg(self, *, styled: bool = True) -> str:
-        """The picture as SVG; without its styles where the page around has them."""
+        """The picture as SVG; unstyled for a page that has the style rules."""
         return svg(self, styled=styled)
 
     def _repr_svg_(self) -> str:
@@ -49,7 +49,7 @@ MARGIN = 16.0
 def figure_of(
     shapes: Iterable[Shape], title: str, description: str, margin: float = 10.0, notes: Iterable[str] = ()
 ) -> Figure:
-    """The figure that just holds the shapes."""
+    """The smallest figure around the shapes."""
     all_shapes = tuple(shapes)
     corner, size = bounds(all_shapes, margin)
     placed = tuple(moved_shape(shape, Point(-corner.x, -corner.y)) for shape in all_shapes)
@@ -57,7 +57,7 @@ def figure_of(
 
 
 def svg(figure: Figure, *, styled: bool = True) -> str:
-    """The document; with ``styled`` it carries the rules of the styles it uses, and looks the same anywhere.
+    """The document; with ``styled`` it includes the rules of its styles, so it does not depend on the page.
 
     >>> from gruebler.drawing.canvas.shapes import CircleShape, Point
     >>> svg(figure_of([CircleShape(Point(0, 0), 5, "joint")], "one < two", "a circle"), styled=False).splitlines()[1]

@@ -15,7 +15,7 @@ SUFFIXES = ("svg", "png", "pdf")
 
 
 def suffix_of(path: Path, known: tuple[str, ...] = SUFFIXES) -> str:
-    """The kind of file that a name asks for; `GrueblerError` if it is none of those known."""
+    """The file format of a name; `GrueblerError` if it is not a known one."""
     suffix = path.suffix.lower().removeprefix(".")
     if suffix not in known:
         raise GrueblerError(

@@ -1,4 +1,4 @@
-"""Pictures one after another as GIF, WebP and APNG, painted by matplotlib and put together by pillow."""
+"""Sequences of pictures as GIF, WebP and APNG, painted by matplotlib and combined by pillow."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FRAMES = ("gif", "webp", "png")
 """Kinds of files; png is APNG."""
 
 
-_COLOURS = 64  # of a file: those of the styles and what is most often between them at edges
+_COLOURS = 64  # of a file: those of the styles and the most frequent mixtures at edges
 
 
 _ALIKE = 14.0  # between two colours, of 255 in each of three parts
@@ -31,7 +31,7 @@ _TICK = {"gif": 10}  # milliseconds: the times of a GIF are multiples of it
 
 
 def check_kind(kind: str) -> None:
-    """`GrueblerError` for a kind of file that is none of `FRAMES`."""
+    """Raise `GrueblerError` for a kind of file that is not in `FRAMES`."""
     if kind not in FRAMES:
         raise GrueblerError(
             "expected a kind of file among {frames}, but found {kind!r}", frames=", ".join(FRAMES), kind=kind
@@ -41,24 +41,25 @@ def check_kind(kind: str) -> None:
 def frames_file(
     figures: Sequence[Figure], kind: str, seconds: float, *, dark: bool = False, zoom: float = 1.25
 ) -> bytes:
-    """The content of a file that shows figures of one size one after another, evenly in so many seconds, over and over.
+    """The content of a file that shows figures of one size in sequence, at an even rate, repeated without end.
 
-    A figure that comes twice as the same object is painted once. Arguments as for `animated_frames`.
+    The same figure object is painted only once. ``seconds`` is the time of all; the other arguments are those of
+    `animated_frames`.
     """
     check_kind(kind)
-    made = {id(figure): figure for figure in figures}
-    pictures = {key: _picture(figure, zoom, dark) for key, figure in made.items()}
+    distinct = {id(figure): figure for figure in figures}
+    pictures = {key: _picture(figure, zoom, dark) for key, figure in distinct.items()}
     palette = _palette(pictures[id(figures[0])])
     pictures = {key: picture.quantize(palette=palette, dither=0) for key, picture in pictures.items()}
     tick = _TICK.get(kind, 1)
     ends = [tick * round(1000 * seconds * k / len(figures) / tick) for k in range(len(figures) + 1)]
     memory = io.BytesIO()
-    first, *rest = (pictures[id(figure)] for figure in figures)
+    first, *others = (pictures[id(figure)] for figure in figures)
     first.save(
         memory,
         kind,
         save_all=True,
-        append_images=rest,
+        append_images=others,
         duration=[max(b - a, tick) for a, b in pairwise(ends)],
         loop=0,
         **_SAVED[kind],
@@ -82,7 +83,7 @@ def _picture(figure: Figure, zoom: float, dark: bool) -> Any:
 
 
 def _palette(picture: Any) -> Any:
-    """The colours that a picture has most often, none like another."""
+    """The most frequent colours of a picture, without near duplicates."""
     from PIL import Image
 
     counted = picture.getcolors(picture.width * picture.height)

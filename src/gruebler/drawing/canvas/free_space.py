@@ -1,4 +1,4 @@
-"""Where there is room in a picture: how far texts and lines would be from what is there, for many places at once."""
+"""Free space in a picture: the distances of texts and lines from existing shapes, for many places at once."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _Z = TypeVar("_Z", complex, Complexes)
 
 
 class Obstacles:
-    """What is drawn: strokes with half their width, texts as level strokes, and filled polygons."""
+    """The drawn shapes: strokes with half their width, texts as horizontal strokes, and filled polygons."""
 
     def __init__(self, shapes: Sequence[Shape]) -> None:
         self.filled = [
@@ -39,11 +39,11 @@ class Obstacles:
         self.texts = _Strokes([_text(shape) for shape in shapes if isinstance(shape, TextShape)])
 
     def take(self, at: Point, wide: float) -> None:
-        """A text stands there now."""
+        """Add a text to the obstacles."""
         self.texts = self.texts.plus((*_core(complex(*at), wide), HALF))
 
     def free(self, places: Complexes, wide: float) -> Reals:
-        """How many pixels are free around a text at each of some places; negative where it would touch something."""
+        """The free pixels around a text at each of some places; negative where it would touch a shape."""
         first, last = _core(places, wide)
         gap = np.minimum(self.lines.gap(first, last), self.texts.gap(first, last)) - HALF
         covered = self.covered(first) | self.covered(last) | self.covered(places)
@@ -51,14 +51,14 @@ class Obstacles:
 
     def covered(self, places: Complexes) -> Flags:
         """Whether places lie on a filled polygon."""
-        found = np.zeros(len(places), bool)
+        covered = np.zeros(len(places), bool)
         for corners in self.filled:
-            found |= is_inside(places, corners)
-        return found
+            covered |= is_inside(places, corners)
+        return covered
 
-    def open(self, places: Complexes, ways: Complexes) -> Flags:
-        """Whether nothing lies beyond places in some directions: whether they are at the rim of the picture."""
-        return self.lines.gap(places, places + _FAR * ways) > 0
+    def open(self, places: Complexes, directions: Complexes) -> Flags:
+        """Whether the places are at the rim of the picture: no shape lies beyond them in the given directions."""
+        return self.lines.gap(places, places + _FAR * directions) > 0
 
 
 class _Strokes:
@@ -66,8 +66,8 @@ class _Strokes:
 
     def __init__(self, strokes: Sequence[_Stroke]) -> None:
         self.rows = list(strokes)
-        made = np.array(self.rows, np.complex128).reshape(-1, 3)
-        self.a, self.b, self.half = made[:, 0], made[:, 1], made[:, 2].real
+        strokes_table = np.array(self.rows, np.complex128).reshape(-1, 3)
+        self.a, self.b, self.half = strokes_table[:, 0], strokes_table[:, 1], strokes_table[:, 2].real
 
     def plus(self, stroke: _Stroke) -> _Strokes:
         return _Strokes([*self.rows, stroke])
@@ -77,7 +77,7 @@ class _Strokes:
         return np.asarray(distance_between(first[:, None], last[:, None], self.a[None, :], self.b[None, :]) - self.half)
 
     def gap(self, first: Complexes, last: Complexes) -> Reals:
-        """The least of them; infinite if there is nothing."""
+        """The smallest of the gaps; infinite without strokes."""
         return np.asarray(np.min(self.gaps(first, last), axis=1, initial=np.inf))
 
 
@@ -93,12 +93,12 @@ def _strokes(shape: Shape) -> Iterator[_Stroke]:
 
 
 def _text(text: TextShape) -> _Stroke:
-    wide = text_width(text.words, STYLES[text.style].size)
+    wide = text_width(text.text, STYLES[text.style].size)
     return *_core(complex(text.at.x + _FROM_ANCHOR[text.anchor] * wide, text.at.y), wide), HALF
 
 
 def _core(at: _Z, wide: float) -> tuple[_Z, _Z]:
-    """The middle line of a text; all of the text is within half its height."""
+    """The middle line of a text; the text lies within half its height of it."""
     half = max(0.0, wide / 2 - HALF)
     return at - half, at + half
 
@@ -109,7 +109,7 @@ def complexes(points: Sequence[Point]) -> Complexes:
 
 
 def from_segment(p: Complexes, a: Complexes, b: Complexes) -> Reals:
-    """The distance of points from segments; arrays of shapes that go together.
+    """The distance of points from segments; arrays of compatible shapes.
 
     >>> from_segment(np.array([1j, 3 + 0j]), np.array([0j]), np.array([2 + 0j])).tolist()
     [1.0, 1.0]

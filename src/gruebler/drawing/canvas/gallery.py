@@ -1,4 +1,4 @@
-"""Many pictures on one page: HTML that stands alone, has no script, and prints well on A4."""
+"""Many pictures on one page: self-contained HTML without script, suitable for printing on A4."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["Item", "Section", "gallery_html"]
 
 @dataclass(frozen=True, slots=True)
 class Item:
-    """A picture with what stands below it."""
+    """A picture with its caption."""
 
     figure: Figure
     caption: str

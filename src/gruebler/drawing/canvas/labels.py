@@ -1,4 +1,4 @@
-"""Names of links beside their bodies; where there is no room for them, numbers and a list below the picture."""
+"""Names of links beside their bodies; where there is no space for them, numbers and a list below the picture."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from gruebler.drawing.canvas.styles import BAR, STYLES
 
 __all__ = ["labels_or_numbers", "labels_with_names", "legend", "note_near", "short_names"]
 
-_ENOUGH = 7.0  # pixels around a text; more is no better
+_ENOUGH = 7.0  # pixels around a text; more does not improve a place
 _LEAST = 1.5
-_CLEAR = BAR / 2 + 4.0  # pixels from the middle of a link to where nothing of it is
+_CLEAR = BAR / 2 + 4.0  # pixels from the middle of a link to outside of it
 _BESIDE = 4.0  # pixels between a link and its name
-_OUTSIDE = 5.0  # pixels of free space that are given up for a place far from the middle
+_OUTSIDE = 5.0  # pixels of free space that a place far from the middle is worth
 _PARTS = (0.5, 0.4, 0.6, 0.3, 0.7)  # of an edge
-_FARTHER = (12.0, 22.0, 34.0, 48.0, 64.0, 82.0, 102.0)  # pixels by which a number may stand off, at the end of a line
-_NEAR = 3  # so many of these are for long names too
-_WIDE = 30.0  # pixels: from longer names no line leads across others
+_FARTHER = (12.0, 22.0, 34.0, 48.0, 64.0, 82.0, 102.0)  # pixels between a link and its number at the end of a line
+_NEAR = 3  # the number of these distances that long names may use too
+_WIDE = 30.0  # pixels: lines of wider names do not cross other lines
 _COLUMN = 18.0  # from line to line of the list
-_SHORT = 3  # names of so many letters are taken as numbers
+_SHORT = 3  # names of at most this many letters are used like numbers
 
 
 def labels_or_numbers(
@@ -34,14 +34,14 @@ def labels_or_numbers(
     shapes: Sequence[Shape],
     names: Mapping[str, str] | None = None,
 ) -> list[Shape]:
-    """The shapes with a name beside the outline of every link; ``names`` may call links otherwise.
+    """The shapes with a name beside the outline of every link; ``names`` may give links other names.
 
-    If a long name finds no room, long names become numbers and a list says what these mean.
+    If there is no space for a long name, numbers replace the long names, with a list of their meanings.
     """
     texts, rows = labels_with_names(outlines, closed, shapes, names)
     points = [point for outline in outlines.values() for point in outline]
-    made = [*shapes, *texts]
-    return [*made, *(legend(rows, points, made) if rows else ())]
+    labelled = [*shapes, *texts]
+    return [*labelled, *(legend(rows, points, labelled) if rows else ())]
 
 
 def labels_with_names(
@@ -50,20 +50,20 @@ def labels_with_names(
     shapes: Sequence[Shape],
     names: Mapping[str, str] | None = None,
 ) -> tuple[list[Shape], dict[str, str]]:
-    """The names alone, and what is to be listed: names with their numbers."""
+    """The names alone, and the entries of the list: names with their numbers."""
     called = {link: (names or {}).get(link, link) for link in outlines}
-    found = _placed(outlines, closed, shapes, called)
-    if found is not None:
-        return found, {}
+    texts = _placed(outlines, closed, shapes, called)
+    if texts is not None:
+        return texts, {}
     numbers = short_names(list(called.values()))
-    found = _placed(outlines, closed, shapes, {link: numbers[name] for link, name in called.items()})
-    assert found is not None  # numbers are short
-    return found, {name: number for name, number in numbers.items() if name != number}
+    texts = _placed(outlines, closed, shapes, {link: numbers[name] for link, name in called.items()})
+    assert texts is not None  # numbers are short
+    return texts, {name: number for name, number in numbers.items() if name != number}
 
 
-def note_near(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> TextShape:
-    """A text near a point, where the shapes leave most room for it; above and to the right if nothing is in the way."""
-    room, wide = Obstacles(shapes), text_width(words, STYLES[style].size)
+def note_near(at: Point, text: str, style: str, shapes: Sequence[Shape]) -> TextShape:
+    """A text near a point, where the shapes leave most space; above and to the right if there is no obstacle."""
+    room, wide = Obstacles(shapes), text_width(text, STYLES[style].size)
     places = [
         Point(at.x + (off + wide / 2) * math.cos(turn), at.y - (off + HALF) * math.sin(turn))
         for off in (8.0, 14.0, 22.0, 32.0, 44.0, 58.0)
@@ -71,21 +71,21 @@ def note_near(at: Point, words: str, style: str, shapes: Sequence[Shape]) -> Tex
     ]
     free = room.free(complexes(places), wide)
     best = max(range(len(places)), key=lambda k: (min(float(free[k]), _LEAST), -k))
-    return TextShape(places[best], words, style)
+    return TextShape(places[best], text, style)
 
 
 def short_names(links: Sequence[str]) -> dict[str, str]:
-    """Names of up to three letters as they are, numbers for others: their places from 1, if these are no names.
+    """Names of up to three letters unchanged, numbers for others: their places from 1, if these are not names.
 
     >>> short_names(["1", "2", "diagonal"]), short_names(["3", "long", "arm", "2"])
     ({'1': '1', '2': '2', 'diagonal': '3'}, {'3': '3', 'long': '1', 'arm': 'arm', '2': '2'})
     """
     short = {link: link for link in links if len(link) <= _SHORT}
-    taken = set(short)
+    used = set(short)
     for place, link in enumerate(links, 1):
         if link not in short:
-            short[link] = next(str(k) for k in (place, *_from_one(len(links))) if str(k) not in taken)
-            taken.add(short[link])
+            short[link] = next(str(k) for k in (place, *_from_one(len(links))) if str(k) not in used)
+            used.add(short[link])
     return {link: short[link] for link in links}
 
 
@@ -94,7 +94,7 @@ def _from_one(most: int) -> range:
 
 
 class _LabelPlace(NamedTuple):
-    """Where a name may stand: beside which point of an edge, in which direction, how far from the edge's middle."""
+    """A candidate place of a name: the point of the edge, the direction, and the distance from the edge's middle."""
 
     at: Point
     beside: Point
@@ -109,7 +109,7 @@ def _placed(
     shapes: Sequence[Shape],
     names: Mapping[str, str],
 ) -> list[Shape] | None:
-    """A text for every link, the longest first; None if a long one would touch something."""
+    """A text for every link, the longest first; None if a long one would touch a shape."""
     room = Obstacles(shapes)
     points = [point for outline in outlines.values() for point in outline]
     texts: list[Shape] = []
@@ -135,12 +135,12 @@ def _best(
     wide: float,
     farther: Sequence[float],
 ) -> tuple[float, _LabelPlace]:
-    """The place with room, at the rim if there is one, near the middle of an edge, and what is free there."""
+    """The best place (free, at the rim if possible, near the middle of an edge) and its free pixels."""
     places = list(_candidates(outline, closed, wide, farther))
     at = complexes([place.at for place in places])
-    beside, ways = complexes([place.beside for place in places]), complexes([place.normal for place in places])
-    free, rim = room.free(at, wide), room.open(at, ways)
-    crossed = (room.lines.gaps(at, beside + _CLEAR * ways) < 0).sum(axis=1)
+    beside, directions = complexes([place.beside for place in places]), complexes([place.normal for place in places])
+    free, rim = room.free(at, wide), room.open(at, directions)
+    crossed = (room.lines.gaps(at, beside + _CLEAR * directions) < 0).sum(axis=1)
     if wide > _WIDE:
         free = np.where(crossed > 0, np.minimum(free, 0.0), free)
     middle = Point(*(sum(axis) / len(points) for axis in zip(*points, strict=True)))
@@ -148,16 +148,16 @@ def _best(
 
     def worth(k: int) -> tuple[bool, int, float, bool, float]:
         outside = _OUTSIDE * min(1.2, places[k].at.minus(middle).length / most)
-        fits = bool(free[k] >= _LEAST)
-        good = min(float(free[k]), _ENOUGH) + outside - 6 * places[k].away
-        return fits, -int(crossed[k]), -places[k].farther if fits else 0.0, bool(rim[k]), good
+        is_free = bool(free[k] >= _LEAST)
+        quality = min(float(free[k]), _ENOUGH) + outside - 6 * places[k].away
+        return is_free, -int(crossed[k]), -places[k].farther if is_free else 0.0, bool(rim[k]), quality
 
     best = max(range(len(places)), key=worth)
     return float(free[best]), places[best]
 
 
 def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Sequence[float]) -> Iterator[_LabelPlace]:
-    """Places beside the edges, outside of a polygon; the text is as far from its edge in every direction."""
+    """Places beside the edges, outside of a polygon; the distance of text and edge is the same in every direction."""
     corners = [*outline, outline[0]] if closed else list(outline)
     area = sum(a.x * b.y - b.x * a.y for a, b in pairwise(corners))
     for a, b in pairwise(corners):
@@ -173,7 +173,7 @@ def _candidates(outline: Sequence[Point], closed: bool, wide: float, farther: Se
 
 
 def _leader(place: _LabelPlace, wide: float) -> Iterator[Shape]:
-    """A line from a link to its number, where this stands off."""
+    """A line from a link to its number, where there is a distance between them."""
     if place.farther:
         end = place.at.plus(place.normal, -HALF - abs(place.normal.x) * max(0.0, wide / 2 - HALF))
         yield Polylines(((place.beside, end),), "measure")
@@ -181,7 +181,7 @@ def _leader(place: _LabelPlace, wide: float) -> Iterator[Shape]:
 
 
 def legend(names: Mapping[str, str], points: Sequence[Point], shapes: Sequence[Shape] = ()) -> Iterator[TextShape]:
-    """Numbers and names in columns below points and shapes, about as wide as these."""
+    """Numbers and names in columns below points and shapes, of about the same total width."""
     left, right = min(p.x for p in points), max(p.x for p in points)
     top = max(p.y for p in points) + 44.0
     if shapes:

@@ -1,4 +1,4 @@
-"""Figures as PNG and PDF, painted by matplotlib; it comes with the extra ``[plot]`` and is loaded only here."""
+"""Figures as PNG and PDF, painted by matplotlib, which is in the extra ``[plot]`` and is imported only here."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _POINTS = 72 / 96  # of print, to a pixel
 
 
 def save_figure(figure: Figure, file: BinaryIO, suffix: str, *, zoom: float = 3.0, dark: bool = False) -> None:
-    """Write a figure as ``png`` (so many pixels to a pixel) or ``pdf``, on light or dark ground.
+    """Write a figure as ``png`` (``zoom`` times the pixels) or ``pdf``, on light or dark ground.
 
     Raises `GrueblerError` if matplotlib is not installed.
     """
@@ -68,10 +68,10 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
 
     style = STYLES[shape.style]
     if isinstance(shape, TextShape):
-        words, has_subscripts = math_words(shape.words)
+        text, has_subscripts = math_text(shape.text)
         axes.text(
             *shape.at,
-            words,
+            text,
             fontsize=style.size * point,
             color=COLOURS[style.fill][dark],
             ha={"start": "left", "middle": "center", "end": "right"}[shape.anchor],
@@ -104,11 +104,11 @@ def _paint(axes: Any, shape: Shape, order: int, point: float, dark: bool) -> Non
     )
 
 
-def math_words(words: str) -> tuple[str, bool]:
-    """Words in the notation of matplotlib, subscripts upright as all others; whether there are subscripts."""
-    pieces = split_subscripts(words)
+def math_text(text: str) -> tuple[str, bool]:
+    """Text in the notation of matplotlib, with upright subscripts; and whether there are subscripts."""
+    pieces = split_subscripts(text)
     if len(pieces) == 1:
-        return words, False
+        return text, False
     plain = [(piece.replace("$", r"\$"), low) for piece, low in pieces]
     return "".join(rf"$_\mathregular{{{piece}}}$" if low else piece for piece, low in plain), True
 
@@ -123,12 +123,12 @@ _A4 = (210 / 25.4, 297 / 25.4)
 _LEFT, _TOP, _BOTTOM = 0.05, 0.95, 0.04
 _ROW, _HEADING, _TITLE = 0.15, 0.022, 0.012  # of the height of a page
 _COLUMNS = (5, 3, 2, 1)
-_LEGIBLE = 0.62  # of their size: pictures are not made smaller as long as fewer of them stand in a row
+_LEGIBLE = 0.62  # of their size: pictures are reduced to this at most, otherwise a row has fewer of them
 _CODE = 5.0  # points
 
 
 def gallery_pdf(title: str, sections: Iterable[Section], *, note: str = "") -> bytes:
-    """The gallery on A4 pages, up to five pictures in a row, fewer where words in them would become illegible.
+    """The gallery on A4 pages, up to five pictures in a row, fewer where texts in them would be illegible.
 
     Raises `GrueblerError` if matplotlib is not installed.
     """
@@ -163,7 +163,7 @@ _TALL = 0.42  # of the height of a page, for one picture in a row
 
 
 def _columns(section: Section) -> int:
-    """How many pictures stand in a row of a section."""
+    """The number of pictures in a row of a section."""
     for columns in _COLUMNS:
         wide, high = (1 - 2 * _LEFT) / columns, _ROW * _COLUMNS[0] / columns
         if all(_scale(item.figure, wide, high) >= _LEGIBLE for item in section.items):

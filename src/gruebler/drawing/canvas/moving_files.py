@@ -1,4 +1,4 @@
-"""Moving pictures as bytes of a file: SVG, one HTML page, or pictures one after another."""
+"""Moving pictures as bytes of a file: SVG, one HTML page, or a sequence of pictures."""
 
 from __future__ import annotations
 

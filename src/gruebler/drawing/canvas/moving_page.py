@@ -40,19 +40,19 @@ run();show(at(0));tick();"""
 
 
 class PageSettings(TypedDict):
-    """What the script needs to know: from where to where the drive goes, and in which time."""
+    """The settings of the script: the range of the drive and the time."""
 
     low: float
     high: float
     seconds: float
     round: bool
-    """Evenly from low to high; else there and back."""
+    """Evenly from low to high; else to and fro."""
     places: int
     unit: str
 
 
 def moving_page_html(picture: str, about: Figure, settings: PageSettings, lang: str) -> str:
-    """The page around an SVG that moves by itself, with the title and description of a figure."""
+    """The page around an animated SVG, with the title and description of a figure."""
     low, high = settings["low"], settings["high"]
     colours = dict(zip(("light", "dark"), COLOURS["paper"], strict=True))
     colours |= {"ink": COLOURS["ink"][0], "pale": COLOURS["ink"][1], "accent": COLOURS["motion"][0]}

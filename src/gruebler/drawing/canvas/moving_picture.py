@@ -1,7 +1,7 @@
-"""Pictures of bodies that shift and turn by keys evenly in time: one instant as shapes, all of them as SVG that moves.
+"""Pictures of bodies that shift and turn by keys at even times: one instant as shapes, all of them as animated SVG.
 
-Lengths are pixels and y points down, as in every figure; angles are radians, counter-clockwise as they are seen.
-Between two keys everything goes on straight lines, so that even motions need two keys only and are exact.
+Lengths are pixels and y points down, as in every figure; angles are radians, counter-clockwise on the screen.
+Between two keys all values are interpolated linearly, so that even motions need only two keys and are exact.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ __all__ = [
 _MARGIN = 16.0
 _LONGEST = 3600.0  # seconds
 _ROW, _SAMPLE = 20.0, 30.0  # of a list of lines
-_LOOKS = 32  # instants at which the size of a moving picture is measured
+_LOOKS = 32  # instants that determine the size of a moving picture
 
 
 class Shift(NamedTuple):
-    """A way, at keys; one key stands for all times."""
+    """A displacement at keys; one key is valid for all times."""
 
     places: tuple[Point, ...]
 
@@ -62,14 +62,14 @@ class Turn(NamedTuple):
 
 
 class Body(NamedTuple):
-    """Shapes that move together; the step named first is the last to be applied, as in SVG."""
+    """Shapes that move together; the first step is applied last, as in SVG."""
 
     shapes: tuple[Shape, ...]
     steps: tuple[Shift | Turn, ...] = ()
 
 
 class Clock(NamedTuple):
-    """How many seconds it takes until everything repeats, and what the drive does meanwhile, in the unit told."""
+    """The period in seconds, and the motion of the drive in it, in the given unit."""
 
     seconds: float
     low: float
@@ -80,26 +80,26 @@ class Clock(NamedTuple):
 
 
 class MovingPicture(NamedTuple):
-    """Bodies in the order in which they are painted."""
+    """Bodies in painting order."""
 
     bodies: tuple[Body, ...]
     clock: Clock
     corner: Point
     """The upper left corner of all that is ever seen."""
     page: Figure
-    """Without shapes: size and words."""
+    """Without shapes: size, title and description."""
 
     def _repr_svg_(self) -> str:
         return moving_svg(self)
 
 
 def moving(bodies: Iterable[Body], clock: Clock, title: str, description: str) -> MovingPicture:
-    """The moving picture that just holds its bodies at all times."""
+    """The smallest moving picture around its bodies at all times."""
     parts = tuple(body for body in bodies if body.shapes)
     restless = [body for body in parts if body.steps]
-    seen = [shape for k in range(_LOOKS if restless else 0) for shape in at_time(restless, k / _LOOKS)]
-    seen += [shape for body in parts if not body.steps for shape in body.shapes]
-    corner, size = bounds(seen, _MARGIN)
+    visible = [shape for k in range(_LOOKS if restless else 0) for shape in at_time(restless, k / _LOOKS)]
+    visible += [shape for body in parts if not body.steps for shape in body.shapes]
+    corner, size = bounds(visible, _MARGIN)
     return MovingPicture(parts, clock, corner, Figure((), size.x, size.y, title, description))
 
 
@@ -118,17 +118,17 @@ def still_picture(bodies: Iterable[Body], title: str, description: str) -> Figur
 
 
 def even_keys(turns: float, start: float = 0.0) -> Turn:
-    """A motion by so many turns at an even speed."""
+    """A motion by a number of turns at an even speed."""
     return Turn((start, start + math.tau * turns)) if turns else Turn((start,))
 
 
 def key_list(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
-    """What lines mean: pairs of a style and words, one below the other, each beside a piece of its line."""
+    """The legend of lines: pairs of a style and a text, one below the other, each beside a sample of its line."""
     shapes: list[Shape] = []
-    for k, (style, words) in enumerate(rows):
-        left = at.plus(Point(0.0, _ROW * k))
-        shapes += [Polylines(((left, left.plus(Point(_SAMPLE, 0.0))),), style)]
-        shapes += [TextShape(left.plus(Point(_SAMPLE + 8.0, 0.0)), words, "value", "start")]
+    for k, (style, text) in enumerate(rows):
+        start = at.plus(Point(0.0, _ROW * k))
+        shapes += [Polylines(((start, start.plus(Point(_SAMPLE, 0.0))),), style)]
+        shapes += [TextShape(start.plus(Point(_SAMPLE + 8.0, 0.0)), text, "value", "start")]
     return shapes
 
 
@@ -136,14 +136,14 @@ def key_list(rows: Iterable[tuple[str, str]], at: Point) -> list[Shape]:
 
 
 def at_time(bodies: Iterable[Body], time: float) -> list[Shape]:
-    """The shapes of all bodies when so great a part of the time (0 to 1) has passed.
+    """The shapes of all bodies after a part of the time (0 to 1).
 
     >>> body = Body((CircleShape(Point(10, 0), 2, "joint"),), (Shift((Point(5, 5),)), even_keys(1)))
     >>> at = at_time([body], 0.25)[0].at  # a quarter turn upwards
     >>> round(at.x, 9), round(at.y, 9)
     (5.0, -5.0)
     """
-    found: list[Shape] = []
+    shapes: list[Shape] = []
     for body in bodies:
         turn, place = complex(1.0), Point(0.0, 0.0)
         for step in reversed(body.steps):
@@ -152,8 +152,8 @@ def at_time(bodies: Iterable[Body], time: float) -> list[Shape]:
             else:
                 by = cmath.rect(1.0, float(np.interp(time, np.linspace(0, 1, len(step.angles)), step.angles)))
                 turn, place = turn * by, _turned(place, by)
-        found += [_put(shape, turn, place) for shape in body.shapes]
-    return found
+        shapes += [_put(shape, turn, place) for shape in body.shapes]
+    return shapes
 
 
 def _between(places: Sequence[Point], time: float) -> Point:
@@ -166,7 +166,7 @@ def _turned(p: Point, turn: complex) -> Point:
 
 
 def _put(shape: Shape, turn: complex, place: Point) -> Shape:
-    """The shape turned about the origin (e^(i angle)) and then shifted; words stay level."""
+    """The shape turned about the origin (e^(i angle)) and then shifted; texts remain level."""
 
     def to(p: Point) -> Point:
         return place.plus(_turned(p, turn))
@@ -178,8 +178,8 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
             return CircleShape(to(at), radius, style)
         case ArcShape(at, radius, begin, extent, style):
             return ArcShape(to(at), radius, begin - cmath.phase(turn), extent, style)
-        case TextShape(at, words, style, anchor):
-            return TextShape(to(at), words, style, anchor)
+        case TextShape(at, text, style, anchor):
+            return TextShape(to(at), text, style, anchor)
 
 
 def figure_at(picture: MovingPicture, time: float) -> Figure:
@@ -193,7 +193,7 @@ def figure_at(picture: MovingPicture, time: float) -> Figure:
 
 
 def moving_svg(picture: MovingPicture) -> str:
-    """The picture as SVG that moves by itself (SMIL), over and over, without script."""
+    """The picture as animated SVG (SMIL), repeated without end, without script."""
     used = [shape.style for body in picture.bodies for shape in body.shapes]
     shift = f"{svg_number(-picture.corner.x)} {svg_number(-picture.corner.y)}"
     groups = (_group(body, picture.clock.seconds) for body in picture.bodies)
@@ -212,11 +212,11 @@ def _group(body: Body, seconds: float) -> str:
 
 
 def _moves(written: Sequence[tuple[str, list[str]]], seconds: float) -> Iterator[str]:
-    """One after another: the first replaces what stands in the group, the others follow it."""
+    """The transforms in order: the first replaces the transform of the group, the others are added."""
     for k, (kind, values) in enumerate(written):
         shown = ";".join(values[:1] * 2 if len(set(values)) == 1 else values)
-        how = f'attributeName="transform" type="{kind}" additive="{"sum" if k else "replace"}"'
-        yield f'<animateTransform {how} dur="{seconds:g}s" repeatCount="indefinite" values="{shown}"/>'
+        attributes = f'attributeName="transform" type="{kind}" additive="{"sum" if k else "replace"}"'
+        yield f'<animateTransform {attributes} dur="{seconds:g}s" repeatCount="indefinite" values="{shown}"/>'
 
 
 def _keys(step: Shift | Turn) -> tuple[str, list[str]]:

@@ -19,13 +19,13 @@ from gruebler.drawing.canvas.simplification import FINE, simplified
 from gruebler.errors import GrueblerError
 from gruebler.text import decimal_sign_in, translate
 
-__all__ = ["AxisMarker", "Band", "Curve", "Panel", "PointMarker", "Rest", "draw_panels", "ratio_diagram"]
+__all__ = ["AxisMarker", "Band", "Curve", "DwellMarker", "Panel", "PointMarker", "draw_panels", "ratio_diagram"]
 
 
 _SIZE = Point(520.0, 300.0)
 _TICK = 5.0
-_ABOVE = 17.0  # from a panel to what its axis measures, and once more where marks have words
-_MARGINS = (10.0, 24.0, 38.0, 52.0, 66.0)  # beside a panel, where no words of points are put
+_ABOVE = 17.0  # from a panel to the name of its axis, and once more where marks have texts
+_MARGINS = (10.0, 24.0, 38.0, 52.0, 66.0)  # beside a panel, kept free of the names of points
 _BETWEEN = 62.0  # pixels from panel to panel
 _BESIDE = 20.0  # from the panels to the list of lines
 _ROW, _SAMPLE = 22.0, 34.0  # of the list
@@ -37,42 +37,42 @@ class Curve(NamedTuple):
     x: Reals
     y: Reals
     name: str
-    """In the list of lines; no name, no row there."""
+    """The name in the list of lines; empty for no row there."""
     style: str
     right: bool = False
     """Whether it is read at the axis on the right."""
 
 
 class PointMarker(NamedTuple):
-    """A point that is named."""
+    """A point with a name."""
 
     x: float
     y: float
-    words: str
+    text: str
     right: bool = False
 
 
 class Band(NamedTuple):
-    """A range of heights that is shaded, with words in it."""
+    """A shaded range of heights, with a text in it."""
 
     low: float
     high: float
-    words: str
+    text: str
 
 
 class AxisMarker(NamedTuple):
     """A place on the axis below that is marked by a line upwards."""
 
     x: float
-    words: str
+    text: str
 
 
-class Rest(NamedTuple):
-    """A range of the axis below that is shaded: a dwell, with words above it."""
+class DwellMarker(NamedTuple):
+    """A shaded range of the axis below: a dwell, with a text above it."""
 
     low: float
     high: float
-    words: str
+    text: str
 
 
 class Panel(NamedTuple):
@@ -85,10 +85,10 @@ class Panel(NamedTuple):
     bands: tuple[Band, ...] = ()
     marks: tuple[AxisMarker, ...] = ()
     spots: tuple[PointMarker, ...] = ()
-    rests: tuple[Rest, ...] = ()
+    dwells: tuple[DwellMarker, ...] = ()
     size: Point = _SIZE
     marked: str = ""
-    """What the marks are, for the list of lines."""
+    """The name of the marks in the list of lines."""
 
     def place(self, x: float, y: float, right: bool = False) -> Point:
         """A pair of values in pixels; the lower left corner is the origin."""
@@ -119,7 +119,7 @@ def draw_panels(panels: Sequence[Panel], title: str, description: str, lang: str
 def _localised(shape: Shape, lang: str) -> Shape:
     """A shape whose numbers have the decimal sign of a language."""
     if isinstance(shape, TextShape) and shape.style in ("tick", "value"):
-        return replace(shape, words=decimal_sign_in(shape.words, lang))
+        return replace(shape, text=decimal_sign_in(shape.text, lang))
     return shape
 
 
@@ -128,7 +128,7 @@ def _right_margin(axis: Axis) -> float:
 
 
 def _painted(panel: Panel) -> list[Shape]:
-    """Everything in a panel; the words at its points keep clear of lines, not of the grid."""
+    """Everything in a panel; the names of its points avoid lines, not the grid."""
     drawn: list[Shape] = [Polylines(lines, c.style) for c in panel.curves if (lines := tuple(_pieces(panel, c)))]
     drawn += [*_frame(panel), *_marks(panel)]
     sides = [x for off in _MARGINS for x in (-off, panel.size.x + off)]
@@ -136,18 +136,18 @@ def _painted(panel: Panel) -> list[Shape]:
     for spot in panel.spots:
         at = panel.place(spot.x, spot.y, spot.right)
         drawn.append(CircleShape(at, 3.2, "dot"))
-        drawn += [note_near(at, spot.words, "value", [*drawn, margins])] if spot.words else []
+        drawn += [note_near(at, spot.text, "value", [*drawn, margins])] if spot.text else []
     shaded = [shape for band in panel.bands for shape in _shaded(panel, band, drawn)]
-    rests = [_rest(panel, rest) for rest in panel.rests]
-    return [*rests, *shaded, *_grid(panel), *drawn]
+    dwells = [_dwell(panel, dwell) for dwell in panel.dwells]
+    return [*dwells, *shaded, *_grid(panel), *drawn]
 
 
-def _rest(panel: Panel, rest: Rest) -> Shape:
+def _dwell(panel: Panel, dwell: DwellMarker) -> Shape:
     """A dwell, shaded from below to above."""
-    left, right = (panel.size.x * panel.across.scale.part(x) for x in (rest.low, rest.high))
+    start, end = (panel.size.x * panel.across.scale.part(x) for x in (dwell.low, dwell.high))
     high = panel.size.y
     return Polylines(
-        ((Point(left, 0.0), Point(right, 0.0), Point(right, -high), Point(left, -high)),), "rest", closed=True
+        ((Point(start, 0.0), Point(end, 0.0), Point(end, -high), Point(start, -high)),), "rest", closed=True
     )
 
 
@@ -165,7 +165,7 @@ def _grid(panel: Panel) -> Iterator[Shape]:
 
 
 def _frame(panel: Panel) -> Iterator[Shape]:
-    """The axes with ticks, their numbers, and what they measure."""
+    """The axes with ticks, their numbers, and the names of the quantities."""
     wide, high = panel.size
     corner = Point(0.0, 0.0)
     ends = [Point(0.0, -high), corner, Point(wide, 0.0), *([Point(wide, -high)] if panel.right else [])]
@@ -176,46 +176,46 @@ def _frame(panel: Panel) -> Iterator[Shape]:
         at = Point(wide * across.part(x), 0.0)
         strokes.append((at, at.plus(Point(0, 1), _TICK if name else _TICK / 2)))
         texts += [TextShape(at.plus(Point(0, 1), _TICK + 10.0), name, "tick")] if name else []
-    for axis, left, out in ((panel.up, 0.0, -1.0), *([(panel.right, wide, 1.0)] if panel.right else [])):
+    for axis, edge, outward in ((panel.up, 0.0, -1.0), *([(panel.right, wide, 1.0)] if panel.right else [])):
         for y, name in zip(axis.scale.ticks, axis.scale.names, strict=True):
-            at = Point(left, -high * axis.scale.part(y))
-            strokes.append((at, at.plus(Point(out, 0.0), _TICK if name else _TICK / 2)))
-            beside = at.plus(Point(out, 0.0), _TICK + 4.0)
-            texts += [TextShape(beside, name, "tick", "end" if out < 0 else "start")] if name else []
+            at = Point(edge, -high * axis.scale.part(y))
+            strokes.append((at, at.plus(Point(outward, 0.0), _TICK if name else _TICK / 2)))
+            beside = at.plus(Point(outward, 0.0), _TICK + 4.0)
+            texts += [TextShape(beside, name, "tick", "end" if outward < 0 else "start")] if name else []
     yield Polylines(tuple(strokes), "axis")
     yield from texts
-    yield TextShape(Point(wide, _TICK + 27.0), panel.across.words, "value", "end")
+    yield TextShape(Point(wide, _TICK + 27.0), panel.across.text, "value", "end")
     above = -high - _ABOVE * (
-        2 if any([*(mark.words for mark in panel.marks), *(rest.words for rest in panel.rests)]) else 1
+        2 if any([*(mark.text for mark in panel.marks), *(dwell.text for dwell in panel.dwells)]) else 1
     )
-    yield TextShape(Point(0.0, above), panel.up.words, "value", "start")
+    yield TextShape(Point(0.0, above), panel.up.text, "value", "start")
     if panel.right:
-        yield TextShape(Point(wide, above), panel.right.words, "value", "end")
+        yield TextShape(Point(wide, above), panel.right.text, "value", "end")
 
 
 def _shaded(panel: Panel, band: Band, drawn: Sequence[Shape]) -> Iterator[Shape]:
-    """A range of heights, with its words where most room is."""
+    """A range of heights, with its text where most space is free."""
     low, high = (panel.place(panel.across.scale.low, y) for y in (band.low, band.high))
     wide = Point(panel.size.x, 0.0)
     yield Polylines(((low, low.plus(wide), high.plus(wide), high),), "warning", closed=True)
-    half = text_width(band.words, 11.0) / 2
+    half = text_width(band.text, 11.0) / 2
     places = [Point(x, y) for y in (high.y + 11.0, low.y - 11.0) for x in (wide.x - half - 6.0, half + 6.0, wide.x / 2)]
     free = Obstacles(drawn).free(complexes(places), 2 * half)
-    yield TextShape(places[int(free.argmax())], band.words, "tick")
+    yield TextShape(places[int(free.argmax())], band.text, "tick")
 
 
 def _marks(panel: Panel) -> Iterator[Shape]:
-    """Lines upwards; their words and those of dwells stand side by side above the panel, as long as there is room."""
+    """Lines upwards; their texts and those of dwells are side by side above the panel, if there is space."""
     last = -math.inf
-    rests = [AxisMarker((rest.low + rest.high) / 2, rest.words) for rest in panel.rests]
-    for mark in sorted([*panel.marks, *rests]):
+    dwells = [AxisMarker((dwell.low + dwell.high) / 2, dwell.text) for dwell in panel.dwells]
+    for mark in sorted([*panel.marks, *dwells]):
         foot = panel.place(mark.x, panel.up.scale.low)
         top = Point(foot.x, -panel.size.y)
-        if mark not in rests:
+        if mark not in dwells:
             yield Polylines(((foot, top),), "dead")
-        half = text_width(mark.words, 11.0) / 2
-        if mark.words and foot.x - half > last:
-            yield TextShape(top.plus(Point(0.0, -13.0)), mark.words, "tick")
+        half = text_width(mark.text, 11.0) / 2
+        if mark.text and foot.x - half > last:
+            yield TextShape(top.plus(Point(0.0, -13.0)), mark.text, "tick")
             last = foot.x + half + 4.0
 
 
@@ -225,12 +225,12 @@ def _marks(panel: Panel) -> Iterator[Shape]:
 def _pieces(panel: Panel, curve: Curve) -> list[tuple[Point, ...]]:
     """The parts of a line within the panel, with fewer points."""
     axis = panel.right if curve.right and panel.right is not None else panel.up
-    good = np.isfinite(curve.x) & np.isfinite(curve.y)
+    drawable = np.isfinite(curve.x) & np.isfinite(curve.y)
     if axis.scale.logarithmic:
-        good &= curve.y > 0
+        drawable &= curve.y > 0
     parts: list[list[Point]] = []
     for k in range(len(curve.x) - 1):
-        if not (good[k] and good[k + 1]):
+        if not (drawable[k] and drawable[k + 1]):
             continue
         start, end = (panel.place(float(curve.x[m]), float(curve.y[m]), curve.right) for m in (k, k + 1))
         inside = _clipped(start, end, panel.size)
@@ -259,10 +259,10 @@ def _clipped(a: Point, b: Point, size: Point) -> tuple[Point, Point] | None:
     return a if first == 0.0 else a.plus(along, first), b if last == 1.0 else a.plus(along, last)
 
 
-def _listed(named: dict[str, str], left: float) -> Iterator[Shape]:
-    """The names of the lines, one below the other, each beside a piece of its line."""
+def _listed(named: dict[str, str], edge: float) -> Iterator[Shape]:
+    """The names of the lines, one below the other, each beside a sample of its line."""
     for k, (name, style) in enumerate(named.items()):
-        at = Point(left, 8.0 + _ROW * k)
+        at = Point(edge, 8.0 + _ROW * k)
         yield Polylines(((at, at.plus(Point(_SAMPLE, 0.0))),), style)
         yield TextShape(at.plus(Point(_SAMPLE + 8.0, 0.0)), name, "value", "start")
 
@@ -280,7 +280,7 @@ def ratio_diagram(
     title: str = "",
     size: tuple[float, float] = _SIZE,
 ) -> Figure:
-    """The diagram of a straight-line guidance: Q_G and L/l₁ over the crank angle that it takes.
+    """The diagram of a straight-line guidance: Q_G and L/l₁ over its crank angle.
 
     Args:
         angle: the window phi_G of the crank, in radians, ascending.
@@ -288,24 +288,24 @@ def ratio_diagram(
         length: L/l₁, the length by that of the crank; its scale is on the right.
         at: phi_G, Q_G and L/l₁ of an example, marked as P₁ and P₂.
         lang: ``en`` or ``de``.
-        title: of the picture, if it is not to be told that it is such a diagram.
+        title: of the picture; by default the kind of diagram.
         size: of the field between the axes, in pixels.
 
     Raises `GrueblerError` for lists of different lengths, less than two values, or ratios that are not positive.
 
     >>> figure = ratio_diagram([0.5, 1.6, 2.9], [1e-6, 1e-4, 5e-3], [0.8, 2.0, 3.9], at=(2.85, 0.005, 3.9))
-    >>> [shape.words for shape in figure.shapes if isinstance(shape, TextShape)][-4:]
+    >>> [shape.text for shape in figure.shapes if isinstance(shape, TextShape)][-4:]
     ['P₁', 'P₂', 'Q_G', 'L/l₁']
     """
-    phi, q, way = (np.array(list(values), np.float64) for values in (angle, ratio, length))
-    if not len(phi) == len(q) == len(way) >= 2:
+    phi, q, lengths = (np.array(list(values), np.float64) for values in (angle, ratio, length))
+    if not len(phi) == len(q) == len(lengths) >= 2:
         raise GrueblerError(
             "expected three lists of the same length, but found {angles}, {ratios}, {lengths} values",
             angles=len(phi),
             ratios=len(q),
-            lengths=len(way),
+            lengths=len(lengths),
         )
-    if not (np.isfinite([phi, q, way]).all() and (q > 0).all()):
+    if not (np.isfinite([phi, q, lengths]).all() and (q > 0).all()):
         raise GrueblerError("expected finite values with ratios above 0")
     degrees = np.degrees(phi)
     spots: tuple[PointMarker, ...] = ()
@@ -322,17 +322,17 @@ def ratio_diagram(
         )
         about = f"{about} {point}"
 
-    def axis(words: str, scale: Scale) -> Axis:
-        return Axis(words, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
+    def axis(text: str, scale: Scale) -> Axis:
+        return Axis(text, scale._replace(names=tuple(decimal_sign_in(name, lang) for name in scale.names)))
 
     panel = Panel(
         axis(translate("φ_G in °", lang), angles(0.0, float(degrees.max()), tight=True)),
         axis("Q_G", decades(float(q.min()), float(q.max()))),
         (
             Curve(degrees, q, "Q_G", "line-1"),
-            Curve(degrees, way, "L/l₁", "line-2", right=True),
+            Curve(degrees, lengths, "L/l₁", "line-2", right=True),
         ),
-        axis("L/l₁", decimals(0.0, float(way.max()))),
+        axis("L/l₁", decimals(0.0, float(lengths.max()))),
         marks=(AxisMarker(spots[0].x, ""),) if spots else (),
         spots=spots,
         size=Point(*size),

@@ -1,6 +1,6 @@
 """The shapes of a picture.
 
-Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`; nothing else tells how it looks.
+Lengths are pixels, y points down. Every shape names a row of `styles.STYLES`, which alone determines its look.
 """
 
 from __future__ import annotations
@@ -47,12 +47,12 @@ class Point(NamedTuple):
 
     @property
     def length(self) -> float:
-        """Of the vector."""
+        """The length of the vector."""
         return math.hypot(self.x, self.y)
 
     @property
     def unit(self) -> Point:
-        """The vector of length 1 in the same direction; to the right for no vector at all."""
+        """The vector of length 1 in the same direction; to the right for the zero vector."""
         size = self.length
         return Point(self.x / size, self.y / size) if size > 1e-9 else Point(1.0, 0.0)
 
@@ -82,7 +82,7 @@ class CircleShape:
 
 @dataclass(frozen=True, slots=True)
 class ArcShape:
-    """A part of a circle, from an angle on by an extent of less than a full turn; positive from x to y."""
+    """An arc of a circle from an angle over an extent of less than a full turn; positive from x to y."""
 
     at: Point
     radius: float
@@ -98,10 +98,10 @@ class ArcShape:
 
 @dataclass(frozen=True, slots=True)
 class TextShape:
-    """Words at a place, their middle at its height; the anchor is start, middle or end."""
+    """A text at a place, its middle at the height of the place; the anchor is start, middle or end."""
 
     at: Point
-    words: str
+    text: str
     style: str
     anchor: str = "middle"
 
@@ -120,25 +120,25 @@ def bounds(shapes: Iterable[Shape], margin: float = 10.0) -> tuple[Point, Point]
 _LOWERED = re.compile(r"(?<![^\W₀-₉])([^\W\d_])_(\w{1,3})(?!\w)")
 
 
-def split_subscripts(words: str) -> list[tuple[str, bool]]:
-    """A text in pieces, each with whether it stands lower: up to three signs after a letter and an underscore.
+def split_subscripts(text: str) -> list[tuple[str, bool]]:
+    """A text in pieces, each with whether it is a subscript: up to three signs after a letter and an underscore.
 
     >>> split_subscripts("μ_min = 3°, left_arm")
     [('μ', False), ('min', True), (' = 3°, left_arm', False)]
     >>> split_subscripts("B₀K_I")
     [('B₀K', False), ('I', True)]
     """
-    pieces = _LOWERED.split(words)
+    pieces = _LOWERED.split(text)
     in_order = [(pieces[0], False)]
-    for letter, low, rest in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
+    for letter, low, following in zip(pieces[1::3], pieces[2::3], pieces[3::3], strict=True):
         in_order[-1] = in_order[-1][0] + letter, False
-        in_order += [(low, True), (rest, False)]
+        in_order += [(low, True), (following, False)]
     return [piece for piece in in_order if piece[0]]
 
 
-def text_width(words: str, size: float = 13.0) -> float:
-    """About how wide a text is; widths differ from one font to another."""
-    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in words)
+def text_width(text: str, size: float = 13.0) -> float:
+    """The approximate width of a text; widths differ between fonts."""
+    return size * sum(0.3 if letter in "iIjlt.,:;|!'()" else 0.85 if letter in "mwMW" else 0.58 for letter in text)
 
 
 def _corners(shape: Shape) -> Iterator[Point]:
@@ -147,14 +147,14 @@ def _corners(shape: Shape) -> Iterator[Point]:
             yield from (point for part in parts for point in part)
         case CircleShape(at, radius) | ArcShape(at, radius):
             yield from (Point(at.x - radius, at.y - radius), Point(at.x + radius, at.y + radius))
-        case TextShape(at, words, style, anchor):
-            wide = text_width(words, STYLES[style].size)
+        case TextShape(at, text, style, anchor):
+            wide = text_width(text, STYLES[style].size)
             left = at.x - wide * {"start": 0.0, "middle": 0.5, "end": 1.0}[anchor]
             yield from (Point(left, at.y - 8), Point(left + wide, at.y + 8))
 
 
 def moved_shape(shape: Shape, by: Point) -> Shape:
-    """The shape somewhere else."""
+    """The shape shifted by a vector."""
     match shape:
         case Polylines(parts, style, closed):
             return Polylines(tuple(tuple(point.plus(by) for point in part) for part in parts), style, closed)
@@ -162,5 +162,5 @@ def moved_shape(shape: Shape, by: Point) -> Shape:
             return CircleShape(at.plus(by), radius, style)
         case ArcShape(at, radius, begin, extent, style):
             return ArcShape(at.plus(by), radius, begin, extent, style)
-        case TextShape(at, words, style, anchor):
-            return TextShape(at.plus(by), words, style, anchor)
+        case TextShape(at, text, style, anchor):
+            return TextShape(at.plus(by), text, style, anchor)

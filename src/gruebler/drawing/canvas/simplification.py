@@ -11,17 +11,17 @@ from gruebler.drawing.canvas.shapes import Point
 __all__ = ["FINE", "simplified"]
 
 FINE = 0.12
-"""Pixels by which a drawn curve may be off."""
+"""The tolerance of a drawn curve in pixels."""
 
 
 def simplified(points: Sequence[Point], most: float) -> list[Point]:
-    """Fewer points of a line, so that it stays within a distance of the others (Douglas and Peucker 1973).
+    """Fewer points of a line, with the others within a distance of it (Douglas and Peucker 1973).
 
     >>> simplified([Point(0, 0), Point(1, 0.01), Point(2, 0)], 0.1)
     [Point(x=0, y=0), Point(x=2, y=0)]
     """
     xy = np.array(points, np.float64)
-    kept = {0, len(xy) - 1}
+    selected = {0, len(xy) - 1}
     open_parts = [(0, len(xy) - 1)]
     while open_parts:
         a, b = open_parts.pop()
@@ -34,6 +34,6 @@ def simplified(points: Sequence[Point], most: float) -> list[Point]:
         k = int(far.argmax())
         if far[k] > most:
             middle = a + 1 + k
-            kept.add(middle)
+            selected.add(middle)
             open_parts += [(a, middle), (middle, b)]
-    return [points[k] for k in sorted(kept)]
+    return [points[k] for k in sorted(selected)]

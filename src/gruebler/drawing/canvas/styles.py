@@ -1,9 +1,9 @@
-"""How shapes look: colours by role, for light and dark ground, and one row for each style.
+"""The styles of shapes: colours by role, for light and dark ground, and one row for each style.
 
-Links are told apart by outline and hatching, never by colour alone; the accent (drives, loops) and the colour of motion
-(curves, velocities) are the vermilion and the blue of the palette of Okabe and Ito (2008), which all kinds of colour
-vision tell from grey and from each other; green and purple are theirs too, darker on light ground. Lines of a plot are
-told apart by their dashes as well.
+Outline and hatching distinguish links, never colour alone; the accent (drives, loops) and the colour of motion
+(curves, velocities) are the vermilion and the blue of the palette of Okabe and Ito (2008), which differ from grey and
+from each other for all kinds of colour vision; green and purple are from it too, darker on light ground. Lines of a
+plot also differ by their dashes.
 """
 
 from __future__ import annotations
@@ -112,4 +112,4 @@ STYLES = {
     "line-8": Style(stroke="green", width=1.9, dash=_MIXED),
 }
 LINES = tuple(name for name in STYLES if name.startswith("line-"))
-"""Styles of the lines of a plot, in the order in which they are taken."""
+"""Styles of the lines of a plot, in the order of their use."""

@@ -1,4 +1,4 @@
-"""Figures as SVG: small, the same from run to run, with title and description, text as text."""
+"""Figures as SVG: small, reproducible, with title and description, with text as text elements."""
 
 from __future__ import annotations
 
@@ -53,10 +53,10 @@ def svg_element(shape: Shape) -> str:
             flags = f"{int(abs(extent) > math.pi)} {int(extent > 0)}"
             ends = _pair(shape.place(0)), _pair(shape.place(1))
             return f'<path class="gr-{style}" d="M{ends[0]}A{size} {size} 0 {flags} {ends[1]}"/>'
-        case TextShape(at, words, style, anchor):
-            where = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
+        case TextShape(at, text, style, anchor):
+            position = f'x="{svg_number(at.x)}" y="{svg_number(at.y + 0.35 * STYLES[style].size)}"'
             anchored = "" if anchor == "start" else f' text-anchor="{anchor}"'
-            return f'<text class="gr-{style}" {where}{anchored}>{svg_words(words, STYLES[style].size)}</text>'
+            return f'<text class="gr-{style}" {position}{anchored}>{svg_text(text, STYLES[style].size)}</text>'
 
 
 def _line(points: tuple[Point, ...], closed: bool) -> str:
@@ -72,22 +72,28 @@ def svg_number(value: float) -> str:
     return f"{round(value, 1) + 0.0:g}" if abs(value) < 1e5 else f"{value:.0f}"
 
 
-def svg_words(words: str, size: float) -> str:
-    """Words with subscripts, and after them as high as before; the size is that of the letters."""
-    pieces = split_subscripts(words)
+def svg_text(text: str, size: float) -> str:
+    """Text with subscripts, after which the base line is restored; the size is that of the letters."""
+    pieces = split_subscripts(text)
     if len(pieces) == 1:
-        return xml_text(words)
-    made, was_low = "", False
+        return xml_text(text)
+    markup, was_low = "", False
     for piece, low in pieces:
         shift = 0.25 * size * (low - was_low)
         small = f' font-size="{svg_number(0.75 * size)}"' if low else ""
-        text = piece.lstrip(" ")
-        made += " " * (len(piece) - len(text))  # before the tspan: in it, some viewers drop spaces at its beginning
-        made += f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(text)}</tspan>' if shift or small else xml_text(text)
+        visible = piece.lstrip(" ")
+        markup += " " * (
+            len(piece) - len(visible)
+        )  # before the tspan: in it, some viewers drop spaces at its beginning
+        markup += (
+            f'<tspan dy="{svg_number(shift)}"{small}>{xml_text(visible)}</tspan>'
+            if shift or small
+            else xml_text(visible)
+        )
         was_low = low
-    return made
+    return markup
 
 
-def xml_text(words: str) -> str:
-    """Text that XML can hold."""
-    return escape(words.translate(_CONTROLS))
+def xml_text(text: str) -> str:
+    """Text escaped for XML, without control characters."""
+    return escape(text.translate(_CONTROLS))

@@ -1,7 +1,7 @@
-"""The signs of joints, links, frames and drives, at given places; structure and scale pictures share them.
+"""The signs of joints, links, frames and drives at given places, for structure and scale pictures.
 
-A joint is told where it is and where its links lie, and answers with the shapes below and above the links and with the
-point at which each link takes hold of it. Signs: docs/theory/drawing.md.
+The sign of a joint, for its place and the directions of its links, consists of the shapes below and above the links and
+of the point at which each link is attached. Signs: docs/theory/drawing.md.
 """
 
 from __future__ import annotations
@@ -48,20 +48,20 @@ class JointMember:
 
 @dataclass(frozen=True, slots=True)
 class JointSign:
-    """What a joint looks like."""
+    """The sign of a joint."""
 
     below: tuple[Shape, ...]
     above: tuple[Shape, ...]
     holds: tuple[Point, ...]
-    """Where each member takes hold."""
+    """The point of attachment of each member."""
     axis: Point
     """The direction of sliding, or the common tangent; for turning joints without meaning."""
     reach: float
-    """How far the sign goes from its middle."""
+    """The greatest distance of the sign from its middle."""
 
 
 def joint_sign(kind: str, at: Point, members: Sequence[JointMember], *, letter: str = "") -> JointSign:
-    """The sign of a pair by name; a letter is written where the pair has no sign of its own in the plane."""
+    """The sign of a pair by name; a letter where the pair has no sign of its own in the plane."""
     if letter or kind not in _SIGNS:
         return _lettered(at, members, letter)
     return _SIGNS[kind](at, members)
@@ -89,7 +89,7 @@ def _lettered(at: Point, members: Sequence[JointMember], letter: str) -> JointSi
 
 
 def _sliding(at: Point, members: Sequence[JointMember]) -> JointSign:
-    """A block in a guide; the guide belongs to the first member (the frame is put first), the block to the others."""
+    """A block in a guide; the guide belongs to the first member (the frame, if it is one), the block to the others."""
     u = members[0].towards.unit
     u = Point(-u.x, -u.y)
     v = u.across
@@ -110,7 +110,7 @@ def _sliding(at: Point, members: Sequence[JointMember]) -> JointSign:
 
 
 def _double_slide(at: Point, members: Sequence[JointMember]) -> JointSign:
-    """A plate with a cross: it slides both ways."""
+    """A plate with a cross: it slides in two directions."""
     half = 10.0 + _RING * (len(members) - 2)
     square = tuple(Point(at.x + a * half, at.y + b * half) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
     h = 6.5
@@ -156,7 +156,7 @@ _SIGNS = {
 
 
 def bar(points: Sequence[Point], *, is_frame: bool = False, halo: bool = False) -> list[Shape]:
-    """A link of even width along points; a halo sets it off from what it crosses."""
+    """A link of even width along points; a halo separates it from shapes that it crosses."""
     line = (tuple(points),)
     kind = "frame-bar" if is_frame else "body-bar"
     shapes: list[Shape] = [Polylines((_shortened(points),), "halo-bar")] if halo else []
@@ -165,7 +165,7 @@ def bar(points: Sequence[Point], *, is_frame: bool = False, halo: bool = False) 
 
 
 def _shortened(points: Sequence[Point]) -> tuple[Point, ...]:
-    """A line less so much at both ends that its halo does not reach into what meets there."""
+    """A line shortened at both ends so that its halo does not cover the shapes that meet there."""
     first, last = points[1].minus(points[0]), points[-2].minus(points[-1])
     ends = [
         points[0].plus(first.unit, min(16.0, first.length / 3)),
@@ -208,13 +208,13 @@ def hatching(corners: Sequence[Point]) -> Polylines:
 
 
 def _cuts(corners: Sequence[Point], level: float) -> list[Point]:
-    """Where the line x + y = level cuts the rim, from left to right."""
-    found = []
+    """The intersections of the line x + y = level with the rim, from left to right."""
+    cuts = []
     for a, b in zip(corners, [*corners[1:], corners[0]], strict=True):
         da, db = a.x + a.y - level, b.x + b.y - level
         if (da < 0) != (db < 0):
-            found.append(a.plus(b.minus(a), da / (da - db)))
-    return sorted(found)
+            cuts.append(a.plus(b.minus(a), da / (da - db)))
+    return sorted(cuts)
 
 
 def _stretched(a: Point, b: Point) -> Point:
@@ -222,7 +222,7 @@ def _stretched(a: Point, b: Point) -> Point:
 
 
 def ticks(a: Point, b: Point, outward: Point) -> Polylines:
-    """The strokes that stand on a line of the frame, on its outer side."""
+    """The strokes on a line of the frame, on its outer side."""
     along = b.minus(a)
     number = max(2, round(along.length / _HATCH))
     places = [a.plus(along, (k + 0.5) / number) for k in range(number)]
@@ -263,7 +263,7 @@ def straight_drive(at: Point, axis: Point, side: Point) -> list[Shape]:
 
 
 def arrow(tail: Point, tip: Point, line: str = "drive", head: str = "head") -> list[Shape]:
-    """A straight arrow; its head goes on for 7 pixels beyond the tip of the line."""
+    """A straight arrow; its head extends 7 pixels beyond the tip of the line."""
     return [Polylines(((tail, tip),), line), _head(tip, tip.minus(tail).unit, head)]
 
 

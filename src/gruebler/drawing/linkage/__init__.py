@@ -1,1 +1,1 @@
-"""Linkages to scale: pictures in any pose, animations, and plots of what they do."""
+"""Linkages to scale: pictures in any pose, animations, and plots of their motion."""

@@ -1,6 +1,7 @@
-"""A linkage that moves by itself: SVG with SMIL, no script. Viewers without animation show its first pose.
+"""An animated linkage as SVG with SMIL, without script. Viewers without animation show its first pose.
 
-Every link is a group that is shifted and turned on straight lines between poses: docs/theory/drawing.md has the error.
+Every link is a group that is shifted and turned with linear interpolation between poses: docs/theory/drawing.md has
+the error.
 """
 
 from __future__ import annotations
@@ -50,15 +51,15 @@ class Scene(NamedTuple):
     corner: Point
     """The upper left corner of all that is ever seen."""
     page: Figure
-    """Without shapes: size and words."""
+    """Without shapes: size, title and description."""
     seconds: float
-    """Until everything repeats."""
+    """The time of one period."""
 
     @property
     def rows(self) -> list[int]:
-        """The poses in the order in which they come, evenly in time; the last is the first again."""
-        there = [*range(len(self.posed.path))]
-        return there if self.posed.goes_round else there + there[-2::-1]
+        """The poses in order, evenly in time; the last equals the first."""
+        rows = [*range(len(self.posed.path))]
+        return rows if self.posed.repeats else rows + rows[-2::-1]
 
 
 def scene(
@@ -72,17 +73,17 @@ def scene(
     lang: str = "en",
     name: str = "",
 ) -> Scene:
-    """What all kinds of animations show.
+    """The content of an animation, for all formats.
 
     Args:
         linkage: with one drive, or with several and a path of them.
         branch: the assembly mode, as for `gruebler.kinematics.move`.
-        between: drive values between which it is to move, if not the whole range.
-        drives: (rows, drives) a straight path of the drives, from its first row to its last.
+        between: drive values between which it moves; by default the full range.
+        drives: (rows, drives) a piecewise straight path of the drives, from its first row to its last.
         curves: points or joints whose paths are drawn.
-        seconds: for a turn, or for there and back.
+        seconds: for a turn, or for both directions of a motion to and fro.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
+        name: the title; by default the kind of mechanism.
 
     Raises `LinkageError` for several drives, unknown points, or a time that is no positive number.
     """
@@ -95,23 +96,21 @@ def scene(
     pieces = (*body_parts(posed), *drive_parts(posed))
     rows = range(0, len(posed.path), 2)
     poses = [shape for row in rows for part in pieces for shape in shapes_at_pose(posed, part, posed.path, row)]
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, one)]
+    curve = [shape for point in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, point)]
     still = tuple(curve)
     corner, size = bounds([*poses, *still], MARGIN)
     moves = translate(
-        "It moves through {turns} turn(s) of its drive."
-        if posed.goes_round
-        else "It moves to and fro through its range.",
+        "It moves through {turns} turn(s) of its drive." if posed.repeats else "It moves to and fro through its range.",
         lang,
         turns=turns,
     )
     described = f"{describe(linkage.mechanism, lang)} {moves}"
     page = Figure((), size.x, size.y, title(linkage.mechanism, lang, name), described)
-    return Scene(posed, pieces, still, corner, page, seconds * (turns if posed.goes_round else 1))
+    return Scene(posed, pieces, still, corner, page, seconds * (turns if posed.repeats else 1))
 
 
 def animated_svg(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
-    """A linkage through a full turn of its drive, or to and fro where the drive has limits, over and over.
+    """A linkage through a full turn of its drive, or to and fro where the drive has limits, repeated without end.
 
     Options and errors are those of `scene`.
 
@@ -124,7 +123,7 @@ def animated_svg(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
 
 
 def svg_of(shown: Scene) -> str:
-    """The scene as SVG that moves by itself."""
+    """The scene as animated SVG."""
     motion = _Motion(shown)
     lines = [
         f'<g transform="translate({svg_number(-shown.corner.x)} {svg_number(-shown.corner.y)})">',
@@ -138,18 +137,18 @@ def svg_of(shown: Scene) -> str:
 
 
 class _Motion:
-    """Writes parts as groups that move for ever."""
+    """Writes parts as animated groups."""
 
     def __init__(self, shown: Scene) -> None:
-        self.stage = shown.posed
+        self.posed = shown.posed
         self.rows = shown.rows
         self.timing = f'dur="{shown.seconds:g}s" repeatCount="indefinite"'
 
     def groups(self, pieces: Sequence[BodyPart]) -> Iterator[str]:
-        """A group for parts of the same link that follow each other; what belongs to the frame stands still."""
-        for link, mine in groupby(pieces, key=lambda part: part.link):
-            shapes = "".join(svg_element(shape) for part in mine for shape in part.shapes)
-            if link == self.stage.lower.mechanism.frame:
+        """A group for successive parts of the same link; parts of the frame are not animated."""
+        for link, parts in groupby(pieces, key=lambda part: part.link):
+            shapes = "".join(svg_element(shape) for part in parts for shape in part.shapes)
+            if link == self.posed.lower.mechanism.frame:
                 yield shapes
                 continue
             shifts, turns = self._shifts(link), self._turns(link)
@@ -160,18 +159,18 @@ class _Motion:
             )
 
     def _shifts(self, link: str) -> list[str]:
-        k = self.stage.lower.mechanism.chain.index(link)
-        places = [self.stage.local(complex(z)) for z in self.stage.path.places[0, :, k]]
+        k = self.posed.lower.mechanism.chain.index(link)
+        places = [self.posed.local(complex(z)) for z in self.posed.path.places[0, :, k]]
         return [f"{svg_number(places[row].x)} {svg_number(places[row].y)}" for row in self.rows]
 
     def _turns(self, link: str) -> list[str]:
-        angles = np.degrees(self.stage.path.angle(link))
+        angles = np.degrees(self.posed.path.angle(link))
         return [f"{round(-angles[row], 2) + 0.0:g}" for row in self.rows]
 
     def _animated(self, kind: str, values: list[str]) -> str:
         shown = ";".join(values[:1] * 2 if len(set(values)) == 1 else values)
-        how = f'attributeName="transform" type="{kind}" additive="{_ADDITIVE[kind]}"'
-        return f'<animateTransform {how} {self.timing} values="{shown}"/>'
+        attributes = f'attributeName="transform" type="{kind}" additive="{_ADDITIVE[kind]}"'
+        return f'<animateTransform {attributes} {self.timing} values="{shown}"/>'
 
 
 _ADDITIVE = {"translate": "replace", "rotate": "sum"}

@@ -1,4 +1,4 @@
-"""Animations as pictures one after another: GIF, WebP and APNG, painted by matplotlib and put together by pillow."""
+"""Animations as sequences of pictures: GIF, WebP and APNG, painted by matplotlib and combined by pillow."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _MOST = 144  # pictures of a file
 def animated_frames(
     linkage: Linkage, kind: str, *, dark: bool = False, zoom: float = 1.25, **options: Unpack[AnimationOptions]
 ) -> bytes:
-    """The content of a ``gif``, ``webp`` or ``png`` file that shows the linkage moving, over and over.
+    """The content of a ``gif``, ``webp`` or ``png`` file of the moving linkage, repeated without end.
 
     Args:
         linkage: with one drive.
-        kind: of the file; a png is an APNG, which viewers that do not know it show as its first picture.
-        dark: whether on dark ground.
-        zoom: pixels of the file to a pixel of the picture.
+        kind: of the file; a png is an APNG, of which other viewers show the first picture.
+        dark: whether the ground is dark.
+        zoom: pixels of the file for a pixel of the picture.
         options: those of `gruebler.drawing.linkage.animation.scene`.
 
     Cost: some 40 ms a picture. Raises `GrueblerError` if matplotlib is not installed, `LinkageError` as `scene` does.
@@ -36,8 +36,8 @@ def animated_frames(
     shown = scene(linkage, **options)
     rows = shown.rows[:-1]
     rows = rows[:: -(-len(rows) // _MOST)]
-    made = {row: _figure(shown, row) for row in dict.fromkeys(rows)}
-    return frames_file([made[row] for row in rows], kind, shown.seconds, dark=dark, zoom=zoom)
+    figures = {row: _figure(shown, row) for row in dict.fromkeys(rows)}
+    return frames_file([figures[row] for row in rows], kind, shown.seconds, dark=dark, zoom=zoom)
 
 
 def _figure(shown: Scene, row: int) -> Figure:

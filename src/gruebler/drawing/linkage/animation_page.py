@@ -1,6 +1,6 @@
-"""One page that shows a linkage moving, with play, pause and a slider for the drive; nothing else is loaded.
+"""A self-contained page with a moving linkage, with play, pause and a slider for the drive.
 
-The picture is the SVG that moves by itself; the script stops it and sets its clock.
+The picture is the animated SVG; the script pauses it and sets its clock.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ __all__ = [
 def animated_page(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
     """An HTML page with the moving linkage, a button and a slider; options and errors are those of `animated_svg`.
 
-    Where the reader wants little motion it stands still at first.
+    It is paused initially for readers who prefer reduced motion.
 
     >>> from gruebler.fourbar import FourBar
     >>> page = animated_page(FourBar(25, 70, 40, 70).linkage(), lang="de")
@@ -34,11 +34,11 @@ def animated_page(linkage: Linkage, **options: Unpack[AnimationOptions]) -> str:
 
 
 def _settings(shown: Scene) -> PageSettings:
-    """Those of a linkage."""
+    """The page settings of a scene."""
     posed = shown.posed
     ends = posed.path.drives[[0, -1]]
     rising = np.flatnonzero(ends[1] > ends[0])
-    if not len(rising):  # a path on which no drive grows: the part of it
+    if not len(rising):  # no drive increases along the path: the slider shows the part of the path
         return PageSettings(low=0.0, high=100.0, seconds=shown.seconds, round=False, places=0, unit=" %")
     turning = posed.linkage.mechanism.drives[rising[0]].turning
     low, high = (math.degrees(q) if turning else float(q) for q in ends[:, rising[0]])
@@ -46,7 +46,7 @@ def _settings(shown: Scene) -> PageSettings:
         low=round(low, 6),
         high=round(high, 6),
         seconds=shown.seconds,
-        round=posed.goes_round,
+        round=posed.repeats,
         places=1 if turning else max(0, 2 - math.floor(math.log10(high - low))),
         unit="°" if turning else f" {posed.linkage.unit}",
     )

@@ -1,4 +1,4 @@
-"""Velocities and accelerations as arrows, and bars that tell the scale."""
+"""Velocities and accelerations as arrows, and scale bars."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ __all__ = ["acceleration_arrows", "scale_bars", "velocity_arrows"]
 _LONGEST = 74.0  # pixels of the longest arrow
 _LEAST = 0.02  # of the longest: shorter ones are left out
 _REST = 1e-9  # sizes, for a drive of speed 1
-_LENGTH = 90.0  # pixels of a length to compare with, at most
+_LENGTH = 90.0  # pixels of the scale bar of lengths, at most
 _BELOW, _ROW = 20.0, 22.0  # pixels to the first bar, and from bar to bar
 _RIGHT, _DOWN = Point(1.0, 0.0), Point(0.0, 1.0)
 
@@ -44,7 +44,7 @@ def _rates(posed: PosedLinkage, order: int) -> list[tuple[complex, complex]]:
 
 
 def _longest(posed: PosedLinkage, rates: Sequence[tuple[complex, complex]]) -> float:
-    """The length of the longest one; 0 if nothing moves, or infinitely fast."""
+    """The length of the longest one; 0 if all are zero or one is infinite."""
     longest = max((abs(rate) for _, rate in rates), default=0.0)
     return longest if _REST * posed.lower.size < longest < math.inf else 0.0
 
@@ -55,8 +55,8 @@ def _arrows(posed: PosedLinkage, order: int, style: str) -> list[Shape]:
     shapes: list[Shape] = []
     for at, rate in rates if longest else ():
         if abs(rate) > _LEAST * longest:
-            way = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
-            tip = posed.local(at).plus(way.unit, max(way.length - 7.0, 1.0))
+            vector = Point(_LONGEST * rate.real / longest, -_LONGEST * rate.imag / longest)
+            tip = posed.local(at).plus(vector.unit, max(vector.length - 7.0, 1.0))
             shapes += arrow(posed.local(at), tip, style, f"{style}-head")
     return shapes
 
@@ -73,7 +73,7 @@ def _moving_points(posed: PosedLinkage) -> list[LinkPoint]:
 
 
 class _ScaleBar(NamedTuple):
-    """At most so many pixels that stand for so many units."""
+    """A scale bar: the largest number of pixels and its number of units."""
 
     pixels: float
     most: float
@@ -82,19 +82,19 @@ class _ScaleBar(NamedTuple):
 
 
 def scale_bars(context: LayerContext, layers: Sequence[str]) -> list[Shape]:
-    """Bars of round numbers of units for arrows and lengths, one below the other, below all that is drawn."""
+    """Bars of round numbers of units for arrows and lengths, one below the other, below all drawn shapes."""
     corner, size = bounds(context.drawn, 0.0)
     shapes: list[Shape] = []
     bars = [bar for key in layers if (bar := _bar(context.posed, key)) is not None]
     for k, bar in enumerate(bars):
         number = _round(bar.most)
-        left = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
-        right = left.plus(_RIGHT, number * bar.pixels / bar.most)
-        ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (left, right)]
-        words = as_text(number, bar.unit, context.lang)
+        start = Point(corner.x, corner.y + size.y + _BELOW + _ROW * k)
+        end = start.plus(_RIGHT, number * bar.pixels / bar.most)
+        ends = [(p.plus(_DOWN, -4.0), p.plus(_DOWN, 4.0)) for p in (start, end)]
+        text = as_text(number, bar.unit, context.lang)
         shapes += [
-            Polylines(((left, right), *ends), bar.style),
-            TextShape(right.plus(_RIGHT, 9.0), words, "value", "start"),
+            Polylines(((start, end), *ends), bar.style),
+            TextShape(end.plus(_RIGHT, 9.0), text, "value", "start"),
         ]
     return shapes
 

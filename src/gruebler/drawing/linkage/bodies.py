@@ -1,6 +1,6 @@
-"""What the links of a linkage look like, each in its own coordinates: bodies through their pins, blocks, guides, slots.
+"""The bodies of the links of a linkage, each in its own coordinates: bars and polygons, blocks, guides, slots.
 
-A picture puts them where the links lie; an animation moves them as they are.
+A picture transforms them to the pose of the links; an animation moves them unchanged.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ FRAME, BODIES, BLOCKS, PINS = range(4)
 
 _BLOCK = (14.0, 8.5)  # half sides of a block
 _BARREL = 9.0  # half the width of a cylinder
-_BEYOND = 5.0  # pixels by which a guide goes on beyond the block
-_SLOT_END = 9.0  # pixels by which a slot goes on beyond the pin
+_BEYOND = 5.0  # pixels by which a guide extends beyond the block
+_SLOT_END = 9.0  # pixels by which a slot extends beyond the pin
 _FOOT = Point(13.0, 21.0)  # of a pedestal
 _FLAT = 1e-6  # sizes: points nearer to a line lie on it
 _CALLED_BLOCKS = ("block", "slider", "piston", "stein", "kolben")
-_LONGEST = 1.8  # times its shortest length: as far as a cylinder reaches
+_LONGEST = 1.8  # times its shortest length: the largest length of a cylinder
 
 
 class BodyPart(NamedTuple):
@@ -55,7 +55,7 @@ class BodyPart(NamedTuple):
 
 
 class Slide(NamedTuple):
-    """What a sliding joint looks like."""
+    """The sign of a sliding joint."""
 
     joint: int
     guide: str
@@ -63,11 +63,11 @@ class Slide(NamedTuple):
     sign: str
     """``block``, ``slot`` (a pin in a slot) or ``cylinder``."""
     middle: complex
-    """Of the block, in its own coordinates."""
+    """The middle of the block, in its own coordinates."""
     along: complex
     """The direction of the guide, in its coordinates."""
     low: complex
-    """The ends of the way of the middle, in the guide's coordinates."""
+    """The ends of the path of the middle, in the guide's coordinates."""
     high: complex
 
 
@@ -75,7 +75,7 @@ class Slide(NamedTuple):
 
 
 def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
-    """The sliding joints, with how far their blocks go on the path of the stage."""
+    """The sliding joints, with the travel of their blocks on the path of the linkage."""
     chain = posed.lower.mechanism.chain
     return tuple(_slide(posed, k) for k, joint in enumerate(chain.joints) if joint.pair.name == "prismatic")
 
@@ -83,14 +83,14 @@ def slides(posed: PosedLinkage) -> tuple[Slide, ...]:
 def _slide(posed: PosedLinkage, number: int) -> Slide:
     lower = posed.lower
     guide, block = _guide_and_block(posed, number)
-    line, own = lower.elements[number, guide], lower.elements[number, block]
+    line, block_line = lower.elements[number, guide], lower.elements[number, block]
     assert isinstance(line, Line)
-    assert isinstance(own, Line)
-    middle = _foot(lower, block, own)
+    assert isinstance(block_line, Line)
+    middle = _foot(lower, block, block_line)
     start, along = complex(line.x, line.y), cmath.rect(1, line.angle)
     places = np.concatenate([_seen(motion, guide, block, middle) for motion in (posed.path, posed.pose)])
-    ways = ((places - start) * along.conjugate()).real
-    low, high = float(ways.min()), float(ways.max())
+    offsets = ((places - start) * along.conjugate()).real
+    low, high = float(offsets.min()), float(offsets.max())
     sign = "block"
     if block not in posed.linkage.mechanism.chain.links and pins_of(lower, block):
         sign = "slot"
@@ -100,21 +100,21 @@ def _slide(posed: PosedLinkage, number: int) -> Slide:
 
 
 def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
-    """The frame is the guide, a link that stands for a pin in a slot the block; else the one with fewer joints is.
+    """The frame is the guide, a link that represents a pin in a slot is the block; else the one with fewer joints is.
 
-    Of two links alike the one that is called so is the block, else the one named second.
+    Of two equal links the one with a name such as "block" is the block, else the second.
     """
-    mechanism, given = posed.lower.mechanism, posed.linkage.mechanism.chain.links
+    mechanism, links = posed.lower.mechanism, posed.linkage.mechanism.chain.links
     chain = mechanism.chain
 
     def rank(link: str) -> tuple[bool, bool, int, bool]:
         joints = sum(link in joint.links for joint in chain.joints)
         points = sum(point.link == link for point in posed.lower.points.values())
         return (
-            link not in given,
+            link not in links,
             link != mechanism.frame,
             -joints - points,
-            any(word in link.lower() for word in _CALLED_BLOCKS),
+            any(name in link.lower() for name in _CALLED_BLOCKS),
         )
 
     first, second = sorted(chain.joints[number].links, key=rank)
@@ -123,12 +123,12 @@ def _guide_and_block(posed: PosedLinkage, number: int) -> tuple[str, str]:
 
 def pins_of(lower: Linkage, link: str) -> list[complex]:
     """The pins of a link, in its coordinates."""
-    elements = [e for (_, own), e in lower.elements.items() if own == link and isinstance(e, Pin)]
+    elements = [e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)]
     return [complex(*e) for e in elements]
 
 
 def _foot(lower: Linkage, link: str, line: Line) -> complex:
-    """The middle of a block: where its one pin stands on its line, else the point from which ways are counted."""
+    """The middle of a block: its single pin if that is on its line, else the origin of the displacement."""
     start, pins = complex(line.x, line.y), pins_of(lower, link)
     if len(pins) != 1:
         return start
@@ -138,67 +138,67 @@ def _foot(lower: Linkage, link: str, line: Line) -> complex:
 
 def _seen(path: Motion, link: str, other: str, point: complex) -> np.ndarray:
     """A point of another link in coordinates of a link, along a path."""
-    k, m = (path.plan.lower.mechanism.chain.index(name) for name in (link, other))
+    k, m = (path.link_index(name) for name in (link, other))
     place = path.places[0, :, m] + path.turns[:, m] * point
-    out: np.ndarray = (place - path.places[0, :, k]) * path.turns[:, k].conj()
-    return out
+    relative: np.ndarray = (place - path.places[0, :, k]) * path.turns[:, k].conj()
+    return relative
 
 
 def _is_cylinder(
     lower: Linkage, number: int, guide: str, start: complex, along: complex, low: float, high: float
 ) -> bool:
-    """Whether a driven slide between two moving links can be drawn as a cylinder with its rod."""
+    """Whether a driven slide between two moving links has the proportions of a cylinder with its rod."""
     mechanism = lower.mechanism
     if all(drive.joint != number for drive in mechanism.drives) or guide == mechanism.frame:
         return False
     pins = [(pin - start) * along.conjugate() for pin in pins_of(lower, guide)]
     if len(pins) != 1 or abs(pins[0].imag) > _FLAT * lower.size:
         return False
-    ways = sorted(abs(way - pins[0].real) for way in (low, high))
-    return (low - pins[0].real) * (high - pins[0].real) > 0 and ways[1] <= _LONGEST * ways[0]
+    distances = sorted(abs(end - pins[0].real) for end in (low, high))
+    return (low - pins[0].real) * (high - pins[0].real) > 0 and distances[1] <= _LONGEST * distances[0]
 
 
 # --- bodies --------------------------------------------------------------------------------------
 
 
 def body_parts(posed: PosedLinkage) -> tuple[BodyPart, ...]:
-    """All parts of the linkage, from below."""
-    found = slides(posed)
+    """All parts of the linkage, from the lowest layer up."""
+    joint_slides = slides(posed)
     frame = posed.lower.mechanism.frame
     links = [link for link in posed.lower.mechanism.chain.links if link != frame]
-    bodies = {link: _body(posed, link, found) for link in links}
-    made = [BodyPart(FRAME, *part) for part in round_parts(posed)]
-    made += [BodyPart(FRAME, frame, tuple(_ground(posed, found)))]
-    made += [
+    bodies = {link: _body(posed, link, joint_slides) for link in links}
+    parts = [BodyPart(FRAME, *part) for part in round_parts(posed)]
+    parts += [BodyPart(FRAME, frame, tuple(_ground(posed, joint_slides)))]
+    parts += [
         BodyPart(BODIES, link, tuple(bodies[link])) for link in sorted(links, key=lambda link: -_extent(bodies[link]))
     ]
-    made += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in _covered(posed, found)]
-    made += [_block(posed, slide) for slide in found if slide.sign != "slot"]
-    made += _pin_parts(posed)
-    return tuple(part for part in made if part.shapes)
+    parts += [BodyPart(BODIES, frame, tuple(_pedestal(posed, pin))) for pin in _covered(posed, joint_slides)]
+    parts += [_block(posed, slide) for slide in joint_slides if slide.sign != "slot"]
+    parts += _pin_parts(posed)
+    return tuple(part for part in parts if part.shapes)
 
 
-def corners_of(posed: PosedLinkage, link: str, found: tuple[Slide, ...]) -> tuple[Point, ...]:
+def corners_of(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> tuple[Point, ...]:
     """The corners of a link's body: one, two for a bar, or those of a polygon; in its coordinates, in pixels."""
     lower = posed.lower
     nodes = pins_of(lower, link) + [complex(p.x, p.y) for p in lower.points.values() if p.link == link]
-    nodes += [slide.middle for slide in found if slide.block == link and slide.sign != "cylinder"]
-    for slide in found:
+    nodes += [slide.middle for slide in joint_slides if slide.block == link and slide.sign != "cylinder"]
+    for slide in joint_slides:
         if slide.guide == link and slide.sign != "cylinder":
             middle = sum(nodes) / len(nodes) if nodes else slide.low
-            way = ((middle - slide.low) * slide.along.conjugate()).real
+            offset = ((middle - slide.low) * slide.along.conjugate()).real
             more = _reach(slide) / posed.scale
-            nodes.append(slide.low + slide.along * min(max(way, -more), abs(slide.high - slide.low) + more))
+            nodes.append(slide.low + slide.along * min(max(offset, -more), abs(slide.high - slide.low) + more))
     return hull([posed.local(z) for z in nodes], _FLAT * lower.size * posed.scale)
 
 
 def hull(points: Sequence[Point], flat: float) -> tuple[Point, ...]:
     """The convex hull; of points on a line its two ends."""
-    left = sorted({Point(round(p.x, 6), round(p.y, 6)) for p in points})
-    if len(left) < 3:
-        return tuple(left)
+    ordered = sorted({Point(round(p.x, 6), round(p.y, 6)) for p in points})
+    if len(ordered) < 3:
+        return tuple(ordered)
     chains: list[list[Point]] = []
-    for run in (left, left[::-1]):
+    for run in (ordered, ordered[::-1]):
         chain: list[Point] = []
         for p in run:
             while len(chain) > 1 and _height(chain[-2], chain[-1], p) <= max(flat, 1e-3):
@@ -209,13 +209,13 @@ def hull(points: Sequence[Point], flat: float) -> tuple[Point, ...]:
 
 
 def _height(a: Point, b: Point, c: Point) -> float:
-    """How far c lies beside the line from a to b, positive on the side of x turned to y."""
+    """The distance of c from the line from a to b, positive on the side of x turned to y."""
     return b.minus(a).unit.across.dot(c.minus(a))
 
 
-def _body(posed: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shape]:
-    """A bar or polygon through the joints, and bars for its guides; outlines first, so that they grow together."""
-    corners = corners_of(posed, link, found)
+def _body(posed: PosedLinkage, link: str, joint_slides: tuple[Slide, ...]) -> list[Shape]:
+    """A bar or polygon through the joints, and bars for its guides; outlines first, so that they merge."""
+    corners = corners_of(posed, link, joint_slides)
     outlines: list[Shape] = []
     fills: list[Shape] = []
     slots: list[Shape] = []
@@ -223,7 +223,7 @@ def _body(posed: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shap
         suffix = "-bar" if len(corners) == 2 else ""
         outlines.append(Polylines((corners,), "outline" + suffix, closed=len(corners) > 2))
         fills.append(Polylines((corners,), "body" + suffix, closed=len(corners) > 2))
-    for slide in found:
+    for slide in joint_slides:
         if slide.sign == "cylinder":
             if link in (slide.guide, slide.block):
                 line, wide = _cylinder(posed, slide, link)
@@ -240,7 +240,7 @@ def _body(posed: PosedLinkage, link: str, found: tuple[Slide, ...]) -> list[Shap
 
 
 def _reach(slide: Slide) -> float:
-    """Pixels by which the bar of a guide goes on beyond the way of the block's middle."""
+    """Pixels by which the bar of a guide extends beyond the path of the block's middle."""
     return 0.0 if slide.sign == "slot" else _BLOCK[0] + _BEYOND
 
 
@@ -250,7 +250,7 @@ def _guide_line(posed: PosedLinkage, slide: Slide, beyond: float) -> tuple[Point
 
 
 def barrel(posed: PosedLinkage, slide: Slide) -> tuple[Point, Point]:
-    """The middle line of a barrel: from near its pin as far as the shortest length allows."""
+    """The middle line of a barrel: from near its pin to the end at the shortest length."""
     pin = posed.local(pins_of(posed.lower, slide.guide)[0])
     ends = sorted((posed.local(slide.low), posed.local(slide.high)), key=lambda end: end.minus(pin).length)
     along = ends[0].minus(pin)
@@ -258,7 +258,7 @@ def barrel(posed: PosedLinkage, slide: Slide) -> tuple[Point, Point]:
 
 
 def _cylinder(posed: PosedLinkage, slide: Slide, link: str) -> tuple[tuple[tuple[Point, ...]], str]:
-    """What carries the barrel, or the rod from its pin into the barrel, also where the cylinder is longest."""
+    """The support of the barrel, or the rod from its pin into the barrel, long enough for the longest cylinder."""
     lower = posed.lower
     pin = pins_of(lower, slide.guide)[0]
     if link == slide.guide:
@@ -296,18 +296,18 @@ def _box(a: Point, b: Point, half: float) -> Polylines:
 # --- the frame and the pins ----------------------------------------------------------------------
 
 
-def _ground(posed: PosedLinkage, found: tuple[Slide, ...]) -> list[Shape]:
+def _ground(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[Shape]:
     """Rails with hatching along the guides of the frame, a pedestal below each of its pins."""
     lower, frame = posed.lower, posed.lower.mechanism.frame
     shapes: list[Shape] = []
-    for slide in found:
+    for slide in joint_slides:
         if slide.guide == frame:
             a, b = _guide_line(posed, slide, _SLOT_END if slide.sign == "slot" else _BLOCK[0] + _BEYOND)
             half = 8.5 if slide.sign == "slot" else _BLOCK[1] + 2.5
             for side in (b.minus(a).unit.across, a.minus(b).unit.across):
                 rail = a.plus(side, half), b.plus(side, half)
                 shapes += [Polylines((rail,), "rail"), ticks(*rail, side)]
-    covered = set(_covered(posed, found))
+    covered = set(_covered(posed, joint_slides))
     for pin in dict.fromkeys(pins_of(lower, frame)):
         if pin not in covered:
             shapes += _pedestal(posed, pin)
@@ -325,11 +325,11 @@ def _pedestal(posed: PosedLinkage, pin: complex) -> list[Shape]:
     ]
 
 
-def _covered(posed: PosedLinkage, found: tuple[Slide, ...]) -> list[complex]:
-    """The pins of the frame whose pedestals the body of another link would cover in the pose: they stand before it."""
+def _covered(posed: PosedLinkage, joint_slides: tuple[Slide, ...]) -> list[complex]:
+    """The pins of the frame whose pedestals the body of another link would cover: they are drawn above it."""
     lower, frame = posed.lower, posed.lower.mechanism.frame
     joints = {link: set(lower.mechanism.chain.joints_of(link)) for link in lower.mechanism.chain.links}
-    out = []
+    covered = []
     for number, joint in enumerate(lower.mechanism.chain.joints):
         element = lower.elements.get((number, frame))
         if not isinstance(element, Pin):
@@ -340,12 +340,12 @@ def _covered(posed: PosedLinkage, found: tuple[Slide, ...]) -> list[complex]:
                 continue
             corners = [
                 posed.place(LinkPoint(link, p.x / posed.scale, -p.y / posed.scale))
-                for p in corners_of(posed, link, found)
+                for p in corners_of(posed, link, joint_slides)
             ]
             if len(corners) > 2 and _inside(foot, corners):
-                out.append(complex(element.x, element.y))
+                covered.append(complex(element.x, element.y))
                 break
-    return out
+    return covered
 
 
 def _inside(point: Point, corners: Sequence[Point]) -> bool:
@@ -355,28 +355,28 @@ def _inside(point: Point, corners: Sequence[Point]) -> bool:
 
 
 def _pin_parts(posed: PosedLinkage) -> list[BodyPart]:
-    """Turning joints, and dots for named points that lie at none."""
+    """Turning joints, and dots for named points elsewhere."""
     lower = posed.lower
-    made, taken = [], set()
+    parts, marked = [], set()
     for number, joint in enumerate(lower.mechanism.chain.joints):
         if joint.pair.name != "revolute":
             continue
-        link = min(joint.links, key=lambda one: one != lower.mechanism.frame)
-        taken |= {(one, *lower.elements[number, one][:2]) for one in joint.links}
+        link = min(joint.links, key=lambda member: member != lower.mechanism.frame)
+        marked |= {(member, *lower.elements[number, member][:2]) for member in joint.links}
         e = lower.elements[number, link]
         members = [JointMember(Point(1.0, 0.0))] * len(joint.links)
-        made.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))
+        parts.append(BodyPart(PINS, link, joint_sign("revolute", posed.local(complex(e.x, e.y)), members).above))
     for point in dict.fromkeys(lower.points.values()):
-        if tuple(point) not in taken:
-            made.append(BodyPart(PINS, point.link, (CircleShape(posed.local(complex(point.x, point.y)), 3.2, "dot"),)))
-    return made
+        if tuple(point) not in marked:
+            parts.append(BodyPart(PINS, point.link, (CircleShape(posed.local(complex(point.x, point.y)), 3.2, "dot"),)))
+    return parts
 
 
-# --- putting them where they lie -----------------------------------------------------------------
+# --- transformation to a pose ----------------------------------------------------------------------
 
 
 def shapes_at_pose(posed: PosedLinkage, part: BodyPart, motion: Motion | None = None, row: int = 0) -> list[Shape]:
-    """The shapes of a part in the pose of the stage, or in a row of another motion."""
+    """The shapes of a part in the pose of the linkage, or in a row of another motion."""
     poses = posed.pose if motion is None else motion
     k = posed.lower.mechanism.chain.index(part.link)
     turn, place = complex(poses.turns[row, k]), posed.local(complex(poses.places[0, row, k]))
@@ -384,12 +384,12 @@ def shapes_at_pose(posed: PosedLinkage, part: BodyPart, motion: Motion | None = 
 
 
 def layered(posed: PosedLinkage, pieces: Sequence[BodyPart], lowest: int, highest: int) -> list[Shape]:
-    """The shapes of some layers in the pose of the stage."""
+    """The shapes of some layers in the pose of the linkage."""
     return [shape for part in pieces if lowest <= part.layer <= highest for shape in shapes_at_pose(posed, part)]
 
 
 def in_link(posed: PosedLinkage, link: str, shapes: Sequence[Shape]) -> BodyPart:
-    """Shapes that lie somewhere in the pose of the stage, as a part that goes with a link above all others."""
+    """Shapes given in the pose of the linkage, as a part that moves with a link above all others."""
     k = posed.lower.mechanism.chain.index(link)
     back = complex(posed.pose.turns[0, k]).conjugate()
     origin = _put(CircleShape(posed.local(complex(posed.pose.places[0, 0, k])), 0.0, "dot"), back, Point(0.0, 0.0))
@@ -409,5 +409,5 @@ def _put(shape: Shape, turn: complex, place: Point) -> Shape:
             return CircleShape(put(at), radius, style)
         case ArcShape(at, radius, begin, extent, style):
             return ArcShape(put(at), radius, begin - cmath.phase(turn), extent, style)
-        case TextShape(at, words, style, anchor):
-            return TextShape(put(at), words, style, anchor)
+        case TextShape(at, text, style, anchor):
+            return TextShape(put(at), text, style, anchor)

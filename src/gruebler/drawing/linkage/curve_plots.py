@@ -1,4 +1,4 @@
-"""Plots in the plane: hodographs, coupler curves, those of a family of points."""
+"""Plots in the plane: hodographs, coupler curves, and coupler curves of a family of points."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["coupler_plot", "family_of", "family_plot", "hodograph"]
 
 
 _SQUARE = 460.0  # pixels of the longer side
-_NEAR = 0.03  # of the field: drive values nearer to each other are left out
+_NEAR = 0.03  # of the field: the smallest distance of labelled drive values
 _AROUND = 0.04  # of the field
 _MOST = len(LINES)
 
@@ -40,16 +40,16 @@ def hodograph(
     lang: str = "en",
     name: str = "",
 ) -> Figure:
-    """The curves that the tips of velocity vectors draw, with drive values beside the first.
+    """The curves of the tips of velocity vectors, with drive values beside the first.
 
     Args:
         linkage: with one drive.
         points: named points or joints.
         speed: of the drive, in radians or lengths a second; without it velocities are by drive: lengths per radian.
         branch: as for `gruebler.kinematics.move`.
-        between: drive values between which it is plotted, if not the whole range.
+        between: drive values between which it is plotted; by default the full range.
         lang: ``en`` or ``de``.
-        name: of the linkage, if it is not to be found out.
+        name: of the linkage; by default its kind.
 
     Raises `LinkageError` for several drives, unknown points, none or more than eight.
 
@@ -90,18 +90,18 @@ def hodograph(
 
 
 def _tips(run: PlotRun, path: Complexes, near: float) -> list[PointMarker]:
-    """Points at round drive values; of those near to each other the first is named."""
+    """Points at round drive values; of points near to each other only the first has a name."""
     spots: list[PointMarker] = []
     for drive, z in zip(run.round_drives, path, strict=True):
         if np.isfinite(z):
-            named = [spot for spot in spots if spot.words]
+            named = [spot for spot in spots if spot.text]
             apart = all(math.hypot(spot.x - z.real, spot.y - z.imag) > near for spot in named)
             spots.append(PointMarker(z.real, z.imag, run.value(drive) if apart else ""))
     return spots
 
 
 def _joined(ranges: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """The range that holds them all, and 0."""
+    """The range that contains all of them, and 0."""
     return min(0.0, *(low for low, _ in ranges)), max(0.0, *(high for _, high in ranges))
 
 
@@ -114,7 +114,7 @@ def coupler_plot(
     lang: str = "en",
     name: str = "",
 ) -> Figure:
-    """The paths of named points or joints over axes with the linkage's unit, and the links in one pose thinly.
+    """The paths of named points or joints over axes with the linkage's unit, with thin links in one pose.
 
     Arguments and errors as for `hodograph`.
     """
@@ -138,15 +138,15 @@ def family_plot(
 
     Args:
         linkage: with one drive.
-        link: that carries the points; without it the first that is no neighbour of the frame.
-        start: one end of the line, as x + iy in coordinates of the link; without it, or the other, the line goes
-            through the first two joints or points of the link, longer by half their distance on both sides.
+        link: the link of the points; by default the first that is no neighbour of the frame.
+        start: one end of the line, as x + iy in coordinates of the link; by default, with the other end, on the line
+            through the first two joints or points of the link, half their distance beyond the first.
         end: the other end.
         count: of points, 2 to 8.
         branch: as for `gruebler.kinematics.move`.
-        between: drive values between which it is plotted, if not the whole range.
+        between: drive values between which it is plotted; by default the full range.
         lang: ``en`` or ``de``.
-        name: of the linkage, if it is not to be found out.
+        name: of the linkage; by default its kind.
 
     Raises `LinkageError` for several drives, an unknown link, or one without two joints where a line is needed.
 
@@ -212,10 +212,10 @@ def _paths(
 
 def _skeleton(motion: Motion, row: int, places: Iterable[LinkPoint]) -> list[Complexes]:
     """The lines between the joints of every moving link in a pose, and from one of them to each point of the link."""
-    lower = motion.plan.lower
+    lower = motion.lower_linkage
     lines = []
     for k, link in enumerate(lower.mechanism.chain.links):
-        pins = list(dict.fromkeys(complex(e.x, e.y) for (_, own), e in lower.elements.items() if own == link))
+        pins = list(dict.fromkeys(complex(e.x, e.y) for (_, owner), e in lower.elements.items() if owner == link))
         points = [complex(place.x, place.y) for place in places if place.link == link]
         if link != lower.mechanism.frame:
             pairs = [*combinations(pins, 2), *((pins[0], point) for point in points)]
@@ -231,7 +231,7 @@ def _square(
     thin: Sequence[Complexes] = (),
     ranges: Sequence[tuple[float, float]] = (),
 ) -> Panel:
-    """A panel with the same scale on both axes; without ranges it holds everything."""
+    """A panel with the same scale on both axes; without ranges it contains everything."""
     if not ranges:
         everything = np.concatenate([*paths, *thin])
         ranges = [(float(np.nanmin(v)), float(np.nanmax(v))) for v in (everything.real, everything.imag)]
@@ -240,10 +240,10 @@ def _square(
     longest *= 1 + 2 * _AROUND
     x, y = (_even(low, high, longest) for low, high in wide)
     curves = [Curve(line.real, line.imag, "", "ghost") for line in thin]
-    curves += [Curve(z.real, z.imag, one, style) for z, one, style in zip(paths, names, LINES, strict=False)]
+    curves += [Curve(z.real, z.imag, name, style) for z, name, style in zip(paths, names, LINES, strict=False)]
     size = Point(*(_SQUARE / longest * (scale.high - scale.low) for scale in (x, y)))
-    seen = tuple(spot for spot in spots if x.low <= spot.x <= x.high and y.low <= spot.y <= y.high)
-    return Panel(Axis(axes[0], x), Axis(axes[1], y), tuple(curves), spots=seen, size=size)
+    visible = tuple(spot for spot in spots if x.low <= spot.x <= x.high and y.low <= spot.y <= y.high)
+    return Panel(Axis(axes[0], x), Axis(axes[1], y), tuple(curves), spots=visible, size=size)
 
 
 def _even(low: float, high: float, longest: float) -> Scale:

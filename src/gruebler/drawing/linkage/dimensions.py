@@ -1,4 +1,4 @@
-"""Dimension lines: the distances of the pins and points of every link, how far pins lie beside slides, cylinders."""
+"""Dimension lines: the distances of the pins and points of every link, offsets of slides, lengths of cylinders."""
 
 from __future__ import annotations
 
@@ -23,17 +23,17 @@ from gruebler.linkages import Line, LinkPoint
 __all__ = ["dimension_lines"]
 
 _OFFSETS = (21.0, 26.0, 32.0, 39.0, 47.0, 56.0, 66.0, 78.0, 92.0, 108.0, 126.0, 146.0)  # pixels to a dimension line
-_PARTS = (0.5, 0.36, 0.64)  # of a dimension line: where its number may stand
-_CLEAR = 4.0  # pixels around a dimension line; more is no better
-_STEP = 0.05  # what a pixel of distance costs
+_PARTS = (0.5, 0.36, 0.64)  # of a dimension line: the candidate places of its number
+_CLEAR = 4.0  # pixels around a dimension line; more does not improve a place
+_STEP = 0.05  # the cost of a pixel of distance
 _TOUCHED, _HIDDEN, _ON_BODY, _ASIDE = (
     6.0,
     12.0,
     3.0,
     0.4,
-)  # a line that touches, a number that does, lies on a body, ...
-_CROSSED = 0.5  # what is crossed by an extension line
-_START, _BEYOND = 8.0, 4.0  # of the extension lines: where they begin, how far they go on
+)  # the costs of a line that touches, a number that touches, a line on a body, ...
+_CROSSED = 0.5  # the cost of each stroke that an extension line crosses
+_START, _BEYOND = 8.0, 4.0  # of the extension lines: their beginning, and their length beyond the dimension line
 _STARTS = (_START, 18.0, 28.0, 38.0, 48.0, 60.0)
 _HEAD = (8.0, 2.2)
 _GAP = 4.0  # pixels between a number and its line
@@ -41,7 +41,7 @@ _SAME = 1e-9  # sizes: dimensions are not drawn below
 
 
 class _Measure(NamedTuple):
-    """Two points whose distance is told."""
+    """Two points with a dimensioned distance."""
 
     first: LinkPoint
     second: LinkPoint
@@ -49,30 +49,30 @@ class _Measure(NamedTuple):
 
 
 def dimension_lines(context: LayerContext) -> list[Shape]:
-    """A dimension line for every length of every link, clear of bodies and of each other where there is room."""
+    """A dimension line for every length of every link, clear of bodies and of each other where there is space."""
     posed = context.posed
     shapes: list[Shape] = []
     for measure in _measures(posed):
-        words = as_text(measure.length, posed.linkage.unit, context.lang)
-        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), words, [*context.drawn, *shapes])
+        text = as_text(measure.length, posed.linkage.unit, context.lang)
+        shapes += _dimension(posed.place(measure.first), posed.place(measure.second), text, [*context.drawn, *shapes])
     return shapes
 
 
-# --- what is measured ------------------------------------------------------------------------------
+# --- dimensioned lengths ---------------------------------------------------------------------------
 
 
 def _measures(posed: PosedLinkage) -> list[_Measure]:
-    """Lengths of the links as they were given, the short ones first: their dimension lines stand nearest."""
+    """Lengths of the links as given, the short ones first: their dimension lines are nearest."""
     linkage = posed.linkage
     least = _SAME * linkage.size
     pairs = [
-        (link, one, other)
+        (link, first, second)
         for link in linkage.mechanism.chain.links
-        for one, other in (*_sides(posed, link), *_beside(posed, link))
+        for first, second in (*_sides(posed, link), *_beside(posed, link))
     ]
-    found = [_Measure(_named(link, a), _named(link, b), abs(b - a)) for link, a, b in pairs]
-    found += _cylinders(posed)
-    return sorted((_measure for _measure in found if _measure.length > least), key=lambda one: one.length)
+    measures = [_Measure(_named(link, a), _named(link, b), abs(b - a)) for link, a, b in pairs]
+    measures += _cylinders(posed)
+    return sorted((_measure for _measure in measures if _measure.length > least), key=lambda measure: measure.length)
 
 
 def _named(link: str, z: complex) -> LinkPoint:
@@ -83,19 +83,19 @@ def _sides(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]:
     """From pin to pin along a line, or around a polygon; from pins within a polygon to its two nearest corners."""
     linkage = posed.linkage
     joints = linkage.mechanism.chain.joints
-    nodes = [e for (n, own), e in linkage.elements.items() if own == link and joints[n].pair.name == "revolute"]
+    nodes = [e for (n, owner), e in linkage.elements.items() if owner == link and joints[n].pair.name == "revolute"]
     points = [point for point in linkage.points.values() if point.link == link]
     places = list(dict.fromkeys([*(complex(e.x, e.y) for e in nodes), *(complex(p.x, p.y) for p in points)]))
     flat = 1e-6 * linkage.size
     corners = [complex(p.x, p.y) for p in hull([Point(z.real, z.imag) for z in places], flat)]
     rim = list(pairwise([*corners, corners[0]])) if len(corners) > 2 else list(pairwise(corners))
-    left = [z for z in places if min((abs(z - corner) for corner in corners), default=0.0) > flat]
+    inner = [z for z in places if min((abs(z - corner) for corner in corners), default=0.0) > flat]
     for a, b in rim:
         along = (b - a) / abs(b - a)
-        on_it = [z for z in left if abs(((z - a) * along.conjugate()).imag) <= flat]
+        on_it = [z for z in inner if abs(((z - a) * along.conjugate()).imag) <= flat]
         yield from pairwise([a, *sorted(on_it, key=lambda z: ((z - a) * along.conjugate()).real), b])
-        left = [z for z in left if z not in on_it]
-    for z in left:
+        inner = [z for z in inner if z not in on_it]
+    for z in inner:
         yield from ((corner, z) for corner in sorted(corners, key=lambda corner: abs(corner - z))[:2])
 
 
@@ -103,11 +103,11 @@ def _beside(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]
     """From pins to the line of a slide on the same link: the offset, if there is one."""
     linkage = posed.linkage
     joints = linkage.mechanism.chain.joints
-    mine = [(n, e) for (n, own), e in linkage.elements.items() if own == link]
-    for number, line in mine:
+    link_elements = [(n, e) for (n, owner), e in linkage.elements.items() if owner == link]
+    for number, line in link_elements:
         if isinstance(line, Line) and joints[number].pair.name == "prismatic":
             start, along = complex(line.x, line.y), cmath.rect(1.0, line.angle)
-            for other, e in mine:
+            for other, e in link_elements:
                 if joints[other].pair.name == "revolute":
                     pin = complex(e.x, e.y)
                     foot = start + ((pin - start) * along.conjugate()).real * along
@@ -116,7 +116,7 @@ def _beside(posed: PosedLinkage, link: str) -> Iterator[tuple[complex, complex]]
 
 
 def _cylinders(posed: PosedLinkage) -> Iterator[_Measure]:
-    """How long cylinders are in this pose, from pin to pin."""
+    """The lengths of cylinders in this pose, from pin to pin."""
     for slide in slides(posed):
         if slide.sign == "cylinder":
             ends = _named(slide.guide, pins_of(posed.lower, slide.guide)[0]), _named(slide.block, slide.middle)
@@ -124,91 +124,91 @@ def _cylinders(posed: PosedLinkage) -> Iterator[_Measure]:
             yield _Measure(*ends, abs(b - a))
 
 
-# --- how it is drawn -------------------------------------------------------------------------------
+# --- placement -------------------------------------------------------------------------------------
 
 
 class _LinePlacement(NamedTuple):
-    """How a dimension line may stand: on which side, how far off, its number after which part of it."""
+    """A candidate placement of a dimension line: side, distance, and the relative place of its number."""
 
     side: int
     off: float
     part: float
 
 
-def _dimension(a: Point, b: Point, words: str, drawn: Sequence[Shape]) -> list[Shape]:
+def _dimension(a: Point, b: Point, text: str, drawn: Sequence[Shape]) -> list[Shape]:
     """Two extension lines, the line between them with a head at both ends, and the number in it, or beside it."""
     along = b.minus(a)
     u, v = along.unit, along.unit.across
-    wide = text_width(words, STYLES["value"].size)
+    wide = text_width(text, STYLES["value"].size)
     half = _gap(u, wide)
-    fits = along.length > 2 * (half + _HEAD[0])
+    number_fits = along.length > 2 * (half + _HEAD[0])
     shift = max(0.0, 0.5 - (half + _HEAD[0] + 2.0) / max(along.length, 1.0))
-    parts = sorted({min(max(part, 0.5 - shift), 0.5 + shift) for part in _PARTS}) if fits else [0.5]
-    ways = [_LinePlacement(*one) for one in product((1, -1), _OFFSETS, parts)]
+    parts = sorted({min(max(part, 0.5 - shift), 0.5 + shift) for part in _PARTS}) if number_fits else [0.5]
+    placements = [_LinePlacement(*choice) for choice in product((1, -1), _OFFSETS, parts)]
     room = Obstacles(drawn)
-    best = ways[int(_costs(a, b, ways, wide if fits else None, room).argmin())]
-    out = Point(best.side * v.x, best.side * v.y)
-    first, last = a.plus(out, best.off), b.plus(out, best.off)
-    lines = [_extension(p, out, best.off, room) for p in (a, b)]
+    best = placements[int(_costs(a, b, placements, wide if number_fits else None, room).argmin())]
+    outward = Point(best.side * v.x, best.side * v.y)
+    first, last = a.plus(outward, best.off), b.plus(outward, best.off)
+    lines = [_extension(p, outward, best.off, room) for p in (a, b)]
     heads = [(first, u), (last, Point(-u.x, -u.y))]
     inside = along.length > 2.5 * _HEAD[0]
     middle = first.plus(along, best.part)
-    if fits:
+    if number_fits:
         lines += [(first, middle.plus(u, -half)), (middle.plus(u, half), last)]
     else:
         beyond = 0.0 if inside else 2 * _HEAD[0]
         lines.append((first.plus(u, -beyond), last.plus(u, beyond)))
-        heads = heads if inside else [(at, Point(-way.x, -way.y)) for at, way in heads]
-    shapes: list[Shape] = [Polylines(tuple(lines), "dimension"), *(_head(at, way) for at, way in heads)]
-    text = TextShape(middle, words, "value") if fits else note_near(middle, words, "value", [*drawn, *shapes])
-    return [*shapes, text]
+        heads = heads if inside else [(at, Point(-direction.x, -direction.y)) for at, direction in heads]
+    shapes: list[Shape] = [Polylines(tuple(lines), "dimension"), *(_head(at, direction) for at, direction in heads)]
+    number = TextShape(middle, text, "value") if number_fits else note_near(middle, text, "value", [*drawn, *shapes])
+    return [*shapes, number]
 
 
-def _extension(foot: Point, out: Point, off: float, room: Obstacles) -> tuple[Point, Point]:
-    """From a measured point to beyond its dimension line; it begins behind the texts that are in the way."""
+def _extension(foot: Point, outward: Point, off: float, room: Obstacles) -> tuple[Point, Point]:
+    """From a measured point to beyond its dimension line; it begins after texts that it would cross."""
     starts = [start for start in _STARTS if start < off] or [_START]
-    end = foot.plus(out, off + _BEYOND)
-    feet = [foot.plus(out, start) for start in starts]
+    end = foot.plus(outward, off + _BEYOND)
+    feet = [foot.plus(outward, start) for start in starts]
     gaps = room.texts.gap(complexes(feet), complexes([end] * len(feet)))
     return next((p for p, gap in zip(feet, gaps, strict=True) if gap > 0), feet[0]), end
 
 
-def _costs(a: Point, b: Point, ways: Sequence[_LinePlacement], wide: float | None, room: Obstacles) -> Reals:
-    """What is wrong with each way of a dimension: docs/theory/drawing.md. Without a width no number stands in it."""
+def _costs(a: Point, b: Point, placements: Sequence[_LinePlacement], wide: float | None, room: Obstacles) -> Reals:
+    """The cost of each placement: docs/theory/drawing.md. Without a width the number is not in the line."""
     start, along = complex(*a), complex(*b.minus(a))
     unit = along / abs(along)
-    out = np.array([1j * way.side for way in ways]) * unit
-    off = np.array([way.off for way in ways])
-    first = start + off * out
+    outward = np.array([1j * placement.side for placement in placements]) * unit
+    off = np.array([placement.off for placement in placements])
+    first = start + off * outward
     last = first + along
     cost = _STEP * off + _touched(room, first, last, _TOUCHED)
     for foot in (start, start + along):
-        begin, end = foot + _START * out, foot + (off + _BEYOND) * out
+        begin, end = foot + _START * outward, foot + (off + _BEYOND) * outward
         cost += _CROSSED * (room.lines.gaps(begin, end) < 0).sum(axis=1)
         cost += 5 * _CROSSED * (room.texts.gaps(begin, end) < 0).sum(axis=1)
     for part in (0.1, 0.5, 0.9):
         cost += _ON_BODY / 3 * room.covered(first + part * along)
     if wide is not None:
-        after = np.array([way.part for way in ways])
+        after = np.array([placement.part for placement in placements])
         free = room.free(first + after * along, wide)
         cost += _HIDDEN * np.clip(1.0 - free / _CLEAR, 0.0, 1.5) + _ASIDE * (after != 0.5)
     return cost
 
 
 def _touched(room: Obstacles, first: Complexes, last: Complexes, price: float) -> Reals:
-    """The price of all that lies nearer to lines than is wanted, the full one where it touches."""
+    """The cost of shapes nearer to lines than the clearance, full where they touch."""
     gaps = np.concatenate([room.lines.gaps(first, last), room.texts.gaps(first, last)], axis=1)
     nearest = np.clip(1.0 - gaps / _CLEAR, 0.0, 1.0).max(axis=1, initial=0.0)
     return np.asarray(price * nearest + (gaps < 0).sum(axis=1))
 
 
 def _gap(u: Point, wide: float) -> float:
-    """Half of what a level number takes of a line."""
+    """Half of the length of a line that a level number covers."""
     across, up = wide / 2 + _GAP, HALF + _GAP / 2
     return min(across / max(abs(u.x), 1e-9), up / max(abs(u.y), 1e-9))
 
 
-def _head(at: Point, way: Point) -> Polylines:
+def _head(at: Point, direction: Point) -> Polylines:
     long, half = _HEAD
-    back, side = at.plus(way, long), way.across
+    back, side = at.plus(direction, long), direction.across
     return Polylines(((at, back.plus(side, half), back.plus(side, -half)),), "dimension-head", closed=True)

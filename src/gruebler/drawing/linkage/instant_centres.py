@@ -22,11 +22,11 @@ from gruebler.linkages import Line, LinkPoint
 
 __all__ = ["Pole", "instant_centres", "pole_marks", "pole_numbers"]
 
-_AWAY = 1.0  # of the longer side of what the linkage reaches: a pole farther outside is shown by its rays only
+_AWAY = 1.0  # of the longer side of the linkage's reach: a pole farther outside is shown by its rays only
 _RAY = 64.0  # pixels of a ray that leads out of the picture
-_ALL = 4  # links: of so many all poles are shown, of more the permanent ones and those against the frame
-_SAME = 1e-6  # sizes: poles closer than that are one, as at a joint of several links
-_TRANSLATING = 1e-6  # a pole farther away than a million sizes is at infinity: the picture cannot tell
+_ALL = 4  # links: up to this number all poles are shown, for more the permanent ones and those against the frame
+_SAME = 1e-6  # sizes: poles closer than that are the same, as at a joint of several links
+_TRANSLATING = 1e-6  # a pole farther away than a million sizes counts as at infinity
 _RESTING = 1e-9  # of the swiftest velocity: slower links are at rest against each other
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
@@ -36,11 +36,11 @@ class Pole(NamedTuple):
 
     links: tuple[str, str]
     at: complex
-    """Where it is; where it is at infinity a point from which it is seen in its direction."""
+    """Its place; for a pole at infinity a point of a line towards it."""
     direction: complex = 0.0
     """The unit direction of a pole at infinity, else 0; its sign has no meaning."""
     permanent: bool = False
-    """Whether it stays with the joint of the two links."""
+    """Whether it is at the joint of the two links in every pose."""
 
 
 def instant_centres(posed: PosedLinkage) -> list[Pole]:
@@ -50,59 +50,59 @@ def instant_centres(posed: PosedLinkage) -> list[Pole]:
     """
     posed.driven()
     links, frame = posed.linkage.mechanism.chain.links, posed.linkage.mechanism.frame
-    found = {frozenset(pole.links): pole for pole in _permanent(posed)}
-    for one, other in itertools.combinations(links, 2):
-        if frozenset((one, other)) in found or (len(links) > _ALL and frame not in (one, other)):
+    poles = {frozenset(pole.links): pole for pole in _permanent(posed)}
+    for first, second in itertools.combinations(links, 2):
+        if frozenset((first, second)) in poles or (len(links) > _ALL and frame not in (first, second)):
             continue
-        if (pole := _moving_pole(posed, one, other)) is not None:
-            found[frozenset((one, other))] = pole
-    return list(found.values())
+        if (pole := _moving_pole(posed, first, second)) is not None:
+            poles[frozenset((first, second))] = pole
+    return list(poles.values())
 
 
 def _permanent(posed: PosedLinkage) -> Iterator[Pole]:
     """At turning joints the pin; of slides the point at infinity across the guide."""
     links = posed.linkage.mechanism.chain.links
     for number, joint in enumerate(posed.lower.mechanism.chain.joints):
-        for one, other in itertools.combinations([link for link in joint.links if link in links], 2):
-            element = posed.lower.elements[number, one]
-            at = complex(posed.pose.complex_point(LinkPoint(one, element.x, element.y))[0])
+        for first, second in itertools.combinations([link for link in joint.links if link in links], 2):
+            element = posed.lower.elements[number, first]
+            at = complex(posed.pose.complex_point(LinkPoint(first, element.x, element.y))[0])
             if joint.pair.name == "revolute":
-                yield Pole((one, other), at, permanent=True)
+                yield Pole((first, second), at, permanent=True)
             elif joint.pair.name == "prismatic" and isinstance(element, Line):
-                across = cmath.rect(1.0, float(posed.pose.angle(one)[0]) + element.angle) * 1j
+                across = cmath.rect(1.0, float(posed.pose.angle(first)[0]) + element.angle) * 1j
                 pins = [
                     complex(posed.pose.complex_point(LinkPoint(link, e.x, e.y))[0])
-                    for link in (other, one)
-                    for (k, own), e in posed.lower.elements.items()
-                    if own == link and k != number and posed.lower.mechanism.chain.joints[k].pair.name == "revolute"
+                    for link in (second, first)
+                    for (k, owner), e in posed.lower.elements.items()
+                    if owner == link and k != number and posed.lower.mechanism.chain.joints[k].pair.name == "revolute"
                 ]
-                yield Pole((one, other), pins[0] if pins else at, across, permanent=True)
+                yield Pole((first, second), pins[0] if pins else at, across, permanent=True)
 
 
-def _moving_pole(posed: PosedLinkage, one: str, other: str) -> Pole | None:
+def _moving_pole(posed: PosedLinkage, first: str, second: str) -> Pole | None:
     """The pole of two links by their velocities; None if they are at rest against each other."""
     pose, chain, size = posed.pose, posed.lower.mechanism.chain, posed.lower.size
-    i, j = chain.index(one), chain.index(other)
+    i, j = chain.index(first), chain.index(second)
     middle = complex(pose.places[0, 0].mean())
-    there = pose.places[1, 0] + 1j * pose.rates[0, 0] * (middle - pose.places[0, 0])
-    apart, turning = complex(there[i] - there[j]), float(pose.rates[0, 0, i] - pose.rates[0, 0, j])
-    swiftest = max(float(abs(there).max()), float(abs(pose.rates[0, 0]).max()) * size)
+    velocities = pose.places[1, 0] + 1j * pose.rates[0, 0] * (middle - pose.places[0, 0])
+    apart, turning = complex(velocities[i] - velocities[j]), float(pose.rates[0, 0, i] - pose.rates[0, 0, j])
+    swiftest = max(float(abs(velocities).max()), float(abs(pose.rates[0, 0]).max()) * size)
     if max(abs(apart), abs(turning) * size) <= _RESTING * swiftest:
         return None
     if abs(turning) * size <= _TRANSLATING * abs(apart):
-        return Pole((one, other), _joint_of(posed, one, middle), 1j * apart / abs(apart))
-    return Pole((one, other), middle + 1j * apart / turning)
+        return Pole((first, second), _joint_of(posed, first, middle), 1j * apart / abs(apart))
+    return Pole((first, second), middle + 1j * apart / turning)
 
 
 def _joint_of(posed: PosedLinkage, link: str, near: complex) -> complex:
     """The joint of a link that is nearest to a place."""
-    own = [LinkPoint(link, e.x, e.y) for (_, holder), e in posed.lower.elements.items() if holder == link]
-    places = [complex(posed.pose.complex_point(place)[0]) for place in own]
+    joints = [LinkPoint(link, e.x, e.y) for (_, holder), e in posed.lower.elements.items() if holder == link]
+    places = [complex(posed.pose.complex_point(place)[0]) for place in joints]
     return min(places, key=lambda z: abs(z - near))
 
 
 def pole_numbers(links: Sequence[str]) -> dict[str, str]:
-    """What links are called in the names of poles: short names as they are, others by number.
+    """The names of links in the names of poles: short names unchanged, numbers for others.
 
     >>> pole_numbers(["frame", "crank", "coupler"])
     {'frame': '1', 'crank': '2', 'coupler': '3'}
@@ -111,10 +111,10 @@ def pole_numbers(links: Sequence[str]) -> dict[str, str]:
 
 
 def _name(pole: Pole, numbers: Mapping[str, str]) -> str:
-    one, other = sorted((numbers[link] for link in pole.links), key=lambda word: (len(word), word))
-    if len(one) == len(other) == 1 and (one + other).isdigit():
-        return "P" + (one + other).translate(_SUBSCRIPTS)
-    return f"P({one}, {other})"
+    first, second = sorted((numbers[link] for link in pole.links), key=lambda number: (len(number), number))
+    if len(first) == len(second) == 1 and (first + second).isdigit():
+        return "P" + (first + second).translate(_SUBSCRIPTS)
+    return f"P({first}, {second})"
 
 
 def pole_marks(context: LayerContext) -> list[Shape]:
@@ -126,18 +126,18 @@ def pole_marks(context: LayerContext) -> list[Shape]:
     groups: list[tuple[complex, list[Pole]]] = []
     for pole in poles:
         if not pole.direction and _near(posed, pole.at):
-            mine = next((group for z, group in groups if abs(z - pole.at) < _SAME * posed.lower.size), None)
-            if mine is None:
+            nearby = next((group for z, group in groups if abs(z - pole.at) < _SAME * posed.lower.size), None)
+            if nearby is None:
                 groups.append((pole.at, [pole]))
             else:
-                mine.append(pole)
+                nearby.append(pole)
         if not pole.permanent and not pole.direction and _near(posed, pole.at):
             rays = (ends[-1] for ends in _rays(posed, pole, poles))
             shapes += [Polylines(((posed.local(start), posed.local(pole.at)),), "dead") for start in rays]
     for z, group in groups:
         at = posed.local(z)
         shapes.append(CircleShape(at, 3.0, "dot") if any(pole.permanent for pole in group) else cross(at))
-    words: list[tuple[Point, str]] = [
+    labels: list[tuple[Point, str]] = [
         (posed.local(z), ", ".join(_name(pole, numbers) for pole in group)) for z, group in groups
     ]
     for pole in poles:
@@ -145,8 +145,8 @@ def pole_marks(context: LayerContext) -> list[Shape]:
             for start, text in _far(context, pole, poles, _name(pole, numbers)):
                 tip = _tip(posed, pole, start)
                 shapes += arrow(posed.local(start), tip, "dead", "dot")
-                words.append((tip, text))
-    for at, text in words:
+                labels.append((tip, text))
+    for at, text in labels:
         shapes.append(note_near(at, text, "value", [*context.drawn, *shapes]))
     return shapes
 
@@ -157,9 +157,9 @@ def _near(posed: PosedLinkage, z: complex) -> bool:
     return max(upper.x - at.x, at.x - lower.x, upper.y - at.y, at.y - lower.y) <= away
 
 
-def _rays(posed: PosedLinkage, pole: Pole, found: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
-    """The permanent poles on each polar ray of a pole that are no points at infinity, the nearest to it first."""
-    permanent = {frozenset(one.links): one for one in found if one.permanent}
+def _rays(posed: PosedLinkage, pole: Pole, poles: Sequence[Pole]) -> Iterator[tuple[complex, ...]]:
+    """The finite permanent poles on each polar ray of a pole, the nearest to it first."""
+    permanent = {frozenset(candidate.links): candidate for candidate in poles if candidate.permanent}
 
     def away(z: complex) -> float:
         return -(z * pole.direction.conjugate()).real if pole.direction else abs(z - pole.at)
@@ -171,10 +171,10 @@ def _rays(posed: PosedLinkage, pole: Pole, found: Sequence[Pole]) -> Iterator[tu
             yield tuple(sorted(ends, key=away))
 
 
-def _far(context: LayerContext, pole: Pole, found: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
-    """Where arrows to a pole outside begin, and what stands at them: its name, and how far it is from there."""
+def _far(context: LayerContext, pole: Pole, poles: Sequence[Pole], name: str) -> Iterator[tuple[complex, str]]:
+    """The starts of arrows to a pole outside, with their texts: its name, and its distance from there."""
     posed = context.posed
-    nearest = [ends[0] for ends in _rays(posed, pole, found)] if not pole.permanent else []
+    nearest = [ends[0] for ends in _rays(posed, pole, poles)] if not pole.permanent else []
     if pole.direction:
         yield from ((start, f"{name} ∞") for start in nearest or [pole.at])
         return
@@ -183,5 +183,5 @@ def _far(context: LayerContext, pole: Pole, found: Sequence[Pole], name: str) ->
 
 
 def _tip(posed: PosedLinkage, pole: Pole, start: complex) -> Point:
-    way = posed.local(pole.direction or pole.at - start).unit
-    return posed.local(start).plus(way, _RAY)
+    direction = posed.local(pole.direction or pole.at - start).unit
+    return posed.local(start).plus(direction, _RAY)

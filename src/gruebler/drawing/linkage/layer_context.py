@@ -1,4 +1,4 @@
-"""What the layers of a linkage picture are drawn on."""
+"""The input of the layers of a linkage picture."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ __all__ = ["Layer", "LayerContext"]
 
 
 class LayerContext(NamedTuple):
-    """What a layer is drawn on."""
+    """The input of a layer."""
 
     posed: PosedLinkage
     output: str | None
-    """The link or joint that is looked at; None for the linkage's own."""
+    """The output link or joint; None for the linkage's own."""
     drawn: Sequence[Shape]
-    """What is there already; texts keep clear of it."""
+    """The shapes drawn before, which texts avoid."""
     lang: str = "en"
 
 

@@ -1,6 +1,6 @@
-"""What a linkage picture may show beside the bodies: curves, other positions, and layers that are asked for by name.
+"""Additional content of a linkage picture: curves, other positions, and layers by name.
 
-Each layer is a function of a sheet; `LAYERS` names them.
+Each layer is a function of a `LayerContext`; `LAYERS` has them by name.
 """
 
 from __future__ import annotations
@@ -57,27 +57,27 @@ _AT_REST = 1e-7  # sizes for a drive of speed 1: below, a point leaves in the di
 
 
 def coupler_curve_lines(posed: PosedLinkage, name: str) -> list[Shape]:
-    """The path of a point through the range of the drive; where that is limited, the rest of its circuit thinly.
+    """The path of a point through the range of the drive; where that is limited, with its full circuit as a thin line.
 
     Raises `LinkageError` for a name that is no point or joint, and with several drives.
     """
     point = posed.linkage.points_named(name)[-1]
-    course = posed.driven()
-    if posed.goes_round:
-        drives = np.linspace(course.span.low, course.span.high, _SAMPLES * course.span.turns + 1)
-        return [curve_of(posed, course.at(drives, 0).complex_point(point), "curve")]
-    if isinstance(course, PathCycle):
-        return [curve_of(posed, course.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
-    rest = circuit(posed.linkage, branch=course.start.branch, drive=float(course.start.drives[0, 0]), step=_STEP)
+    cycle = posed.driven()
+    if posed.repeats:
+        drives = np.linspace(cycle.span.low, cycle.span.high, _SAMPLES * cycle.span.turns + 1)
+        return [curve_of(posed, cycle.at(drives, 0).complex_point(point), "curve")]
+    if isinstance(cycle, PathCycle):
+        return [curve_of(posed, cycle.at(np.linspace(0, 1, _SAMPLES + 1), 0).complex_point(point), "curve")]
+    whole_circuit = circuit(posed.linkage, branch=cycle.start.branch, drive=float(cycle.start.drives[0, 0]), step=_STEP)
     return [
-        curve_of(posed, rest.samples.complex_point(point), "curve-rest"),
+        curve_of(posed, whole_circuit.samples.complex_point(point), "curve-rest"),
         curve_of(posed, posed.path.complex_point(point), "curve"),
     ]
 
 
 def curve_of(posed: PosedLinkage, z: Complexes, style: str) -> Polylines:
-    """A line through places, with as few points as will do."""
-    points = [posed.local(complex(one)) for one in z]
+    """A line through places, simplified."""
+    points = [posed.local(complex(place)) for place in z]
     closed = points[0].minus(points[-1]).length < 1e-3
     line = simplified(points, FINE)
     return Polylines((tuple(line[:-1] if closed and len(line) > 2 else line),), style, closed)
@@ -92,7 +92,7 @@ def drive_arrows(posed: PosedLinkage) -> list[Shape]:
 
 
 def drive_parts(posed: PosedLinkage) -> list[BodyPart]:
-    """The arrows of the drives, each going with a link of its joint."""
+    """The arrows of the drives, each as a part of a link of its joint."""
     lower = posed.lower
     body_parts: list[BodyPart] = []
     for number, drive in enumerate(lower.mechanism.drives if posed.linkage.mechanism.drives else ()):
@@ -121,7 +121,7 @@ def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
         if link == lower.mechanism.frame:
             angles.append(math.pi / 2)
             continue
-        pins = [(n, e) for (n, own), e in lower.elements.items() if own == link and n != joint]
+        pins = [(n, e) for (n, owner), e in lower.elements.items() if owner == link and n != joint]
         angles += [math.atan2(p.y - at.y, p.x - at.x) for n, e in pins if (p := posed.place(LinkPoint(link, e.x, e.y)))]
     return widest_gap(angles or [math.pi / 2])
 
@@ -130,26 +130,26 @@ def _free_direction(posed: PosedLinkage, joint: int, at: Point) -> float:
 
 
 def _dead_centres(context: LayerContext) -> list[Shape]:
-    """The links as thin lines where the output stops or rests."""
+    """The links as thin lines in the dead centres and dwells of the output."""
     posed = context.posed
     cycle = posed.driven()
     centres, dwells = stops(cycle, find_output(posed.linkage, context.output))
-    found = [centre.drive for centre in centres] + [drive for dwell in dwells for drive in (dwell.begin, dwell.end)]
-    if not posed.goes_round:
+    drives = [centre.drive for centre in centres] + [drive for dwell in dwells for drive in (dwell.begin, dwell.end)]
+    if not posed.repeats:
         low, high = posed.path.drives[0, 0], posed.path.drives[-1, 0]
-        found = [drive for drive in found if low <= drive <= high]
-    if not found:
+        drives = [drive for drive in drives if low <= drive <= high]
+    if not drives:
         return []
-    motion = cycle.at(np.array(found), 0)
-    return [shape for row in range(len(found)) for shape in ghost(posed, motion, row)]
+    motion = cycle.at(np.array(drives), 0)
+    return [shape for row in range(len(drives)) for shape in ghost(posed, motion, row)]
 
 
 def ghosts(posed: PosedLinkage, count: int) -> list[Shape]:
-    """So many positions, evenly through the turns of the drive; in a range from one end to the other."""
+    """``count`` positions, evenly through the turns of the drive; in a range from one end to the other."""
     drives = posed.path.drives[:, 0]
     places = (
         np.linspace(drives[0], drives[-1], count + 1)[:-1]
-        if posed.goes_round
+        if posed.repeats
         else np.linspace(drives[0], drives[-1], count)
     )
     motion = posed.driven().at(places, 0)
@@ -158,7 +158,7 @@ def ghosts(posed: PosedLinkage, count: int) -> list[Shape]:
 
 def ghost(posed: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
     """The outlines of all moving links, their guides and their joints."""
-    lower, found = posed.lower, slides(posed)
+    lower, joint_slides = posed.lower, slides(posed)
     lines: list[tuple[Point, ...]] = []
     joints: dict[tuple[float, float], Point] = {}
     for link in lower.mechanism.chain.links:
@@ -170,22 +170,22 @@ def ghost(posed: PosedLinkage, motion: Motion, row: int) -> list[Shape]:
             assert isinstance(shape, Polylines)
             return shape.parts[0]
 
-        corners = moved(corners_of(posed, link, found))
+        corners = moved(corners_of(posed, link, joint_slides))
         if len(corners) > 1:
             lines.append((*corners, corners[0]) if len(corners) > 2 else corners)
-        guides = [slide for slide in found if slide.guide == link and slide.sign != "cylinder"]
+        guides = [slide for slide in joint_slides if slide.guide == link and slide.sign != "cylinder"]
         lines += [moved(map(posed.local, (slide.low, slide.high))) for slide in guides]
-        own = [posed.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
-        joints |= {(round(p.x, 1), round(p.y, 1)): p for p in moved(own)}
+        pins = [posed.local(complex(e.x, e.y)) for (_, holder), e in lower.elements.items() if holder == link]
+        joints |= {(round(p.x, 1), round(p.y, 1)): p for p in moved(pins)}
     return [Polylines(tuple(lines), "ghost"), *(CircleShape(at, 4.0, "ghost-pin") for at in joints.values())]
 
 
 def _transmission(context: LayerContext) -> list[Shape]:
-    """The angle between the force on the output and the normal of its way, with its value."""
+    """The angle between the force on the output and the normal of its path, with its value."""
     posed = context.posed
     posed.driven()
     pushed = [_push(posed, leg) for leg in pushing_links(posed.pose.plan, find_output(posed.linkage, context.output))]
-    at, force, normal = min(pushed, key=lambda one: abs(cmath.phase(one[2] / one[1])))
+    at, force, normal = min(pushed, key=lambda push: abs(cmath.phase(push[2] / push[1])))
     apex = posed.local(at)
     begin, extent = -cmath.phase(force), -cmath.phase(normal / force)
     rays = [(apex, ArcShape(apex, _RAY, begin, extent, "measure").place(part)) for part in (0, 1)]
@@ -196,7 +196,7 @@ def _transmission(context: LayerContext) -> list[Shape]:
 
 
 def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, complex]:
-    """Where a leg pushes, in which direction (from there back to the leg), and the nearer normal of the way there."""
+    """The point where a leg pushes, the direction (from there back to the leg), and the nearer normal of the path."""
     pose, chain = posed.pose, posed.lower.mechanism.chain
 
     def point(element: tuple[str, complex, complex]) -> complex:
@@ -210,14 +210,14 @@ def _push(posed: PosedLinkage, leg: PushingLink) -> tuple[complex, complex, comp
     force = outer - inner if leg.form == "RR" else across(leg.inner if leg.form == "RP" else leg.outer)
     if leg.guide is not None:
         kind, place = leg.guide
-        way = place[2] if kind == "P" else 1j * (at - place[1])
+        motion = place[2] if kind == "P" else 1j * (at - place[1])
     else:
         k = chain.index(leg.pushed)
         arm, w = at - pose.places[0, 0, k], float(pose.rates[0, 0, k])
-        way = complex(pose.places[1, 0, k] + 1j * w * arm)
-        if abs(way) < _AT_REST * posed.lower.size:
-            way = complex(pose.places[2, 0, k] + (1j * pose.rates[1, 0, k] - w**2) * arm)
-    normal = 1j * way
+        motion = complex(pose.places[1, 0, k] + 1j * w * arm)
+        if abs(motion) < _AT_REST * posed.lower.size:
+            motion = complex(pose.places[2, 0, k] + (1j * pose.rates[1, 0, k] - w**2) * arm)
+    normal = 1j * motion
     return at, force, normal if (force.conjugate() * normal).real >= 0 else -normal
 
 
@@ -231,7 +231,7 @@ def point_names(posed: PosedLinkage, shapes: Sequence[Shape]) -> Iterable[TextSh
 
 
 def _later(_: LayerContext) -> list[Shape]:
-    """Bars are put below everything else, when all of it is there."""
+    """No shapes: scale bars are drawn last, below all others."""
     return []
 
 
@@ -247,14 +247,14 @@ LAYERS: Mapping[str, Layer] = {
     "scale": _later,
 }
 BELOW = ("dead-centres", "centrodes", "inflection")
-"""Layers that lie under the bodies, but for their marks and words."""
+"""Layers below the bodies, except their marks and texts."""
 
 
 def layer(name: str) -> Layer:
-    """A layer by name; `LinkageError` names those there are."""
+    """A layer by name; `LinkageError` for an unknown name."""
     if name not in LAYERS:
         raise LinkageError(
-            "there is no {name!r} to be shown{suggestion}; there are {layers}",
+            "there is no layer {name!r}{suggestion}; there are {layers}",
             name=name,
             suggestion=nearest(name, LAYERS),
             layers=", ".join(LAYERS),

@@ -1,4 +1,4 @@
-"""The picture of a motion: its first pose, some of the others thinly, and the paths of named points."""
+"""The picture of a motion: its first pose, some others as thin lines, and the paths of named points."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ _GHOSTS = 5
 
 
 def draw_motion(motion: Motion, *, lang: str = "en", name: str = "") -> Figure:
-    """A motion as it was solved; of one without any pose the structure of its mechanism, with the reason.
+    """A solved motion; for a motion without a pose the structure of its mechanism, with the reason.
 
     Args:
         motion: of one or several drives.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
+        name: the title; by default the kind of mechanism.
 
     >>> from gruebler.kinematics import from_degrees, move
     >>> from gruebler.fourbar import FourBar

@@ -13,7 +13,7 @@ from gruebler.analysis.outputs import Output, find_output
 from gruebler.analysis.transmission import measure_transmission
 from gruebler.drawing.canvas.axes import Axis, angles, decimals
 from gruebler.drawing.canvas.figure import Figure
-from gruebler.drawing.canvas.panels import AxisMarker, Band, Curve, Panel, PointMarker, Rest, draw_panels
+from gruebler.drawing.canvas.panels import AxisMarker, Band, Curve, DwellMarker, Panel, PointMarker, draw_panels
 from gruebler.drawing.canvas.shapes import Point
 from gruebler.drawing.canvas.styles import LINES
 from gruebler.drawing.linkage.piecewise_curves import Between, Branch, PlotRun, plot_run
@@ -26,7 +26,7 @@ __all__ = ["transfer_plot", "transmission_plot"]
 
 _GOOD = 40.0  # degrees: the least transmission angle that is usual
 _LOW = Point(520.0, 190.0)  # panels of which there are three
-_NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values are none
+_NOISE = 1e-6  # of the usual size of an output or its derivative: smaller values count as zero
 
 
 def transfer_plot(
@@ -43,12 +43,12 @@ def transfer_plot(
 
     Args:
         linkage: with one drive.
-        output: a link or sliding joint; the linkage's own output without it.
+        output: a link or sliding joint; by default the linkage's own output.
         branch: the assembly mode, as for `gruebler.kinematics.move`.
-        between: drive values between which it is plotted (radians, or a way), if not the whole range.
+        between: drive values between which it is plotted (radians, or a length); by default the full range.
         lang: ``en`` or ``de``.
-        name: of the linkage, if it is not to be found out.
-        names: what to call links, where that is not their own name.
+        name: of the linkage; by default its kind.
+        names: other names for links.
 
     Raises `LinkageError` for several drives, an unknown output, the frame, and if the linkage's own output moves
     without turning.
@@ -58,25 +58,25 @@ def transfer_plot(
     'four-bar linkage: transfer functions of rocker'
     """
     run = plot_run(linkage, 2, branch, between, lang, name)
-    found = find_output(linkage, output)
-    _check(run, found, output)
-    called = (names or {}).get(found.name, found.name)
-    marks, rests = _stops(run, found)
+    output_quantity = find_output(linkage, output)
+    _check(run, output_quantity, output)
+    called = (names or {}).get(output_quantity.name, output_quantity.name)
+    marks, dwells = _stops(run, output_quantity)
     panels = []
     for order in range(3):
-        values = found.values(run.motion, order)
-        if order == 0 and np.ptp(values) < _least(run, found, 1):
+        values = output_quantity.values(run.motion, order)
+        if order == 0 and np.ptp(values) < _least(run, output_quantity, 1):
             values = np.full_like(values, values.mean())
-        if found.turning and order == 0:
+        if output_quantity.turning and order == 0:
             values = np.degrees(values)
-        values = np.where(np.abs(values) < _least(run, found, max(order, 1)), 0.0, values)
-        scale = angles if found.turning and order == 0 else decimals
-        axis = Axis(_order_words(run, found, order), scale(*run.bulk(values), few=6))
-        shown = marks if order == 0 else tuple(mark._replace(words="") for mark in marks)
+        values = np.where(np.abs(values) < _least(run, output_quantity, max(order, 1)), 0.0, values)
+        scale = angles if output_quantity.turning and order == 0 else decimals
+        axis = Axis(_order_words(run, output_quantity, order), scale(*run.bulk(values), few=6))
+        shown = marks if order == 0 else tuple(mark._replace(text="") for mark in marks)
         curves = (Curve(run.x, values, "", LINES[0]),)
-        named = rests if order == 0 else tuple(rest._replace(words="") for rest in rests)
+        named = dwells if order == 0 else tuple(dwell._replace(text="") for dwell in dwells)
         panels.append(
-            Panel(run.across, axis, curves, marks=shown, rests=named, size=_LOW, marked=translate("dead centre", lang))
+            Panel(run.across, axis, curves, marks=shown, dwells=named, size=_LOW, marked=translate("dead centre", lang))
         )
     title = translate("{name}: transfer functions of {output}", lang, name=run.name, output=called)
     about = translate(
@@ -85,21 +85,21 @@ def transfer_plot(
         range=run.range,
         output=called,
     )
-    return draw_panels(panels, title, about + _described(run, marks, rests), lang)
+    return draw_panels(panels, title, about + _described(run, marks, dwells), lang)
 
 
-def _check(run: PlotRun, output: Output, asked: str | None) -> None:
-    """`LinkageError` for an output that cannot have a transfer function: the frame, or a link that does not turn."""
+def _check(run: PlotRun, output: Output, requested: str | None) -> None:
+    """Raise `LinkageError` for an output without a transfer function: the frame, or a link that does not turn."""
     linkage = run.cycle.linkage
     frame = linkage.mechanism.frame
     moving = [link for link in linkage.mechanism.chain.links if link != frame]
-    seen = {link: find_output(linkage, link) for link in moving}
-    sizes = {link: 1.0 if seen[link].turning else run.cycle.plan.lower.size for link in moving}
-    still = {link: np.ptp(seen[link].values(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
+    outputs = {link: find_output(linkage, link) for link in moving}
+    sizes = {link: 1.0 if outputs[link].turning else run.cycle.size for link in moving}
+    still = {link: np.ptp(outputs[link].values(run.motion, 0)) < _NOISE * sizes[link] for link in moving}
     others = ", ".join(link for link in moving if not still[link])
     if output.link == frame:
         raise LinkageError("the frame does not move: name another output, such as {others}", others=others)
-    if asked is None and output.turning and still[output.link]:
+    if requested is None and output.turning and still[output.link]:
         raise LinkageError(
             "the output {name} moves without turning, so it has no transfer function of an angle; name "
             "another output: {others}",
@@ -108,17 +108,17 @@ def _check(run: PlotRun, output: Output, asked: str | None) -> None:
         )
 
 
-def _described(run: PlotRun, marks: tuple[AxisMarker, ...], rests: tuple[Rest, ...]) -> str:
-    """The dead centres and dwells in words."""
-    values = ", ".join(dict.fromkeys(mark.words for mark in marks if mark.words))
+def _described(run: PlotRun, marks: tuple[AxisMarker, ...], dwells: tuple[DwellMarker, ...]) -> str:
+    """The dead centres and dwells as text."""
+    values = ", ".join(dict.fromkeys(mark.text for mark in marks if mark.text))
     centres = " " + translate("Dead centres at {values}.", run.lang, values=values) if values else ""
     to = math.radians if run.cycle.turning_drive else float
-    ranges = ", ".join(f"{run.value(to(rest.low))} – {run.value(to(rest.high))}" for rest in rests)
+    ranges = ", ".join(f"{run.value(to(dwell.low))} – {run.value(to(dwell.high))}" for dwell in dwells)
     return centres + (" " + translate("Dwells, shaded: {values}.", run.lang, values=ranges) if ranges else "")
 
 
 def _order_words(run: PlotRun, output: Output, order: int) -> str:
-    """What a transfer function is called, with its unit."""
+    """The name of a transfer function, with its unit."""
     letter, over = "ψ" if output.turning else "s", "φ" if run.cycle.turning_drive else "s₁"
     if order == 0:
         return f"{letter} in {'°' if output.turning else run.unit}"
@@ -130,34 +130,36 @@ def _order_words(run: PlotRun, output: Output, order: int) -> str:
         (False, False): "" if order == 1 else f"1/{run.unit}",
     }
     unit = units[output.turning, run.cycle.turning_drive]
-    words = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
-    return f"{words} in {unit}" if unit else words
+    text = f"{letter}{'′' * order} = d{mark}{letter}/d{over}{mark}"
+    return f"{text} in {unit}" if unit else text
 
 
 def _least(run: PlotRun, output: Output, order: int) -> float:
-    """The size of a derivative that is rounding only."""
-    by = 1.0 if run.cycle.turning_drive else run.cycle.plan.lower.size ** (order - 1)
+    """The size of a derivative below which it is rounding error."""
+    by = run.cycle.drive_size ** (order - 1)
     return _NOISE * natural_speed(run.cycle, output) / by
 
 
-def _stops(run: PlotRun, output: Output) -> tuple[tuple[AxisMarker, ...], tuple[Rest, ...]]:
-    """The dead centres and the dwells within what is plotted."""
-    centres, dwells = stops(run.cycle, output)
+def _stops(run: PlotRun, output: Output) -> tuple[tuple[AxisMarker, ...], tuple[DwellMarker, ...]]:
+    """The dead centres and the dwells within the plotted range."""
+    centres, intervals = stops(run.cycle, output)
     drives = [run.within(centre.drive) for centre in centres]
     shown = sorted(drive for drive in drives if drive is not None)
     low, high, period = float(run.drives[0]), float(run.drives[-1]), run.cycle.span.period
     again = [drive + period for drive in shown if drive + period <= high + 1e-9 * period]
     marks = [AxisMarker(run.drive_in_units(drive), run.value(drive)) for drive in shown]
     marks += [AxisMarker(run.drive_in_units(drive), "") for drive in again]
-    rests = []
-    for dwell in dwells:
+    dwells = []
+    for dwell in intervals:
         laps = range(math.floor((low - dwell.end) / period), math.ceil((high - dwell.begin) / period) + 1)
         for lap in laps if period < math.inf else (0,):
             shift = lap * period if lap else 0.0
             begin, end = max(low, dwell.begin + shift), min(high, dwell.end + shift)
             if end - begin > 1e-9 * (high - low):
-                rests.append(Rest(run.drive_in_units(begin), run.drive_in_units(end), translate("dwell", run.lang)))
-    return tuple(marks), tuple(sorted(rests))
+                dwells.append(
+                    DwellMarker(run.drive_in_units(begin), run.drive_in_units(end), translate("dwell", run.lang))
+                )
+    return tuple(marks), tuple(sorted(dwells))
 
 
 def transmission_plot(
@@ -179,22 +181,22 @@ def transmission_plot(
     'Smallest 36.87° at 0°; shaded below 40°. Dead centres at 34.05°, 233.1°.'
     """
     run = plot_run(linkage, 2, branch, between, lang, name)
-    found = find_output(linkage, output)
-    called = (names or {}).get(found.name, found.name)
-    values = np.degrees(transmission_angle(run.motion, found.name))
-    smallest = measure_transmission(run.cycle, found).smallest
+    output_quantity = find_output(linkage, output)
+    called = (names or {}).get(output_quantity.name, output_quantity.name)
+    values = np.degrees(transmission_angle(run.motion, output_quantity.name))
+    smallest = measure_transmission(run.cycle, output_quantity).smallest
     least, at = math.degrees(smallest.mu), run.within(smallest.drive)
     if at is None:
         row = int(values.argmin())
         least, at = float(values[row]), float(run.drives[row])
-    marks, rests = _stops(run, found)
+    marks, dwells = _stops(run, output_quantity)
     panel = Panel(
         run.across,
         Axis("μ in °", decimals(0.0, 90.0, few=9)),
         (Curve(run.x, values, "", LINES[0]),),
         bands=(Band(0.0, _GOOD, "μ < 40°"),),
         marks=marks,
-        rests=rests,
+        dwells=dwells,
         spots=(PointMarker(run.drive_in_units(at), least, f"μ_min = {least:.1f}°"),),
         marked=translate("dead centre", lang),
     )
@@ -206,4 +208,4 @@ def transmission_plot(
         mu=least,
         at=run.value(at),
     )
-    return draw_panels([panel], title, about + _described(run, marks, rests), lang)
+    return draw_panels([panel], title, about + _described(run, marks, dwells), lang)

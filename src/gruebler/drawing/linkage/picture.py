@@ -43,7 +43,7 @@ _MOST_GHOSTS = 60
 _AROUND = 17.0  # pixels from the middle of a block to its name
 _SQUARE = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 _WHEEL, _ROUND = 12.0, 24  # pixels of the radius of a wheel, at least; points around it
-_PLAIN = 95.0  # pixels: what is less around is a block between rails, with its name outside of these
+_PLAIN = 95.0  # pixels: a smaller perimeter is that of a block between rails, with its name outside of these
 _LAYER_NAMES = {
     "dead-centres": message("dead centres"),
     "centrodes": message("fixed centrode p, moving centrode q"),
@@ -55,7 +55,7 @@ _LAYER_NAMES = {
     "dimensions": message("dimensions"),
     "scale": message("scale"),
 }
-_MARKS = ("edge", "dot", "value")  # crosses, points and words of layers below
+_MARKS = ("edge", "dot", "value")  # crosses, points and texts of layers below
 _POLES = {"P": message("pole P"), "W": message("inflection pole W")}
 
 
@@ -77,22 +77,22 @@ def draw_linkage(
     """The picture of a linkage in one pose.
 
     Args:
-        linkage: what to draw.
-        drive: the drive's value (radians, or a way), one for each drive; a good one without it.
+        linkage: the linkage.
+        drive: the drive's value (radians, or a length), one for each drive; by default a suitable one.
         branch: the assembly mode, as for `gruebler.kinematics.move`.
-        between: drive values between which it is used, if not the whole range: for curves and the size of the picture.
+        between: drive values of its range, for curves and the size of the picture; by default the full range.
         curves: points or joints whose paths are drawn.
         show: ``dead-centres``, ``transmission``, ``velocities``, ``accelerations``, ``poles``, ``centrodes``,
             ``inflection``, ``dimensions``, ``scale``.
-        output: the link that dead centres and transmission angle are those of, the linkage's own without it; also
-            that of centrodes and inflection circle, without it a link that is no neighbour of the frame.
-        ghost: so many positions are drawn thinly, evenly through the range of the drive; at most 60.
+        output: the link of dead centres and transmission angle, by default the linkage's own output; also
+            that of centrodes and inflection circle, by default a link that is no neighbour of the frame.
+        ghost: the number of thinly drawn positions, evenly through the range of the drive; at most 60.
         labels: whether to name the links.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
-        names: what to call links in the picture, where that is not their own name.
+        name: the title; by default the kind of mechanism.
+        names: other names for links in the picture.
 
-    Raises `gruebler.LinkageError` for poses out of reach, unknown names, and what several drives have not.
+    Raises `gruebler.LinkageError` for unreachable poses, unknown names, and layers that need a single drive.
 
     >>> from gruebler.fourbar import FourBar
     >>> figure = draw_linkage(FourBar(25, 70, 40, 70).linkage({"K": (35, 20)}), 1.0, curves=["K"])
@@ -101,14 +101,14 @@ def draw_linkage(
     """
     posed = posed_linkage(linkage, drive, branch=branch, between=between)
     layers = {key: layer(key) for key in dict.fromkeys(show)}
-    curve = [shape for one in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, one)]
+    curve = [shape for point in dict.fromkeys(curves) for shape in coupler_curve_lines(posed, point)]
     pieces = body_parts(posed)
     frame = layered(posed, pieces, FRAME, FRAME)
     pins = layered(posed, pieces, PINS, PINS)
     bodies = layered(posed, pieces, BODIES, PINS - 1)
     context = LayerContext(posed, output, [*frame, *bodies, *pins], lang)
-    made = {key: layers[key](context) for key in layers if key in BELOW}
-    below = [shape for shapes in made.values() for shape in shapes]
+    layer_shapes = {key: layers[key](context) for key in layers if key in BELOW}
+    below = [shape for shapes in layer_shapes.values() for shape in shapes]
     shapes = [
         *frame,
         *(ghosts(posed, _count(ghost)) if ghost is not None else []),
@@ -120,27 +120,27 @@ def draw_linkage(
         *(shape for shape in below if shape.style in _MARKS),
     ]
     for key in (key for key in layers if key not in BELOW and key != "dimensions"):
-        made[key] = layers[key](context._replace(drawn=shapes))
-        shapes += made[key]
+        layer_shapes[key] = layers[key](context._replace(drawn=shapes))
+        shapes += layer_shapes[key]
     shapes += point_names(posed, shapes)
     texts, rows = _named(posed, pieces, shapes, names) if labels else ([], {})
     shapes += texts
     if "dimensions" in layers:
-        made["dimensions"] = dimension_lines(context._replace(drawn=shapes))
-        shapes += made["dimensions"]
+        layer_shapes["dimensions"] = dimension_lines(context._replace(drawn=shapes))
+        shapes += layer_shapes["dimensions"]
     shapes += scale_bars(context._replace(drawn=shapes), tuple(layers))
     if "poles" in layers:
         numbers = pole_numbers(linkage.mechanism.chain.links)
         rows = {(names or {}).get(link, link): number for link, number in numbers.items() if number != link} | rows
     if rows:
         shapes += legend(rows, [Point(0.0, 0.0)], shapes)
-    said, missing = picture_notes(posed, curves, {key: made[key] for key in layers}, lang, ghost or 0)
-    described = f"{describe(linkage.mechanism, lang)} {' '.join([*said, *missing])}"
+    sentences, missing = picture_notes(posed, curves, {key: layer_shapes[key] for key in layers}, lang, ghost or 0)
+    described = f"{describe(linkage.mechanism, lang)} {' '.join([*sentences, *missing])}"
     return figure_of(shapes, title(linkage.mechanism, lang, name), described, MARGIN, missing)
 
 
 def shown_linkage(linkage: Linkage) -> Figure:
-    """A linkage as notebooks show it: in a pose; where it has none the structure of its mechanism, with the reason."""
+    """A linkage for notebooks: in a pose; without one the structure of its mechanism, with the reason."""
     try:
         return draw_linkage(linkage, labels=True)
     except GrueblerError as reason:
@@ -151,19 +151,21 @@ def shown_linkage(linkage: Linkage) -> Figure:
 def _named(
     posed: PosedLinkage, pieces: Sequence[BodyPart], shapes: Sequence[Shape], names: Mapping[str, str] | None
 ) -> tuple[list[Shape], dict[str, str]]:
-    """Names beside the bodies, and what is to be listed."""
-    found = slides(posed)
-    outlines = {link: _outline(posed, link, pieces, found) for link in posed.linkage.mechanism.chain.links}
+    """Names beside the bodies, and the entries of the list."""
+    joint_slides = slides(posed)
+    outlines = {link: _outline(posed, link, pieces, joint_slides) for link in posed.linkage.mechanism.chain.links}
     return labels_with_names(outlines, {link: len(outlines[link]) > 2 for link in outlines}, shapes, names)
 
 
-def _outline(posed: PosedLinkage, link: str, pieces: Sequence[BodyPart], found: tuple[Slide, ...]) -> tuple[Point, ...]:
-    """Corners beside which the name of a link is put: those of its body, barrel, rod or block; for the frame a base."""
-    mine = [part for part in pieces if part.link == link]
-    lines = [(part.layer, shape) for part in mine for shape in part.shapes if isinstance(shape, Polylines)]
-    corners = corners_of(posed, link, found)
-    rod = next((slide for slide in found if slide.block == link and slide.sign == "cylinder"), None)
-    rims = [rim for part in mine for shape in part.shapes if (rim := _rim(shape))]
+def _outline(
+    posed: PosedLinkage, link: str, pieces: Sequence[BodyPart], joint_slides: tuple[Slide, ...]
+) -> tuple[Point, ...]:
+    """Corners for placing the name of a link: those of its body, barrel, rod or block; for the frame of a base."""
+    parts = [part for part in pieces if part.link == link]
+    lines = [(part.layer, shape) for part in parts for shape in part.shapes if isinstance(shape, Polylines)]
+    corners = corners_of(posed, link, joint_slides)
+    rod = next((slide for slide in joint_slides if slide.block == link and slide.sign == "cylinder"), None)
+    rims = [rim for part in parts for shape in part.shapes if (rim := _rim(shape))]
     if link == posed.lower.mechanism.frame:
         corners = next((shape for _, shape in lines if shape.style == "block-frame"), lines[0][1]).parts[0][-2:]
     elif rims and (len(corners) < 2 or max(map(_perimeter, rims)) > _perimeter(corners)):
@@ -180,7 +182,7 @@ def _outline(posed: PosedLinkage, link: str, pieces: Sequence[BodyPart], found: 
 
 
 def _rim(shape: Shape) -> tuple[Point, ...]:
-    """Some points around a wheel, a cam or another contour; none of what is no such body."""
+    """Some points around a wheel, a cam or another contour; empty for other shapes."""
     if isinstance(shape, CircleShape) and shape.radius > _WHEEL and shape.style != "dead":
         turns = [2 * pi * k / _ROUND for k in range(_ROUND)]
         return tuple(shape.at.plus(Point(cos(turn), sin(turn)), shape.radius) for turn in turns)
@@ -191,12 +193,12 @@ def _rim(shape: Shape) -> tuple[Point, ...]:
 
 
 def _seen_of_rod(posed: PosedLinkage, rod: Slide) -> tuple[Point, ...]:
-    """What of a rod is outside of its barrel: from there to its pin."""
+    """The part of a rod outside of its barrel: from there to its pin."""
     return *_placed(posed, rod.guide, barrel(posed, rod)[1:]), *_placed(posed, rod.block, [posed.local(rod.middle)])
 
 
 def _placed(posed: PosedLinkage, link: str, corners: Sequence[Point]) -> tuple[Point, ...]:
-    """Points of a link where they lie in the pose."""
+    """Points of a link transformed to the pose."""
     (line,) = shapes_at_pose(posed, BodyPart(BODIES, link, (Polylines((tuple(corners),), "edge"),)))
     assert isinstance(line, Polylines)
     return line.parts[0]
@@ -215,9 +217,9 @@ def _count(number: int) -> int:
 
 
 def picture_notes(
-    posed: PosedLinkage, curves: Sequence[str], made: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
+    posed: PosedLinkage, curves: Sequence[str], layer_shapes: Mapping[str, Sequence[Shape]], lang: str, count: int = 0
 ) -> tuple[list[str], list[str]]:
-    """The pose and what is shown, in sentences; and what was asked for but is not there."""
+    """The pose and the content of the picture, in sentences; and the requested layers that are missing."""
     drives = posed.linkage.mechanism.drives
     values = [
         number(round(degrees(value), 2) + 0.0, lang, "g") + "°"
@@ -225,7 +227,7 @@ def picture_notes(
         else as_text(float(value), posed.linkage.unit, lang)
         for value, drive in zip(posed.pose.drives[0], drives, strict=bool(drives))
     ]
-    said = [
+    sentences = [
         translate(
             "To scale. Drive at {values}." if drives else "To scale, in the reference pose; nothing is driven.",
             lang,
@@ -233,21 +235,19 @@ def picture_notes(
         )
     ]
     if curves:
-        said.append(translate("Curve of {points}.", lang, points=", ".join(dict.fromkeys(curves))))
+        sentences.append(translate("Curve of {points}.", lang, points=", ".join(dict.fromkeys(curves))))
     if count:
-        said.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))
-    shown = [_layer_name(key, shapes, lang) for key, shapes in made.items() if shapes or key == "scale"]
-    empty = [_layer_name(key, (), lang) for key, shapes in made.items() if not shapes and key != "scale"]
-    missing = (
-        [translate("Not there, or outside the picture: {layers}.", lang, layers=", ".join(empty))] if empty else []
-    )
-    said += [translate("Shown: {layers}.", lang, layers=", ".join(shown))] if shown else []
-    return said, missing
+        sentences.append(plural("{count} position thinly.", "{count} positions thinly.", count, lang))
+    shown = [_layer_name(key, shapes, lang) for key, shapes in layer_shapes.items() if shapes or key == "scale"]
+    empty = [_layer_name(key, (), lang) for key, shapes in layer_shapes.items() if not shapes and key != "scale"]
+    missing = [translate("Missing, or outside the picture: {layers}.", lang, layers=", ".join(empty))] if empty else []
+    sentences += [translate("Shown: {layers}.", lang, layers=", ".join(shown))] if shown else []
+    return sentences, missing
 
 
 def _layer_name(key: str, shapes: Sequence[Shape], lang: str) -> str:
-    """What a layer is called; of an inflection circle with the poles that lie in the picture."""
+    """The name of a layer; for an inflection circle with its poles that lie in the picture."""
     name = _LAYER_NAMES[key].in_language(lang)
-    words = {shape.words for shape in shapes if isinstance(shape, TextShape)}
-    poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in words]
+    text = {shape.text for shape in shapes if isinstance(shape, TextShape)}
+    poles = [pole.in_language(lang) for letter, pole in _POLES.items() if key == "inflection" and letter in text]
     return f"{name} ({', '.join(poles)})" if poles else name

@@ -18,9 +18,9 @@ from gruebler.kinematics import Motion
 __all__ = ["centrode_lines", "cross", "inflection_lines"]
 
 
-_WIDE = 0.3  # of the figure's longer side: how far around it centrodes and inflection circles are seen
+_WIDE = 0.3  # of the figure's longer side: the margin in which centrodes and inflection circles are visible
 _SAMPLES = 1440  # points of a centrode or circle
-_TURNING = 1e-6  # for a drive of speed 1: a link that turns more slowly has its pole far away
+_TURNING = 1e-6  # for a drive of speed 1: the pole of a link that turns more slowly is far away
 _POINT = 1e-6  # sizes: a smaller inflection circle is a point
 
 
@@ -32,7 +32,7 @@ def cross(at: Point) -> Polylines:
 
 
 class _Box(NamedTuple):
-    """What the linkage reaches, with something around it."""
+    """The reach of the linkage with a margin."""
 
     upper: Point
     lower: Point
@@ -48,22 +48,22 @@ class _Box(NamedTuple):
 
 
 def _number(context: LayerContext) -> int:
-    """The link that is looked at: the one asked for, else a link that is no neighbour of the frame."""
+    """The number of the requested link, by default of a link that is no neighbour of the frame."""
     links, output = context.posed.lower.mechanism.chain.links, context.output
     if output is not None and output not in links:
         known = context.posed.linkage.mechanism.chain.links
-        there = ", ".join(known)
+        link_names = ", ".join(known)
         raise LinkageError(
             "centrodes and inflection circles are those of a link{suggestion}; {output!r} is none of {links}",
             suggestion=nearest(output, known),
             output=output,
-            links=there,
+            links=link_names,
         )
     return links.index(floating_link(context.posed.linkage) if output is None else output)
 
 
 def inflection_lines(context: LayerContext) -> list[Shape]:
-    """The inflection circle as far as it is near, with the pole P and the inflection pole W opposite to it.
+    """The inflection circle within the box, with the pole P and the inflection pole W opposite to it.
 
     Pole and circle: docs/theory/geometry.md.
     """
@@ -91,15 +91,15 @@ def inflection_lines(context: LayerContext) -> list[Shape]:
 
 
 def centrode_lines(context: LayerContext) -> list[Shape]:
-    """The fixed centrode p and the moving one q, which roll on each other, as far as they are near; q in this pose."""
+    """The fixed centrode p and the moving one q in this pose, which roll on each other, within the box."""
     posed, k = context.posed, _number(context)
     cycle = posed.driven()
     drives = posed.path.drives[:, 0]
-    between = None if posed.goes_round else (float(drives[0]), float(drives[-1]))
+    between = None if posed.repeats else (float(drives[0]), float(drives[-1]))
     motion = cycle.at(drive_rows(cycle, between, _SAMPLES), 1)
     fixed = _poles_of(motion, k)
-    own = (fixed - motion.places[0, :, k]) * motion.turns[:, k].conj()
-    moving = posed.pose.places[0, 0, k] + posed.pose.turns[0, k] * own
+    relative = (fixed - motion.places[0, :, k]) * motion.turns[:, k].conj()
+    moving = posed.pose.places[0, 0, k] + posed.pose.turns[0, k] * relative
     box = _Box.around(posed, _WIDE)
     shapes: list[Shape] = []
     for z, style, name in ((fixed, "centrode-fixed", "p"), (moving, "centrode-moving", "q")):
@@ -113,7 +113,7 @@ def centrode_lines(context: LayerContext) -> list[Shape]:
 
 
 def _poles_of(motion: Motion, k: int) -> Complexes:
-    """The poles of a link at all rows; NaN where it does not turn."""
+    """The poles of a link in all rows; NaN where it does not turn."""
     rate = np.where(np.abs(motion.rates[0, :, k]) < _TURNING, np.nan, motion.rates[0, :, k])
     with np.errstate(invalid="ignore"):
         return np.asarray(motion.places[0, :, k] + 1j * motion.places[1, :, k] / rate)
@@ -122,9 +122,9 @@ def _poles_of(motion: Motion, k: int) -> Complexes:
 def _within(posed: PosedLinkage, z: Complexes, box: _Box) -> list[tuple[Point, ...]]:
     """The parts of a line that lie in a box."""
     parts: list[list[Point]] = [[]]
-    for one in z:
-        at = posed.local(complex(one))
-        if np.isfinite(one) and box.holds(at):
+    for place in z:
+        at = posed.local(complex(place))
+        if np.isfinite(place) and box.holds(at):
             parts[-1].append(at)
         elif parts[-1]:
             parts.append([])

@@ -1,4 +1,4 @@
-"""A linkage on the stage: one pose, the way of its drive through all others, and the scale that shows them."""
+"""A linkage prepared for drawing: one pose, the path of its drive through all others, and the scale."""
 
 from __future__ import annotations
 
@@ -26,36 +26,36 @@ __all__ = ["PosedLinkage", "drive_rows", "floating_link", "link_nodes", "posed_a
 
 
 _PIXELS = 380.0  # for the longer side of all that the pins reach
-_SHORTEST = 34.0  # pixels between two pins of one link, as long as the picture does not become huge
+_SHORTEST = 34.0  # pixels between two pins of one link, unless the picture becomes too large
 _LARGEST = 2.2  # times the usual size
 _ROWS = 72  # poses of a turn, or of a range
-_INSIDE = 1e-6  # of the range: how far from a limit the last pose lies
+_INSIDE = 1e-6  # of the range: the distance of the last pose from a limit
 _ENDLESS = 1.5  # sizes on both sides of the start of a slide without limits
 
 
 @dataclass(frozen=True)
 class PosedLinkage:
-    """What pictures and animations of a linkage need to know of its motion."""
+    """The motion of a linkage as input of pictures and animations."""
 
     lower: Linkage
-    """The linkage with turning and sliding joints only; links that it had before keep their names."""
+    """The linkage with turning and sliding joints only; its original links keep their names."""
     cycle: DriveCycle | None
-    """The whole motion; None with several drives or none, and where there is one position only."""
+    """The full motion; None with several drives or none, and where there is one position only."""
     pose: Motion
     """One row, with rates for a drive of speed 1 where there is one drive."""
     path: Motion
-    """Rows through the range of the drive, evenly in time; without a course the pose alone."""
+    """Rows through the range of the drive, evenly in time; without a cycle the pose alone."""
     scale: float
     """Pixels to a unit of length."""
 
     @property
     def linkage(self) -> Linkage:
-        """As it was given."""
+        """The original linkage."""
         return self.pose.linkage
 
     @property
-    def goes_round(self) -> bool:
-        """Whether the path is a closed one: after its last row comes its first."""
+    def repeats(self) -> bool:
+        """Whether the path is closed: after its last row it continues with its first."""
         drives = self.path.drives[:, 0]
         return self.cycle is not None and _is_whole(self.cycle, drives)
 
@@ -64,18 +64,18 @@ class PosedLinkage:
         return Point(self.scale * z.real, -self.scale * z.imag)
 
     def place(self, point: LinkPoint) -> Point:
-        """Where a point lies in the pose, in pixels."""
+        """The place of a point in the pose, in pixels."""
         return self.local(complex(self.pose.complex_point(point)[0]))
 
     @property
     def reach(self) -> tuple[Point, Point]:
-        """The upper left and the lower right corner of what joints and named points reach on the path, in pixels."""
+        """The upper left and lower right corner of the reach of joints and named points on the path, in pixels."""
         z = self.scale * _reached(self.lower, self.path)
         low, high = z.real.min() + 1j * z.imag.min(), z.real.max() + 1j * z.imag.max()
         return Point(float(low.real), -float(high.imag)), Point(float(high.real), -float(low.imag))
 
     def driven(self) -> DriveCycle:
-        """The course; `LinkageError` with several drives."""
+        """The cycle; `LinkageError` with several drives."""
         if self.cycle is None:
             count = len(self.linkage.mechanism.drives)
             if count == 1:
@@ -89,7 +89,7 @@ class PosedLinkage:
 
 
 def posed_along_motion(motion: Motion) -> PosedLinkage:
-    """A motion of one row or more as it was solved, its first row as the pose; without the rest of its course."""
+    """A solved motion of one row or more, its first row as the pose; without the other drive values of its cycle."""
     first = replace(
         motion,
         drives=motion.drives[:1],
@@ -101,11 +101,11 @@ def posed_along_motion(motion: Motion) -> PosedLinkage:
         unknowns=motion.unknowns[:1],
         unbounded=(),
     )
-    return PosedLinkage(motion.plan.lower, None, first, motion, _scale(motion.plan.lower, motion))
+    return PosedLinkage(motion.lower_linkage, None, first, motion, _scale(motion.lower_linkage, motion))
 
 
 def _is_whole(cycle: DriveCycle, drives: Reals) -> bool:
-    """Whether drive values go through all turns after which everything repeats."""
+    """Whether drive values cover all turns of the period."""
     return bool(drives[-1] - drives[0] > cycle.span.period * (1 - 1e-9))
 
 
@@ -117,17 +117,17 @@ def posed_linkage(
     between: tuple[float, float] | None = None,
     drives: ArrayLike | None = None,
 ) -> PosedLinkage:
-    """Follow a linkage through its range, between two drive values, or along a path of its drives; stop it in a pose.
+    """Follow a linkage through its range, between two drive values, or along a path of its drives, and choose a pose.
 
-    Without a drive value the pose is the home; else a third of the way to a half turn; else a quarter of the range,
+    Without a drive value the pose is the reference pose; else at a sixth of a turn; else at a quarter of the range,
     since its middle and ends are often singular. A linkage that has one position only is shown in it, one without a
-    drive at home.
+    drive in the reference pose.
 
-    Raises `LinkageError` for a pose that it cannot reach, and without a drive if there is no home.
+    Raises `LinkageError` for an unreachable pose, and without a drive if there is no reference pose.
     """
     linkage = as_linkage(linkage)
     try:
-        given = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
+        values = None if drive is None else np.atleast_1d(np.asarray(drive, np.float64))
     except (TypeError, ValueError):
         raise LinkageError("drive values are numbers, but found {drive!r}", drive=drive) from None
     if not linkage.mechanism.drives:
@@ -136,47 +136,49 @@ def posed_linkage(
     if drives is not None:
         along = path_cycle(linkage, drives, branch)
         path = along.at(np.sin(np.linspace(0, math.pi / 2, _ROWS + 1)) ** 2, 0)
-        return PosedLinkage(plan.lower, along, along.at(np.array([1 / 3]), 2), path, _scale(plan.lower, path))
+        return PosedLinkage(
+            along.lower_linkage, along, along.at(np.array([1 / 3]), 2), path, _scale(along.lower_linkage, path)
+        )
     if len(linkage.mechanism.drives) == 1:
         try:
             cycle = drive_cycle(linkage, branch)
         except LinkageError as error:
-            return _one_position(linkage, given, branch, error)
+            return _one_position(linkage, values, branch, error)
         path = cycle.at(drive_rows(cycle, between), 0)
-        pose = cycle.at(np.array([_value(cycle, given, path.drives[:, 0])]), 2)
-        return PosedLinkage(plan.lower, cycle, pose, path, _scale(plan.lower, path))
-    if given is None:
+        pose = cycle.at(np.array([_value(cycle, values, path.drives[:, 0])]), 2)
+        return PosedLinkage(cycle.lower_linkage, cycle, pose, path, _scale(cycle.lower_linkage, path))
+    if values is None:
         zeros = np.zeros(len(linkage.mechanism.drives))
-        given = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
-    pose = move(linkage, given.reshape(1, -1), branch=branch)
+        values = zeros if plan.lower.reference_pose is None else pose_at_reference(plan, zeros).drives
+    pose = move(linkage, values.reshape(1, -1), branch=branch)
     if not len(pose):
         raise LinkageError("{reason}", reason=pose.reason)
     return _posed(pose)
 
 
 def _posed(pose: Motion) -> PosedLinkage:
-    """One pose and no more."""
-    return PosedLinkage(pose.plan.lower, None, pose, pose, _scale(pose.plan.lower, pose))
+    """One pose without a range."""
+    return PosedLinkage(pose.lower_linkage, None, pose, pose, _scale(pose.lower_linkage, pose))
 
 
 def _one_position(
-    linkage: Linkage, given: Reals | None, branch: str | Iterable[str] | None, why: LinkageError
+    linkage: Linkage, values: Reals | None, branch: str | Iterable[str] | None, error: LinkageError
 ) -> PosedLinkage:
-    """The pose of a linkage that cannot be followed, at the value given or where there is one; else its error."""
-    tried = given.reshape(1, -1) if given is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
+    """The pose of a linkage that cannot move, at the given value or at the first possible one; else its error."""
+    candidates = values.reshape(1, -1) if values is not None else np.radians(np.arange(0.0, 360.0, 5.0))[:, None]
     turning = linkage.mechanism.drives[0].turning
-    for values in tried if given is not None or turning else ():
+    for row in candidates if values is not None or turning else ():
         try:
-            pose = move(linkage, values.reshape(1, -1), branch=branch)
+            pose = move(linkage, row.reshape(1, -1), branch=branch)
         except LinkageError:
-            raise why from None
+            raise error from None
         if len(pose):
             return _posed(pose)
-    raise why
+    raise error
 
 
 def _at_rest(linkage: Linkage) -> PosedLinkage:
-    """The home of a linkage without a drive, found as that of the same linkage with one."""
+    """The reference pose of a linkage without a drive, solved as that of the same linkage with one."""
     mechanism = linkage.mechanism
     for number in range(len(mechanism.chain.joints)) if linkage.reference_pose is not None else ():
         try:
@@ -192,44 +194,44 @@ def _at_rest(linkage: Linkage) -> PosedLinkage:
 
 
 def drive_rows(cycle: DriveCycle, between: tuple[float, float] | None = None, count: int = _ROWS) -> Reals:
-    """Drive values: so many even ones of each full turn, else of the whole range, slow at both ends.
+    """Drive values: ``count`` even steps of each full turn, else of the range, denser at both ends.
 
-    Raises `LinkageError` if nothing of the range lies between the two values asked for.
+    Raises `LinkageError` if no part of the range lies between the two requested values.
     """
     span = cycle.span
     low, high = span.low, span.high
     if between is None and span.full:
         return np.linspace(low, high, count * span.turns + 1)
     if not cycle.turning_drive:
-        middle, room = float(cycle.start.drives[0, 0]), _ENDLESS * cycle.plan.lower.size
+        middle, room = float(cycle.start.drives[0, 0]), _ENDLESS * cycle.size
         low = low if span.stops[0] is not None else max(low, middle - room)
         high = high if span.stops[1] is not None else min(high, middle + room)
     low, high = low + _INSIDE * (high - low), high - _INSIDE * (high - low)
     if between is not None:
         turn = 2 * math.pi if cycle.turning_drive and not span.full else math.inf
         shift = turn * round((low + high - sum(between)) / 2 / turn) if turn < math.inf else 0.0
-        asked = between[0] + shift, between[1] + shift
-        low, high = asked if span.full else (max(low, asked[0]), min(high, asked[1]))
+        interval = between[0] + shift, between[1] + shift
+        low, high = interval if span.full else (max(low, interval[0]), min(high, interval[1]))
     if not high > low:
         raise LinkageError("{range}; nothing of it lies between the two values asked for", range=_range(cycle))
     return low + (high - low) * np.sin(np.linspace(0, math.pi / 2, count + 1)) ** 2
 
 
-def _value(cycle: DriveCycle, given: Reals | None, rows: Reals) -> float:
+def _value(cycle: DriveCycle, values: Reals | None, rows: Reals) -> float:
     """The drive value of the pose."""
-    if given is None:
+    if values is None:
         start = float(cycle.start.drives[0, 0])
-        if cycle.plan.lower.reference_pose is not None and rows[0] <= start <= rows[-1]:
+        if cycle.lower_linkage.reference_pose is not None and rows[0] <= start <= rows[-1]:
             return start
         return math.pi / 3 if _is_whole(cycle, rows) else float(rows[len(rows) // 3])
-    if given.shape != (1,) or not np.isfinite(given).all():
-        raise LinkageError("expected one finite drive value, but found {found}", found=given.tolist())
-    value, span = float(given[0]), cycle.span
+    if values.shape != (1,) or not np.isfinite(values).all():
+        raise LinkageError("expected one finite drive value, but found {found}", found=values.tolist())
+    value, span = float(values[0]), cycle.span
     if cycle.turning_drive and not span.full:
         value += 2 * math.pi * math.ceil((span.low - value) / (2 * math.pi))
     if not span.full and not span.low <= value <= span.high:
         raise LinkageError(
-            "{range}; there is no pose at {drive}", range=_range(cycle), drive=_drive_value(cycle, float(given[0]))
+            "{range}; there is no pose at {drive}", range=_range(cycle), drive=_drive_value(cycle, float(values[0]))
         )
     return value
 
@@ -246,7 +248,7 @@ def _drive_value(cycle: DriveCycle, value: float) -> Message:
 
 
 def floating_link(linkage: Linkage) -> str:
-    """Of the links that are no neighbours of the frame the one with most joints and points; else the last link."""
+    """The link with most joints and points among those that are no neighbours of the frame; else the last link."""
     mechanism = linkage.mechanism
     near = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
     far = [link for link in mechanism.chain.links if link not in near]
@@ -256,22 +258,24 @@ def floating_link(linkage: Linkage) -> str:
 
 def link_nodes(linkage: Linkage, link: str) -> list[complex]:
     """The places of the joints and then the named points of a link, in its coordinates, each once."""
-    joints = [complex(e.x, e.y) for (_, own), e in linkage.elements.items() if own == link]
+    joints = [complex(e.x, e.y) for (_, owner), e in linkage.elements.items() if owner == link]
     return list(dict.fromkeys([*joints, *(complex(p.x, p.y) for p in linkage.points.values() if p.link == link)]))
 
 
 def _reached(lower: Linkage, path: Motion) -> Complexes:
-    """Where all joints and named points are on the path, one after another."""
+    """The places of all joints and named points on the path, one after another."""
     places = [LinkPoint(link, e.x, e.y) for (_, link), e in lower.elements.items()]
     return np.concatenate([path.complex_point(place) for place in (*places, *lower.points.values())])
 
 
 def _scale(lower: Linkage, path: Motion) -> float:
-    """Pixels to a unit, so that all poses fit and short links stay longer than their pins are thick."""
+    """Pixels to a unit, so that all poses fit and short links are longer than the diameter of their pins."""
     links, z = lower.mechanism.chain.links, _reached(lower, path)
     extent = max(float(np.ptp(z.real)), float(np.ptp(z.imag)), 1e-9 * lower.size)
     usual = _PIXELS / extent
-    pins = {link: {e for (_, own), e in lower.elements.items() if own == link and isinstance(e, Pin)} for link in links}
+    pins = {
+        link: {e for (_, owner), e in lower.elements.items() if owner == link and isinstance(e, Pin)} for link in links
+    }
     pins.pop(lower.mechanism.frame)
-    sides = [math.dist(a, b) for mine in pins.values() for a, b in combinations(sorted(mine), 2)]
+    sides = [math.dist(a, b) for link_pins in pins.values() for a, b in combinations(sorted(link_pins), 2)]
     return min(max(usual, _SHORTEST / min(sides, default=math.inf)), _LARGEST * usual)

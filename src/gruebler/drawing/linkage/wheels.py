@@ -1,4 +1,4 @@
-"""Wheels, smooth circles, cams, Geneva and non-circular wheels of a linkage: what they look like on their links."""
+"""Shapes of the wheels, smooth circles, cams, Geneva and non-circular wheels of a linkage on their links."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from gruebler.linkages import elements
 
 __all__ = ["RoundPart", "round_parts"]
 
-_RIM = 9.0  # pixels: how thick the rim of an internal wheel is
-_ARM = 0.8  # of the radius: the cross that shows how a wheel turns
+_RIM = 9.0  # pixels: the thickness of the rim of an internal wheel
+_ARM = 0.8  # of the radius: the cross that shows the rotation of a wheel
 _STEPS = 361  # points of the contour of a cam
 
 
@@ -30,21 +30,21 @@ class RoundPart(NamedTuple):
 
 def round_parts(posed: PosedLinkage) -> Iterator[RoundPart]:
     """The round parts of a linkage, the larger first, each once for each link and centre."""
-    found: dict[tuple[object, ...], RoundPart] = {}
+    parts: dict[tuple[object, ...], RoundPart] = {}
     for (joint, link), element in posed.linkage.elements.items():
         if isinstance(element, elements.Wheel | elements.Circle):
             key = (link, element.x, element.y, element.radius)
-            found.setdefault(key, _disc(posed, link, element))
+            parts.setdefault(key, _disc(posed, link, element))
         elif isinstance(element, elements.CamDisc):
-            found[link, joint] = RoundPart(link, tuple(_cam(posed, element)))
+            parts[link, joint] = RoundPart(link, tuple(_cam(posed, element)))
         elif isinstance(element, elements.NonCircular):
-            found[link, joint] = _noncircular(posed, joint, link, element)
+            parts[link, joint] = _noncircular(posed, joint, link, element)
         elif isinstance(element, elements.GenevaDriver | elements.GenevaWheel):
-            found[link, joint] = _geneva(posed, joint, link, element)
+            parts[link, joint] = _geneva(posed, joint, link, element)
     for (joint, link), element in posed.linkage.elements.items():
         if isinstance(element, elements.Line) and (ends := _face(posed, joint, link, element)):
-            found[link, joint] = RoundPart(link, tuple(_flat(posed, link, element, ends)))
-    yield from sorted(found.values(), key=lambda part: -_size(part))
+            parts[link, joint] = RoundPart(link, tuple(_flat(posed, link, element, ends)))
+    yield from sorted(parts.values(), key=lambda part: -_size(part))
     yield from _belts(posed)
 
 
@@ -56,7 +56,7 @@ def _size(part: RoundPart) -> float:
 
 
 def _disc(posed: PosedLinkage, link: str, element: elements.Wheel | elements.Circle) -> RoundPart:
-    """A disc with a cross, or a ring where it is hollow, fixed wheels as the frame."""
+    """A disc with a cross, or a ring for an internal wheel; fixed wheels in the style of the frame."""
     centre, radius = complex(element.x, element.y), posed.scale * abs(element.radius)
     at = posed.local(centre)
     style = "block-frame" if link == posed.linkage.mechanism.frame else "area"
@@ -72,34 +72,34 @@ def _disc(posed: PosedLinkage, link: str, element: elements.Wheel | elements.Cir
 
 
 def _face(posed: PosedLinkage, joint: int, link: str, line: elements.Line) -> tuple[float, float] | None:
-    """From where to where a face or rack that touches a round part reaches along its line; None if nothing is round.
+    """The extent of a face or rack along its line where it touches a round part; None without one.
 
-    That of a swinging follower goes from its point to beyond the cam's axis.
+    The face of a swinging follower extends from its point to beyond the cam's axis.
     """
-    for (number, own), element in posed.linkage.elements.items():
+    for (number, owner), element in posed.linkage.elements.items():
         if number == joint and isinstance(element, elements.CamDisc):
             wide = 0.7 * element.base * element.scale
             if not element.distance:
                 return -wide, wide
-            k = posed.pose._link(link)
-            axis = complex(posed.pose.complex_point(elements.LinkPoint(own, element.x, element.y))[0])
-            seen = (axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k] - complex(line.x, line.y)
-            way = float((seen * cmath.rect(1, -line.angle)).real)
-            return min(0.0, way - wide), max(0.0, way + wide)
+            k = posed.pose.link_index(link)
+            axis = complex(posed.pose.complex_point(elements.LinkPoint(owner, element.x, element.y))[0])
+            relative = (axis - posed.pose.places[0, 0, k]) / posed.pose.turns[0, k] - complex(line.x, line.y)
+            offset = float((relative * cmath.rect(1, -line.angle)).real)
+            return min(0.0, offset - wide), max(0.0, offset + wide)
         if number == joint and isinstance(element, elements.Wheel | elements.Circle):
             return -1.5 * abs(element.radius), 1.5 * abs(element.radius)
     return None
 
 
 def _flat(posed: PosedLinkage, link: str, line: elements.Line, ends: tuple[float, float]) -> Iterator[Shape]:
-    """A face or rack, and the rods that carry it."""
+    """A face or rack, and the rods that support it."""
     foot, along = complex(line.x, line.y), cmath.rect(1, line.angle)
     if link != posed.linkage.mechanism.frame:
-        for (_, own), other in posed.lower.elements.items():
-            if own == link and isinstance(other, elements.Pin | elements.Line):
+        for (_, owner), other in posed.lower.elements.items():
+            if owner == link and isinstance(other, elements.Pin | elements.Line):
                 rod = (posed.local(foot), posed.local(complex(other.x, other.y)))
                 yield from (Polylines((rod,), "outline-rod"), Polylines((rod,), "body-rod"))
-    yield Polylines((tuple(posed.local(foot + way * along) for way in ends),), "rail")
+    yield Polylines((tuple(posed.local(foot + offset * along) for offset in ends),), "rail")
 
 
 def _ring(at: Point, radius: float) -> tuple[Point, ...]:
@@ -127,14 +127,14 @@ def _noncircular(posed: PosedLinkage, joint: int, link: str, wheel: elements.Non
     """The curve of a non-circular wheel, with its direction from the axis."""
     from gruebler.kinematics.noncircular import transfer_of
 
-    of_joint = [(own, e) for (number, own), e in posed.linkage.elements.items() if number == joint]
-    pair = [(own, e) for own, e in of_joint if isinstance(e, elements.NonCircular)]
+    of_joint = [(owner, e) for (number, owner), e in posed.linkage.elements.items() if number == joint]
+    pair = [(owner, e) for owner, e in of_joint if isinstance(e, elements.NonCircular)]
     (near, non_circular), (far, other) = sorted(pair, key=lambda end: end[1].transfer == elements.INVERSE)
-    here, there = (
-        posed.pose.complex_point(elements.LinkPoint(own, e.x, e.y))[0]
-        for own, e in ((near, non_circular), (far, other))
+    near_axis, far_axis = (
+        posed.pose.complex_point(elements.LinkPoint(owner, e.x, e.y))[0]
+        for owner, e in ((near, non_circular), (far, other))
     )
-    curve = transfer_of(non_circular, other).curves()[wheel is other] * abs(there - here)
+    curve = transfer_of(non_circular, other).curves()[wheel is other] * abs(far_axis - near_axis)
     contour = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, curve)
     ends = _contour(posed, complex(wheel.x, wheel.y), wheel.angle, np.array([0, _ARM * curve[0]]))
     style = "block-frame" if link == posed.linkage.mechanism.frame else "area"
@@ -147,15 +147,15 @@ def _geneva(
     """The driver's arm with its pins and locking disc, or the wheel with its slots."""
     from gruebler.geneva import Geneva
 
-    of_joint = {type(e): (own, e) for (number, own), e in posed.linkage.elements.items() if number == joint}
+    of_joint = {type(e): (owner, e) for (number, owner), e in posed.linkage.elements.items() if number == joint}
     (near, driver), (far, cross) = of_joint[elements.GenevaDriver], of_joint[elements.GenevaWheel]
     assert isinstance(driver, elements.GenevaDriver)
     assert isinstance(cross, elements.GenevaWheel)
     geneva = Geneva(cross.slots, internal=cross.internal, pins=driver.pins)
     shape = GenevaShape(geneva)
-    ends = (elements.LinkPoint(own, e.x, e.y) for own, e in ((near, driver), (far, cross)))
-    one, two = (posed.pose.complex_point(end)[0] for end in ends)
-    size, centre = abs(two - one), complex(element.x, element.y)
+    ends = (elements.LinkPoint(owner, e.x, e.y) for owner, e in ((near, driver), (far, cross)))
+    driver_axis, wheel_axis = (posed.pose.complex_point(end)[0] for end in ends)
+    size, centre = abs(wheel_axis - driver_axis), complex(element.x, element.y)
     if isinstance(element, elements.GenevaWheel):
         contour = _contour(posed, centre, element.angle, shape.sign * size * shape.wheel())
         outer = (_ring(posed.local(centre), posed.scale * size * shape.rim), contour[::-1])
@@ -177,10 +177,10 @@ def _geneva(
 
 def _belts(posed: PosedLinkage) -> Iterator[RoundPart]:
     """The two straight runs of a belt whose wheels turn about points of the frame."""
-    mechanism, made = posed.linkage.mechanism, posed.linkage.elements
+    mechanism, link_elements = posed.linkage.mechanism, posed.linkage.elements
     fixed = {link for joint in mechanism.chain.joints if mechanism.frame in joint.links for link in joint.links}
     for number, joint in enumerate(mechanism.chain.joints):
-        ends = [(link, made[number, link]) for link in joint.links]
+        ends = [(link, link_elements[number, link]) for link in joint.links]
         wheels = [(link, e) for link, e in ends if isinstance(e, elements.Wheel) and e.belt and link in fixed]
         if len(wheels) != 2:
             continue

@@ -1,4 +1,4 @@
-"""The followers of cams as bodies that move, and what guides them."""
+"""The followers of cams as moving bodies, and their guides."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ __all__ = ["follower_body", "ground"]
 
 
 _ROD = 7.0  # half the width of a rod, pixels
-_BEYOND = 12.0  # pixels by which a face goes beyond its contacts
+_BEYOND = 12.0  # pixels by which a face extends beyond its contacts
 _THICK = 9.0  # pixels: a flat face
 _WEDGE = Point(8.0, 20.0)
 _GUIDE = Point(_ROD + 2.5, 34.0)  # half the width and the length of a guide
@@ -40,7 +40,7 @@ def _offset(cam: Cam) -> float:
 def _translating(cam: Cam, scale: float) -> list[Shape]:
     """A rod with its origin at the roller's centre, the edge or the face."""
     low = _travel(cam, scale)[0]
-    top = -(_above(cam, scale) - low) - _GUIDE.y - 22.0  # the rod sticks out of its guide when it is lowest
+    top = -(_above(cam, scale) - low) - _GUIDE.y - 22.0  # the rod is longer than its guide in the lowest position
     if isinstance(cam.follower, Flat):
         face = cam.findings().face
         left, right = (scale * face[0].value - _BEYOND, scale * face[1].value + _BEYOND)
@@ -87,14 +87,14 @@ def _block(corners: tuple[Point, ...]) -> Polylines:
     return Polylines((corners,), "block", closed=True)
 
 
-# --- what stands still -----------------------------------------------------------------------------
+# --- fixed parts -----------------------------------------------------------------------------------
 
 
 def ground(cam: Cam, scale: float) -> list[Shape]:
     """The guide of a rod, or the pedestal of a pivot."""
     if cam.follower.swings:
         at = Point(scale * cam.follower.distance, 0.0)
-        left, right = (Point(at.x + one * _FOOT.x, _FOOT.y) for one in (-1, 1))
+        left, right = (Point(at.x + side * _FOOT.x, _FOOT.y) for side in (-1, 1))
         return [Polylines(((at, left, right),), "block-frame", closed=True), ticks(left, right, Point(0.0, 1.0))]
     x, bottom = scale * _offset(cam), -_above(cam, scale)
     shapes: list[Shape] = []
@@ -105,12 +105,12 @@ def ground(cam: Cam, scale: float) -> list[Shape]:
 
 
 def _travel(cam: Cam, scale: float) -> tuple[float, float]:
-    """Between which heights above the axis the follower's point goes, in pixels."""
+    """The lowest and the highest position of the follower's point above the axis, in pixels."""
     heights = [scale * (cam.start + value) for _, value in cam.lift.extremes(0)]
     return min(heights), max(heights)
 
 
 def _above(cam: Cam, scale: float) -> float:
-    """How high above the axis the guide begins: above the roller, or the face, when it is highest."""
+    """The height of the guide's lower end above the axis: above the roller or the face in the highest position."""
     more = scale * cam.follower.radius if isinstance(cam.follower, Roller) else _THICK
     return _travel(cam, scale)[1] + max(more, _WEDGE.y) + 8.0

@@ -34,7 +34,7 @@ __all__ = ["animate_cam", "draw_cam", "lift_diagram"]
 _PIXELS = 150.0  # from the axis to the farthest point of the cam
 _ROWS = 720  # points of the contour
 _KEYS = 180  # of a turn
-_HOLE = 56.0  # pixels: with a smaller base circle a cam has no mark
+_HOLE = 56.0  # pixels: cams with a smaller base circle have no mark
 _ALPHA = 62.0  # pixels: radius of the arc of the pressure angle
 _BESIDE = 0.4  # radians: a smaller pressure angle is written beside the guide
 _TITLES = {
@@ -48,14 +48,14 @@ _TITLES = {
 
 
 def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str = "en", name: str = "") -> Figure:
-    """A cam with its follower in one position, base circle and pitch curve, the pressure angle drawn in.
+    """A cam with its follower in one position, with base circle, pitch curve and pressure angle.
 
     Args:
-        cam: what to draw.
-        at: the cam's angle in radians; where the pressure angle is greatest without it.
-        plot: whether lift and its two derivatives stand beneath, over a turn.
+        cam: the cam.
+        at: the cam's angle in radians; by default that of the greatest pressure angle.
+        plot: whether diagrams of lift and its two derivatives over a turn are below.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
+        name: the title; by default the kind of cam.
 
     Raises `gruebler.CamError` for an angle that is no finite number.
 
@@ -88,7 +88,7 @@ def draw_cam(cam: Cam, at: float | None = None, *, plot: bool = False, lang: str
 def animate_cam(
     cam: Cam, *, plot: bool = True, seconds: float = 4.0, lang: str = "en", name: str = ""
 ) -> MovingPicture:
-    """A turn of the cam with its follower; a cursor runs through the diagram of the lift beneath.
+    """A turn of the cam with its follower; a cursor moves through the diagram of the lift below.
 
     Raises `gruebler.GrueblerError` for a time that is no positive number of seconds.
 
@@ -159,10 +159,10 @@ def _machine(cam: Cam, scale: float, phi: Reals, lang: str) -> list[Body]:
     guide = ground(cam, scale)
     shapes = [*disc, *guide, *follower_body(cam, scale, phi[:1]).shapes]
     corner, size = bounds(shapes, 0.0)
-    right = Point(max(corner.x + size.x, _PIXELS) + 24.0, -_PIXELS)
+    legend_corner = Point(max(corner.x + size.x, _PIXELS) + 24.0, -_PIXELS)
     return [
         Body(tuple(disc), (turn,)),
-        Body((*fixed, *guide, *key_list(rows, right))),
+        Body((*fixed, *guide, *key_list(rows, legend_corner))),
         follower_body(cam, scale, phi),
     ]
 
@@ -172,8 +172,8 @@ def _turn() -> Reals:
 
 
 def _complex(pairs: Reals) -> Complexes:
-    out: Complexes = pairs[..., 0] + 1j * pairs[..., 1]
-    return out
+    points: Complexes = pairs[..., 0] + 1j * pairs[..., 1]
+    return points
 
 
 def _contour(cam: Cam) -> Complexes:
@@ -182,12 +182,12 @@ def _contour(cam: Cam) -> Complexes:
 
 def _line(points: Complexes, scale: float) -> tuple[Point, ...]:
     """In pixels, with fewer points."""
-    good = points[np.isfinite(points)]
-    return tuple(simplified([Point(scale * z.real, -scale * z.imag) for z in good.tolist()], FINE))
+    finite = points[np.isfinite(points)]
+    return tuple(simplified([Point(scale * z.real, -scale * z.imag) for z in finite.tolist()], FINE))
 
 
 def _undercut(cam: Cam) -> Iterator[Complexes]:
-    """The stretches of the profile that are not there in truth: where it runs against the pitch curve, or is hollow."""
+    """The undercut parts of the profile: opposite in direction to the pitch curve, or hollow."""
     contour, turn = _contour(cam), _turn()
     if isinstance(cam.follower, Roller):
         wrong = (np.conj(np.diff(_complex(cam.pitch(turn)))) * np.diff(contour)).real <= 0
@@ -205,22 +205,22 @@ def _pressure(cam: Cam, scale: float, at: float, lang: str) -> Iterator[Shape]:
     alpha = float(cam.pressure_angle(at))
     if not (cmath.isfinite(touch) and math.isfinite(alpha)):
         return
-    way = 1j
+    motion = 1j
     if cam.follower.swings:
         lever = centre - cam.follower.distance
-        way = -1j * math.copysign(1.0, cam.follower.distance) * lever / abs(lever)
+        motion = -1j * math.copysign(1.0, cam.follower.distance) * lever / abs(lever)
     start, foot = (Point(scale * z.real, -scale * z.imag) for z in (centre, touch))
-    ends = [Point(z.real, -z.imag) for z in (way, way * cmath.exp(1j * alpha))]
+    ends = [Point(z.real, -z.imag) for z in (motion, motion * cmath.exp(1j * alpha))]
     yield Polylines(((start, start.plus(ends[0], _ALPHA + 26.0)),), "dead")
     yield Polylines(((foot.plus(ends[1], -_ALPHA / 2), start.plus(ends[1], _ALPHA + 26.0)),), "measure")
     yield CircleShape(foot, 3.2, "dot")
     if abs(alpha) > 0.01:
-        yield ArcShape(start, _ALPHA, -cmath.phase(way), -alpha, "drive")
+        yield ArcShape(start, _ALPHA, -cmath.phase(motion), -alpha, "drive")
     beside = ends[1].across if alpha <= 0 else Point(-ends[1].across.x, -ends[1].across.y)
-    words = translate("α = {angle:.1f}°", lang, angle=math.degrees(alpha) + 0.0).replace("-", "−")
+    text = translate("α = {angle:.1f}°", lang, angle=math.degrees(alpha) + 0.0).replace("-", "−")
     anchor = "start" if beside.x >= 0 else "end"
     yield TextShape(
-        start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), words, "mark", anchor
+        start.plus(ends[1], _ALPHA + 20.0).plus(beside, 8.0 if abs(alpha) > _BESIDE else 24.0), text, "mark", anchor
     )
 
 

@@ -30,7 +30,7 @@ from gruebler.text import message, translate
 __all__ = ["animate_geneva", "draw_geneva", "ratio_panels"]
 
 
-_PIXELS = 360.0  # the greater extent, about
+_PIXELS = 360.0  # the approximate greater extent
 _KEYS = 240  # of a turn of the driver
 _TITLES = {
     False: message("External Geneva drive with {slots} slots"),
@@ -42,11 +42,11 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
     """A Geneva drive in one position of its driver.
 
     Args:
-        geneva: what to draw; pins, walls and locking disc have sensible thicknesses.
+        geneva: the drive; pins, walls and locking disc have sensible thicknesses.
         at: the driver's angle in radians; 0: a pin on the line of centres.
-        plot: whether the wheel's angle, its ratio and acceleration stand beneath, over a turn.
+        plot: whether diagrams of the wheel's angle, ratio and acceleration over a turn are below.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
+        name: the title; by default the kind of drive.
 
     Raises `gruebler.GenevaError` for an angle that is no finite number.
 
@@ -73,7 +73,7 @@ def draw_geneva(geneva: Geneva, at: float = 0.0, *, plot: bool = False, lang: st
 def animate_geneva(
     geneva: Geneva, *, plot: bool = True, seconds: float = 4.0, lang: str = "en", name: str = ""
 ) -> MovingPicture:
-    """A turn of the driver, after which everything looks the same; a cursor runs through the diagram beneath.
+    """A turn of the driver, after which the picture repeats; a cursor moves through the diagram below.
 
     Raises `gruebler.GrueblerError` for a time that is no positive number of seconds.
     """

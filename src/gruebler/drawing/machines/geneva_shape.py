@@ -1,4 +1,4 @@
-"""The contours of a Geneva drive, by the distance of its axes; what locks, clear of the turning wheel."""
+"""The contours of a Geneva drive in units of the distance of its axes, with a lock clear of the turning wheel."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ __all__ = ["GenevaShape"]
 
 
 _RIM = 0.16  # around the slots of an internal wheel
-_PIN = 0.13  # of the crank: the radius of a pin, if there is room for it between the slots
+_PIN = 0.13  # of the crank: the radius of a pin, if there is space for it between the slots
 _WALL = 1.1  # pin radii: the wall of a slot at its mouth
-_LUG = 0.8  # pin radii: how thick the lug of an internal drive is
-_DEEP = 0.9  # of what the mouth of a slot leaves
+_LUG = 0.8  # pin radii: the thickness of the lug of an internal drive
+_DEEP = 0.9  # of the distance that the mouth of a slot leaves
 
 
 class GenevaShape:
@@ -51,14 +51,14 @@ class GenevaShape:
         land = np.linspace(cmath.phase(complex(locking[-1])), -math.asin(p / self.mouth), 6)
         lower = np.concatenate([locking, self.mouth * np.exp(1j * land[1:])])
         bottom = self.end + p * np.exp(1j * (-math.pi / 2 + self.sign * np.linspace(0, math.pi, 13)))
-        out: Complexes = np.concatenate([lower, bottom, np.conj(lower[::-1])])
-        return out
+        contour: Complexes = np.concatenate([lower, bottom, np.conj(lower[::-1])])
+        return contour
 
     def wheel(self) -> Complexes:
-        """The whole contour, the first slot towards the driver (external) or along x (internal)."""
+        """The full contour, the first slot towards the driver (external) or along x (internal)."""
         turns = np.exp(1j * self.geneva.step * np.arange(self.geneva.slots))
-        out: Complexes = np.concatenate([self.sign * turn * self.sector() for turn in turns])
-        return out
+        contour: Complexes = np.concatenate([self.sign * turn * self.sector() for turn in turns])
+        return contour
 
     def locking(self) -> list[Complexes]:
         """The contours that lock the wheel, the first pin along x: a disc with hollows, or a lug inside."""
@@ -70,8 +70,8 @@ class GenevaShape:
         hollow = self._hollow()
         pitch = math.tau / self.geneva.pins
         arc = self.lock * np.exp(1j * np.linspace(free, pitch - free, 61)) if pitch - 2 * free > 1e-9 else hollow[:0]
-        one = np.concatenate([hollow, arc])
-        return [np.concatenate([one * np.exp(1j * k * pitch) for k in range(self.geneva.pins)])]
+        sector = np.concatenate([hollow, arc])
+        return [np.concatenate([sector * np.exp(1j * k * pitch) for k in range(self.geneva.pins)])]
 
     def _hollow(self) -> Complexes:
         """A circle's arc between two locking arcs, deep enough for the mouth of a slot on the line of centres."""
@@ -80,5 +80,5 @@ class GenevaShape:
         # The circle through the point (deep, 0) and both ends, its centre on the x axis.
         middle = (abs(end) ** 2 - deep**2) / (2 * (end.real - deep))
         half = cmath.phase(middle - end.conjugate())
-        out: Complexes = middle - (middle - deep) * np.exp(1j * np.linspace(half, -half, 41))
-        return out
+        arc: Complexes = middle - (middle - deep) * np.exp(1j * np.linspace(half, -half, 41))
+        return arc

@@ -19,7 +19,7 @@ def toothed_outline(teeth: int, module: float = 1.0, *, internal: bool = False, 
     """The outline about 0, counter-clockwise, the middle of a tooth at the angle ``phase``.
 
     For an internal wheel the outline of its hole: "teeth" are then its spaces, and ``phase`` is the middle of a space.
-    A tooth whose flanks meet below its tip ends in a point.
+    A tooth whose flanks intersect below its tip ends in a point.
 
     >>> wheel = toothed_outline(24)
     >>> round(float(abs(wheel).max()), 9), round(float(abs(wheel).min()), 9)
@@ -34,7 +34,7 @@ def toothed_outline(teeth: int, module: float = 1.0, *, internal: bool = False, 
     turn = np.arccos(np.minimum(base / radii, 1.0))
     thick = math.pi / (2 * teeth) * (1 + _PLAY if internal else 1 - _PLAY)
     half = np.maximum(thick + math.tan(PRESSURE) - PRESSURE - (np.tan(turn) - turn), 0.0)
-    one = np.concatenate([radii * np.exp(-1j * half), (radii * np.exp(1j * half))[::-1]])
+    tooth = np.concatenate([radii * np.exp(-1j * half), (radii * np.exp(1j * half))[::-1]])
     turns = np.exp(1j * (phase + math.tau / teeth * np.arange(teeth)))
-    out: Complexes = (turns[:, None] * one).ravel()
-    return out
+    outline: Complexes = (turns[:, None] * tooth).ravel()
+    return outline

@@ -1,6 +1,6 @@
-"""Where the wheels of a gear train stand: distances from sizes, directions chosen so that wheels keep clear.
+"""The places of the wheels of a gear train: distances from sizes, directions chosen so that wheels do not overlap.
 
-A train tells ratios only. Meshes that share a carrier and hang together are a *stage*; stages stand side by side, and a
+A train defines ratios only. Connected meshes with the same carrier are a *stage*; stages are drawn side by side, and a
 link that is in two of them is drawn in both. Lengths: the pitch diameter is the size, so that the module is 1.
 """
 
@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from gruebler.gears import Mesh, Train
+from gruebler.gears.stages import WHEEL_PAIRS, central_links, mesh_groups, wheels_of
 
 __all__ = ["GearStage", "PlacedMesh", "StageWheel", "gear_stages"]
 
@@ -20,21 +21,20 @@ FRAME = "frame"
 _APART = 1.7  # sums of radii: the distance of the axes of a belt
 _CLOSE = 1e-6
 _PER_SIZE = {"rack by pitch": 1 / math.tau, "rack": 1.0, "winch": 1.0}  # radius by size; of toothed wheels a half
-_FLAT = ("gear", "friction", "belt", "chain", "crossed", "bevel")
 
 
 class StageWheel(NamedTuple):
-    """A wheel of a stage, at home."""
+    """A wheel of a stage, in the reference pose."""
 
     link: str
     size: float
-    """Teeth or radius as it is told; negative: internal (for a bevel wheel: seen from the other side)."""
+    """Teeth or radius as given; negative: internal (for a bevel wheel: seen from the other side)."""
     radius: float
     at: complex
     phase: float
-    """Where the middle of a tooth is, or of a space of an internal wheel; radians."""
+    """The angle of the middle of a tooth, or of a space of an internal wheel; radians."""
     planet: bool = False
-    """Whether it goes round with the carrier."""
+    """Whether it revolves with the carrier."""
 
     @property
     def internal(self) -> bool:
@@ -53,12 +53,12 @@ class PlacedMesh(NamedTuple):
 
 @dataclass
 class GearStage:
-    """Wheels whose axes one carrier holds; the carrier's own axis is 0."""
+    """Wheels with axes on one carrier; the carrier's own axis is 0."""
 
     carrier: str
     meshes: list[Mesh]
     copies: int = 1
-    """How many equal planets there are."""
+    """The number of equal planets."""
     wheels: list[StageWheel] = field(default_factory=list)
     placed: list[PlacedMesh] = field(default_factory=list)
     axes: dict[str, complex] = field(default_factory=dict)
@@ -66,77 +66,29 @@ class GearStage:
 
     @property
     def is_bevel(self) -> bool:
-        """Whether it is drawn unfolded, as its carrier sees it."""
+        """Whether it is drawn unfolded into the plane."""
         return self.meshes[0].kind == "bevel"
 
 
 def gear_stages(train: Train, planets: Mapping[str, int]) -> list[GearStage]:
-    """The stages of a train with all wheels placed, planets repeated so many times.
+    """The stages of a train with all wheels placed, ``planets`` with the numbers of equal planets.
 
     >>> from gruebler.gears import read_train
-    >>> (one,) = gear_stages(read_train("sun:24 planet:18 ring:-60 on arm").train, {"planet": 3})
-    >>> [(wheel.link, round(wheel.radius, 9), round(abs(wheel.at), 9)) for wheel in one.wheels][:3]
+    >>> (stage,) = gear_stages(read_train("sun:24 planet:18 ring:-60 on arm").train, {"planet": 3})
+    >>> [(wheel.link, round(wheel.radius, 9), round(abs(wheel.at), 9)) for wheel in stage.wheels][:3]
     [('sun', 12.0, 0.0), ('planet', 9.0, 21.0), ('planet', 9.0, 21.0)]
     """
-    found = [*_grouped(train.meshes)]
-    for stage in found:
+    stages = [GearStage(meshes[0].carrier, meshes) for meshes in mesh_groups(train.meshes)]
+    for stage in stages:
         stage.copies = max((planets.get(link, 1) for mesh in stage.meshes for link in (mesh.a, mesh.b)), default=1)
-        stage.central = _central(stage, train)
+        stage.central = central_links(stage.meshes, train)
         _place(stage)
         _wheels(stage)
-    return found
-
-
-def _grouped(meshes: Iterable[Mesh]) -> Iterator[GearStage]:
-    """Meshes with the same carrier that hang together by their links."""
-    groups: list[GearStage] = []
-    for mesh in dict.fromkeys(meshes):
-        links = {mesh.a, mesh.b} - {FRAME}
-        bevel = mesh.kind == "bevel"
-        mine = [
-            group
-            for group in groups
-            if group.carrier == mesh.carrier
-            and group.is_bevel == bevel
-            and any(links & {one.a, one.b} for one in group.meshes)
-        ]
-        merged = GearStage(mesh.carrier, [one for group in mine for one in group.meshes] + [mesh])
-        spot = groups.index(mine[0]) if mine else len(groups)
-        groups = [group for group in groups if group not in mine]
-        groups.insert(spot, merged)
-    yield from groups
-
-
-def _central(stage: GearStage, train: Train) -> set[str]:
-    """The links whose axis is that of the moving carrier."""
-    if stage.carrier == FRAME or stage.is_bevel:
-        return set()
-    mates: dict[str, list[str]] = {}
-    for mesh in stage.meshes:
-        mates.setdefault(mesh.a, []).append(mesh.b)
-        mates.setdefault(mesh.b, []).append(mesh.a)
-    others = [mesh for mesh in train.meshes if mesh not in stage.meshes]
-    sure = {FRAME, *(link for mesh in others for link in (mesh.a, mesh.b, mesh.carrier))}
-    sure |= {link for mesh in stage.meshes for link, size in _sides(mesh) if size < 0}
-    planets = {mate for link in sure for mate in mates.get(link, ())} - sure
-    found = sure & set(mates)
-    found |= {
-        link for link in mates if link not in planets and (len(mates[link]) == 1 or planets.issuperset(mates[link]))
-    }
-    for mesh in stage.meshes:
-        if {mesh.a, mesh.b} <= found:
-            found.discard(mesh.a if mesh.b in sure and mesh.a not in sure else mesh.b)
-    return found or {stage.meshes[0].a}
-
-
-def _sides(mesh: Mesh) -> tuple[tuple[str, float], ...]:
-    """Links with their wheels; one only where the second link slides."""
-    both = ((mesh.a, float(mesh.size_a)), (mesh.b, float(mesh.size_b)))
-    return both if mesh.kind in _FLAT else both[:1]
+    return stages
 
 
 def _distance(mesh: Mesh) -> float:
-    a, b = (abs(size) / 2 for _, size in _sides(mesh))
+    a, b = (abs(size) / 2 for _, size in wheels_of(mesh))
     if mesh.kind in ("belt", "chain", "crossed"):
         return _APART * (a + b)
     return a + b if mesh.kind == "bevel" else abs(float(mesh.size_a + mesh.size_b)) / 2
@@ -146,15 +98,15 @@ def _distance(mesh: Mesh) -> float:
 
 
 def _place(stage: GearStage) -> None:
-    """All axes, one after another, each beside those it meshes with."""
+    """All axes, one after another, each beside its mesh partners."""
     axes = stage.axes
     axes |= dict.fromkeys(sorted(stage.central) or [stage.meshes[0].a], 0j)
-    flat = [mesh for mesh in stage.meshes if mesh.kind in _FLAT]
+    flat = [mesh for mesh in stage.meshes if mesh.kind in WHEEL_PAIRS]
     leads = _leads(stage, flat)
-    while left := [mesh for mesh in stage.meshes if any(link not in axes for link, _ in _sides(mesh))]:
+    while unplaced := [mesh for mesh in stage.meshes if any(link not in axes for link, _ in wheels_of(mesh))]:
         near = next((mesh for mesh in flat if (mesh.a in axes) != (mesh.b in axes)), None)
         if near is None:
-            axes[left[0].a] = _beside(stage, left[0])
+            axes[unplaced[0].a] = _beside(stage, unplaced[0])
             continue
         known, link = (near.a, near.b) if near.a in axes else (near.b, near.a)
         circles = [
@@ -171,33 +123,33 @@ def _place(stage: GearStage) -> None:
 
 def _reach(stage: GearStage) -> dict[str, float]:
     """The greatest radius of each link."""
-    found: dict[str, float] = {}
+    reach: dict[str, float] = {}
     for mesh in stage.meshes:
-        for link, size in _sides(mesh):
+        for link, size in wheels_of(mesh):
             radius = abs(size) * _PER_SIZE.get(mesh.kind, 0.5)
-            found[link] = max(found.get(link, 0.0), radius)
-    return found
+            reach[link] = max(reach.get(link, 0.0), radius)
+    return reach
 
 
 def _beside(stage: GearStage, mesh: Mesh) -> complex:
-    """To the right of all others, its lowest point as low as that of the first: a rack may lie below both."""
+    """To the right of all others, its lowest point level with that of the first: a rack may lie below both."""
     reach, radius = _reach(stage), abs(float(mesh.size_a))
     first = next(iter(stage.axes))
-    right = max(at.real + reach.get(link, 0.0) for link, at in stage.axes.items())
-    return complex(right + 1.5 * radius, stage.axes[first].imag - reach.get(first, 0.0) + radius)
+    rightmost = max(at.real + reach.get(link, 0.0) for link, at in stage.axes.items())
+    return complex(rightmost + 1.5 * radius, stage.axes[first].imag - reach.get(first, 0.0) + radius)
 
 
 def _leads(stage: GearStage, flat: Sequence[Mesh]) -> dict[str, float]:
-    """The directions of the planets that mesh with a central wheel: evenly, with room for their copies."""
+    """The directions of the planets that mesh with a central wheel: evenly, with space for their copies."""
     direct = dict.fromkeys(
-        one for mesh in flat for one, other in ((mesh.a, mesh.b), (mesh.b, mesh.a)) if other in stage.central
+        link for mesh in flat for link, partner in ((mesh.a, mesh.b), (mesh.b, mesh.a)) if partner in stage.central
     )
     lone = [link for link in direct if link not in stage.central]
     return {link: math.pi / 2 + math.tau * k / len(lone) / stage.copies for k, link in enumerate(lone)}
 
 
 def _around(circles: list[tuple[complex, float]], known: complex, lead: float, mesh: Mesh) -> complex:
-    """A planet's place on its circle about the hub, and at its distance from a planet that is there."""
+    """A planet's place on its circle about the hub, and at its distance from a placed planet."""
     hub = next((d for centre, d in circles if centre == 0), None)
     beside = next(((centre, d) for centre, d in circles if centre != 0), None)
     if hub is None:
@@ -212,12 +164,12 @@ def _around(circles: list[tuple[complex, float]], known: complex, lead: float, m
 
 
 def _clear(stage: GearStage, near: Mesh, known: str, link: str) -> complex:
-    """Beside the axis that is known, to the right if nothing is in the way."""
+    """Beside the known axis, to the right if that is free."""
     reach = _reach(stage)
     start, d = stage.axes[known], _distance(near)
     for direction in (1, -1j, 1j, -1):
         place = start + d * direction
-        others = [one for one in stage.axes if one != known and one in reach]
+        others = [link for link in stage.axes if link != known and link in reach]
         if all(abs(stage.axes[one] - place) > reach[one] + reach[link] - _CLOSE for one in others):
             return place
     return start + d
@@ -227,35 +179,35 @@ def _clear(stage: GearStage, near: Mesh, known: str, link: str) -> complex:
 
 
 def _wheels(stage: GearStage) -> None:
-    """A wheel for every side of a mesh, each once, its teeth where those of its partner leave room."""
-    made: dict[tuple[str, float, complex], StageWheel] = {}
+    """A wheel for every side of a mesh, each once, its teeth in the spaces of its partner."""
+    wheels: dict[tuple[str, float, complex], StageWheel] = {}
     for mesh in stage.meshes:
-        sides = _sides(mesh)
+        sides = wheels_of(mesh)
         for copy in range(stage.copies if stage.central else 1):
             turn = cmath.exp(2j * math.pi * copy / stage.copies)
             places = [
                 stage.axes[link] * (turn if stage.central and link not in stage.central else 1) for link, _ in sides
             ]
-            apart, wanted = abs(places[-1] - places[0]), _distance(mesh) if len(sides) > 1 else 0.0
-            unit = apart / wanted if wanted > _CLOSE and apart > _CLOSE else 1.0
+            distance, nominal = abs(places[-1] - places[0]), _distance(mesh) if len(sides) > 1 else 0.0
+            unit = distance / nominal if nominal > _CLOSE and distance > _CLOSE else 1.0
             radii = [abs(size) * _PER_SIZE.get(mesh.kind, 0.5) * unit for _, size in sides]
             keys = [
                 (link, round(radius, 6), complex(round(at.real, 6), round(at.imag, 6)))
                 for (link, _), radius, at in zip(sides, radii, places, strict=True)
             ]
-            known = [made.get(key) for key in keys]
+            known = [wheels.get(key) for key in keys]
             for k, ((link, size), radius, at) in enumerate(zip(sides, radii, places, strict=True)):
                 if known[k] is None and mesh.kind != "screw":
                     mate = known[1 - k] if len(sides) > 1 else None
                     phase = _phase(mate, size, at) if mate and mesh.kind == "gear" else 0.0
                     planet = bool(stage.central) and link not in stage.central
-                    known[k] = made[keys[k]] = StageWheel(link, size, radius, at, phase, planet)
+                    known[k] = wheels[keys[k]] = StageWheel(link, size, radius, at, phase, planet)
             stage.placed.append(PlacedMesh(mesh, places[0], places[-1], (radii[0], radii[-1])))
-    stage.wheels = list(made.values())
+    stage.wheels = list(wheels.values())
 
 
 def _phase(mate: StageWheel, size: float, at: complex) -> float:
-    """The angle of a tooth, so that it stands in a space of its mate.
+    """The angle of a tooth, so that it lies in a space of its mate.
 
     External: the teeth counted from the line of centres sum to a half; internal: they are the same.
     """

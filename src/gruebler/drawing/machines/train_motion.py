@@ -1,4 +1,4 @@
-"""How long a gear train moves until everything repeats, and how far every link goes meanwhile; exact."""
+"""The period of a gear train, and the exact displacements of all links in it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gruebler.text import message
 __all__ = ["TrainMotion", "train_motion"]
 
 _MOST = 100  # turns of the fastest link
-_TRAVEL = 2  # radii that a rack or a load goes at most
+_TRAVEL = 2  # radii: the largest displacement of a rack or a load
 _WHY = {
     False: message("do not determine all speeds"),
     True: message("contradict each other"),
@@ -23,60 +23,60 @@ _THREADS = 4  # turns of a screw
 
 @dataclass(frozen=True)
 class TrainMotion:
-    """Rates of all links, and the time for which they are shown."""
+    """Rates of all links, and the shown time."""
 
     rates: dict[str, Fraction]
-    """Turns in a unit of time; for links that slide length per radian or per turn, as the train counts it."""
+    """Turns in a unit of time; for links that slide length per radian or per turn, in the unit of the train."""
     per_radian: frozenset[str]
     slides: frozenset[str]
     drive: str
     cycle: Fraction
     """The time after which every link that turns has made whole turns."""
     time: Fraction
-    """What is shown: the cycle, or less; where links slide so long that the fastest makes a turn, then back."""
+    """The shown time: the cycle, or less; with links that slide a turn of the fastest link, then back."""
     seconds: float
     chosen: tuple[str, ...] = ()
-    """What is driven and held, if that was not told."""
+    """The chosen driven and held links, if none were given."""
 
     def turns(self, link: str) -> float:
-        """How many turns a link makes in the time that is shown; the frame none."""
+        """The number of turns of a link in the shown time; 0 for the frame."""
         return float(self.rates.get(link, Fraction(0)) * self.time)
 
     def displacement(self, link: str) -> float:
-        """How far a link slides in that time."""
+        """The displacement of a link in that time."""
         return self.turns(link) * (math.tau if link in self.per_radian else 1.0)
 
     @property
     def drive_turns(self) -> Fraction:
-        """Of the drive, for telling where it is."""
+        """The number of turns of the drive, for the display of its position."""
         return abs(self.rates[self.drive] * self.time)
 
 
 def train_motion(train: Train, drives: Mapping[str, object], seconds: float, most: int = _MOST) -> TrainMotion:
-    """The course of a train with given speeds, or with speeds chosen if none are given.
+    """The motion of a train with given speeds, or with chosen speeds if none are given.
 
-    ``seconds`` are for a turn of the fastest link, or, if links slide, for there and back; the fastest link makes at
-    most so many turns.
+    ``seconds`` are for a turn of the fastest link, or, if links slide, for both directions; the fastest link makes at
+    most ``most`` turns.
 
     >>> from gruebler.gears import read_train
-    >>> course = train_motion(read_train("sun:24 planet:18 ring:-60 on arm").train, {"sun": 7, "ring": 0}, 2.0)
-    >>> course.cycle, course.seconds, {link: course.turns(link) for link in ("sun", "arm")}
+    >>> motion = train_motion(read_train("sun:24 planet:18 ring:-60 on arm").train, {"sun": 7, "ring": 0}, 2.0)
+    >>> motion.cycle, motion.seconds, {link: motion.turns(link) for link in ("sun", "arm")}
     (Fraction(3, 1), 42.0, {'sun': 21.0, 'arm': 6.0})
     """
-    given = dict(drives) or _chosen(train)
-    found = speeds(train, given)
-    if not found.complete:
-        wrong = [contradiction.link for contradiction in found.contradictions]
-        links = ", ".join(wrong or found.free)
+    chosen = dict(drives) or _chosen(train)
+    state = speeds(train, chosen)
+    if not state.complete:
+        wrong = [contradiction.link for contradiction in state.contradictions]
+        links = ", ".join(wrong or state.free)
         raise GearError("the drives {why}, so nothing can be shown: {links}", why=_WHY[bool(wrong)], links=links)
-    rates = {link: value or Fraction(0) for link, value in found.values.items()}
+    rates = {link: value or Fraction(0) for link, value in state.values.items()}
     units = train.units()
     turning = {link: rate for link, rate in rates.items() if units[link] == Unit.TURNING}
     slides = frozenset(link for link in rates if link not in turning and rates[link])
     fastest = max((abs(rate) for rate in turning.values()), default=Fraction(0))
     if not fastest:
         raise GearError("nothing turns with these drives")
-    drive = next((link for link in given if turning.get(link)), None) or max(turning, key=lambda k: abs(turning[k]))
+    drive = next((link for link in chosen if turning.get(link)), None) or max(turning, key=lambda k: abs(turning[k]))
     moving = [abs(rate) for rate in turning.values() if rate]
     cycle = Fraction(math.lcm(*(rate.denominator for rate in moving)), math.gcd(*(rate.numerator for rate in moving)))
     turn = 1 / abs(turning[drive])
@@ -87,11 +87,11 @@ def train_motion(train: Train, drives: Mapping[str, object], seconds: float, mos
         time = cycle if cycle <= longest else max(turn, longest // turn * turn)
         takes = float(time * fastest) * seconds
     per_radian = frozenset(link for link in rates if units[link] == Unit.PER_RADIAN)
-    return TrainMotion(rates, per_radian, slides, drive, cycle, time, takes, () if drives else tuple(given))
+    return TrainMotion(rates, per_radian, slides, drive, cycle, time, takes, () if drives else tuple(chosen))
 
 
 def _there(train: Train, rates: Mapping[str, Fraction], fastest: Fraction) -> Fraction:
-    """For how long links slide one way: not far against their wheels, and a turn of the fastest link at most."""
+    """The time for which links slide in one direction: a few radii, and a turn of the fastest link at most."""
     times = [1 / fastest]
     for mesh in train.meshes:
         rate = abs(rates.get(mesh.b, Fraction(0)))
@@ -114,14 +114,14 @@ def _chosen(train: Train) -> dict[str, int]:
     first = next((link for link in order if not speeds(train, {link: 1}).contradictions), None)
     if first is None:
         raise GearError("nothing can turn in this train")
-    given: dict[str, int] = {first: 1}
-    rest = sorted(
+    held_speeds: dict[str, int] = {first: 1}
+    candidates = sorted(
         (link for link in reversed(order) if link != first),
         key=lambda link: (link not in rings, ends.count(link) > 1, link in carriers),
     )
-    for link in [*rest, *(one for one in train.links if units[one] != Unit.TURNING)]:
-        if not speeds(train, given).free:
+    for link in [*candidates, *(link for link in train.links if units[link] != Unit.TURNING)]:
+        if not speeds(train, held_speeds).free:
             break
-        if link in speeds(train, given).free:
-            given[link] = 0
-    return given
+        if link in speeds(train, held_speeds).free:
+            held_speeds[link] = 0
+    return held_speeds

@@ -1,6 +1,6 @@
 """Pictures of gear trains: wheels by their pitch circles or with teeth, planets on their carriers, racks, belts, ropes.
 
-What a train leaves open - directions, the distance of belts, where stages stand - is chosen: docs/theory/drawing.md.
+Directions, distances of belts and places of stages, which a train does not define, are chosen: docs/theory/drawing.md.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ _ROW = 17.0
 
 
 class TrainPictureOptions(TypedDict, total=False):
-    """What pictures and moving pictures of a train are told alike."""
+    """The common options of pictures and moving pictures of a train."""
 
     planets: Mapping[str, int]
     teeth: bool
@@ -53,14 +53,14 @@ def draw_train(
     lang: str = "en",
     name: str = "",
 ) -> Figure:
-    """A gear train at home, to scale by its tooth numbers or radii.
+    """A gear train in the reference pose, to scale by its tooth numbers or radii.
 
     Args:
-        train: what to draw.
-        planets: how many equal planets of a name there are.
+        train: the train.
+        planets: the numbers of equal planets by name.
         teeth: whether gears with whole tooth numbers have involute teeth.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
+        name: the title; by default "Gear train".
 
     >>> from gruebler.gears import read_train
     >>> figure = draw_train(read_train("sun:24 planet:18 ring:-60 on arm").train, planets={"planet": 3})
@@ -84,18 +84,18 @@ def animate_train(
     lang: str = "en",
     name: str = "",
 ) -> MovingPicture:
-    """A gear train that moves with its exact ratios until every link is where it began, over and over.
+    """A gear train that moves with its exact ratios until every link has its initial position, repeated without end.
 
     Args:
-        train: what to draw.
-        drives: speeds of links, as for `gruebler.gears.speeds`; without them links that make the rest follow are
+        train: the train.
+        drives: speeds of links, as for `gruebler.gears.speeds`; by default links that determine all others are
             chosen, the first turning and the others held.
-        planets: how many equal planets of a name there are.
+        planets: the numbers of equal planets by name.
         teeth: whether gears with whole tooth numbers have involute teeth.
-        seconds: for a turn of the fastest link; with links that slide, for there and back.
-        most: turns of the fastest link; a longer cycle is cut after whole turns of the drive, and that is said.
+        seconds: for a turn of the fastest link; with links that slide, for both directions.
+        most: turns of the fastest link; a longer cycle ends after whole turns of the drive, with a note.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
+        name: the title; by default "Gear train".
 
     Raises `gruebler.GearError` if the drives do not determine all speeds, or nothing moves,
     `gruebler.GrueblerError` for a time that is no positive number of seconds.
@@ -129,7 +129,7 @@ def _about(train: Train, shown: list[GearStage], lang: str) -> str:
 
 
 def _cycle(motion: TrainMotion, lang: str) -> str:
-    """How far the links go until everything repeats, or is cut."""
+    """The turns of the links in the shown time."""
 
     def turns(link: str, time: Fraction) -> str:
         if link in motion.slides:
@@ -146,7 +146,7 @@ def _cycle(motion: TrainMotion, lang: str) -> str:
     return translate("Until everything repeats: {turns}.", lang, turns=shown)
 
 
-def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool, lang: str) -> list[Body]:
+def _bodies(shown: list[GearStage], motion: TrainMotion | None, teeth: bool, lang: str) -> list[Body]:
     """All stages side by side, each with the list of its links beneath."""
     plain = [stage_bodies(stage, PaintOptions(1.0, False), None) for stage in shown]
     sizes = [bounds(at_time(part, 0.0), 0.0)[1] for part in plain]
@@ -154,25 +154,25 @@ def _bodies(shown: list[GearStage], course: TrainMotion | None, teeth: bool, lan
     scale = min(_SIZE.x / wide, _SIZE.y / high, _LARGEST)
     left, all_bodies = 0.0, []
     for stage in shown:
-        bodies = stage_bodies(stage, PaintOptions(scale, teeth), course)
+        bodies = stage_bodies(stage, PaintOptions(scale, teeth), motion)
         corner, size = bounds(at_time(bodies, 0.0), 0.0)
         shift = Point(left - corner.x, -(corner.y + size.y / 2))
         texts = _listed(stage, Point(left, size.y / 2 + 22.0), lang)
         all_bodies += [Body(body.shapes, (Shift((shift,)), *body.steps)) for body in bodies]
         all_bodies.append(Body(tuple(texts)))
-        words = bounds(texts, 0.0)[1].x
-        left += max(size.x, words) + _GAP
+        text = bounds(texts, 0.0)[1].x
+        left += max(size.x, text) + _GAP
     return all_bodies
 
 
 def _listed(stage: GearStage, at: Point, lang: str) -> list[Shape]:
-    """The links of a stage with what tells their sizes."""
+    """The links of a stage with their sizes."""
     sizes: dict[str, list[str]] = {}
     for wheel in stage.wheels:
         size = number(wheel.size, lang, "g").replace("-", "−")
-        mine = sizes.setdefault(wheel.link, [])
-        if size not in mine:
-            mine.append(size)
+        link_sizes = sizes.setdefault(wheel.link, [])
+        if size not in link_sizes:
+            link_sizes.append(size)
     several = {wheel.link for wheel in stage.wheels if wheel.planet and stage.copies > 1}
     rows = [
         f"{link}: {number_separator(lang).join(mine)}{f' × {stage.copies}' if link in several else ''}"
@@ -185,4 +185,4 @@ def _listed(stage: GearStage, at: Point, lang: str) -> list[Shape]:
         if link not in sizes and link != "frame"
     ]
     rows += list(dict.fromkeys(others))
-    return [TextShape(at.plus(Point(0.0, _ROW * k)), words, "value", "start") for k, words in enumerate(rows)]
+    return [TextShape(at.plus(Point(0.0, _ROW * k)), text, "value", "start") for k, text in enumerate(rows)]

@@ -23,7 +23,7 @@ Steps = tuple[Shift | Turn, ...]
 
 _RIM = 15.0  # pixels around an internal wheel
 _PIN = 5.0
-_KEYS = 72  # of a way to and fro
+_KEYS = 72  # of a motion to and fro
 _BAR = 16.0  # pixels: the thickness of a rack
 _LOAD = Point(13.0, 18.0)
 _SCREW = Point(150.0, 9.0)
@@ -47,48 +47,50 @@ class PaintOptions(NamedTuple):
 
 
 class _Moves:
-    """Steps of the links of a stage; without a course nothing moves."""
+    """Steps of the links of a stage; all zero without a motion."""
 
-    def __init__(self, stage: GearStage, course: TrainMotion | None) -> None:
-        self.stage, self.course = stage, course
+    def __init__(self, stage: GearStage, motion: TrainMotion | None) -> None:
+        self.stage, self.motion = stage, motion
 
     def turn(self, link: str, against: str = FRAME, sign: int = 1) -> Turn:
         """The angle of a link against another, evenly or to and fro."""
-        if self.course is None:
+        if self.motion is None:
             return Turn((0.0,))
-        turns = sign * (self.course.turns(link) - self.course.turns(against))
+        turns = sign * (self.motion.turns(link) - self.motion.turns(against))
         return Turn(self._keys(math.tau * turns))
 
     def slide(self, link: str, scale: float, along: Point) -> Shift:
-        """The way of a link along a direction on the page."""
-        if self.course is None or not self.course.displacement(link):
+        """The displacement of a link along a direction on the page."""
+        if self.motion is None or not self.motion.displacement(link):
             return Shift((Point(0.0, 0.0),))
-        return Shift(tuple(Point(0, 0).plus(along, way) for way in self._keys(scale * self.course.displacement(link))))
+        return Shift(
+            tuple(Point(0, 0).plus(along, travel) for travel in self._keys(scale * self.motion.displacement(link)))
+        )
 
     def _keys(self, whole: float) -> tuple[float, ...]:
         if not whole:
             return (0.0,)
-        if self.course is None or not self.course.slides:
+        if self.motion is None or not self.motion.slides:
             return (0.0, whole)
         return tuple(whole * math.sin(math.pi * k / _KEYS) ** 2 for k in range(_KEYS + 1))
 
     def on_carrier(self, paint: PaintOptions) -> Steps:
-        """How everything that the carrier holds moves."""
+        """The steps of all parts on the carrier."""
         carrier = self.stage.carrier
         if carrier == FRAME or self.stage.is_bevel:
             return ()
-        if self.course is not None and carrier in self.course.slides:
+        if self.motion is not None and carrier in self.motion.slides:
             return (self.slide(carrier, paint.scale, Point(1.0, 0.0)),)
         return (self.turn(carrier),)
 
     def of_wheel(self, wheel: StageWheel, paint: PaintOptions) -> Steps:
-        """A wheel about its axis, which may go round."""
+        """The steps of a wheel about its axis, which may revolve."""
         carrier, shift = self.stage.carrier, Shift((paint.place(wheel.at),))
         if self.stage.is_bevel:
             side = -1 if wheel.size < 0 else 1
             relative = any(wheel.link == mesh.b for mesh in self.stage.meshes) and carrier != FRAME
             return shift, self.turn(wheel.link, FRAME if relative else carrier, side)
-        sliding = self.course is not None and carrier in self.course.slides
+        sliding = self.motion is not None and carrier in self.motion.slides
         if sliding:
             return (*self.on_carrier(paint), shift, self.turn(wheel.link))
         if wheel.planet:
@@ -96,9 +98,9 @@ class _Moves:
         return shift, self.turn(wheel.link)
 
 
-def stage_bodies(stage: GearStage, paint: PaintOptions, course: TrainMotion | None) -> list[Body]:
-    """All bodies of a stage in the order in which they are painted, its first axis or hub at the origin."""
-    moves = _Moves(stage, course)
+def stage_bodies(stage: GearStage, paint: PaintOptions, motion: TrainMotion | None) -> list[Body]:
+    """All bodies of a stage in painting order, its first axis or hub at the origin."""
+    moves = _Moves(stage, motion)
     order = sorted(stage.wheels, key=lambda wheel: (not _hollow(stage, wheel), -wheel.radius))
     bodies = [Body(tuple(_wheel(stage, wheel, paint)), moves.of_wheel(wheel, paint)) for wheel in order]
     bodies += [body for placed in stage.placed for body in _links(placed, moves, paint)]
@@ -115,7 +117,7 @@ def _hollow(stage: GearStage, wheel: StageWheel) -> bool:
 
 
 def _wheel(stage: GearStage, wheel: StageWheel, paint: PaintOptions) -> Iterator[Shape]:
-    """A disc or ring with its pitch circle, teeth where they are wanted, and marks that show how it turns."""
+    """A disc or ring with its pitch circle, optional teeth, and marks that show its rotation."""
     radius = paint.scale * wheel.radius
     style = "block-frame" if wheel.link == FRAME else "area"
     geared = any(mesh.kind == "gear" and wheel.link in (mesh.a, mesh.b) for mesh in stage.meshes)
@@ -159,23 +161,25 @@ def _carrier(stage: GearStage, moves: _Moves, paint: PaintOptions) -> list[Body]
 
 def _pins(stage: GearStage, moves: _Moves, paint: PaintOptions) -> list[Body]:
     """A circle on every axis."""
-    held = dict.fromkeys(wheel.at for wheel in stage.wheels if wheel.planet or not stage.central)
+    axes = dict.fromkeys(wheel.at for wheel in stage.wheels if wheel.planet or not stage.central)
     steps = moves.on_carrier(paint)
-    bodies = [Body(tuple(CircleShape(paint.place(at), _PIN, "joint") for at in held), steps)] if held else []
+    bodies = [Body(tuple(CircleShape(paint.place(at), _PIN, "joint") for at in axes), steps)] if axes else []
     return [*bodies, Body((CircleShape(Point(0.0, 0.0), _PIN, "joint"),))] if stage.central else bodies
 
 
 def _names(stage: GearStage, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
-    """Names of links in their wheels where there is room; they stay level."""
-    taken: dict[complex, float] = {}
+    """Names of links in their wheels where there is space; they remain level."""
+    used_radii: dict[complex, float] = {}
     named: set[tuple[str, complex]] = set()
-    for wheel in sorted(stage.wheels, key=lambda one: one.radius):
-        inner = taken.get(wheel.at, 0.0)
+    for wheel in sorted(stage.wheels, key=lambda wheel: wheel.radius):
+        inner = used_radii.get(wheel.at, 0.0)
         radius = paint.scale * wheel.radius
-        taken[wheel.at] = max(inner, radius)
+        used_radii[wheel.at] = max(inner, radius)
         down = max(inner, _PIN) + 11.0
-        fits = down + 8.0 < radius and text_width(wheel.link) / 2 < math.sqrt(max(radius**2 - (down + 6) ** 2, 0.0))
-        if _hollow(stage, wheel) or not fits or (wheel.link, wheel.at) in named:
+        has_space = down + 8.0 < radius and text_width(wheel.link) / 2 < math.sqrt(
+            max(radius**2 - (down + 6) ** 2, 0.0)
+        )
+        if _hollow(stage, wheel) or not has_space or (wheel.link, wheel.at) in named:
             continue
         named.add((wheel.link, wheel.at))
         steps: Steps = (Shift((paint.place(wheel.at),)),)
@@ -186,7 +190,7 @@ def _names(stage: GearStage, moves: _Moves, paint: PaintOptions) -> Iterator[Bod
         yield Body((TextShape(Point(0.0, down), wheel.link, "name"),), steps)
 
 
-# --- what has no teeth -----------------------------------------------------------------------------
+# --- belts, racks, ropes and screws ----------------------------------------------------------------
 
 
 def _links(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
@@ -205,15 +209,15 @@ def _links(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[B
 
 def _belt(placed: PlacedMesh, crossed: bool) -> Complexes:
     """The closed line around two wheels, along their common tangents."""
-    (ra, rb), way = placed.radii, placed.b - placed.a
-    towards, d = cmath.phase(way), abs(way)
+    (ra, rb), axis = placed.radii, placed.b - placed.a
+    towards, d = cmath.phase(axis), abs(axis)
     beta = math.acos((ra + rb if crossed else ra - rb) / d)
     first = np.linspace(towards + beta, towards + math.tau - beta, 49)
     second = np.linspace(towards - beta, towards + beta, 49)
     if crossed:
         second = np.linspace(towards + math.pi - beta, towards - math.pi + beta, 49)
-    out: Complexes = np.concatenate([placed.a + ra * np.exp(1j * first), placed.b + rb * np.exp(1j * second)])
-    return out
+    outline: Complexes = np.concatenate([placed.a + ra * np.exp(1j * first), placed.b + rb * np.exp(1j * second)])
+    return outline
 
 
 def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
@@ -222,9 +226,9 @@ def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
     radius = placed.radii[0]
     side = -1.0 if mesh.size_a < 0 else 1.0
     at = paint.place(placed.a).plus(Point(0.0, side * scale * radius))
-    way = scale * abs(moves.course.displacement(mesh.b)) if moves.course else 0.0
+    travel = scale * abs(moves.motion.displacement(mesh.b)) if moves.motion else 0.0
     half = max(1.6 * scale * radius, 40.0)
-    left, right = at.x - half - way, at.x + half + way
+    left, right = at.x - half - travel, at.x + half + travel
     box = (Point(left, at.y), Point(right, at.y), Point(right, at.y + side * _BAR), Point(left, at.y + side * _BAR))
     pieces: list[Shape] = [Polylines((box,), "block", closed=True)]
     pieces.append(ticks(Point(left, at.y + side * 4), Point(right, at.y + side * 4), Point(0.0, side * 0.8)))
@@ -232,21 +236,21 @@ def _rack(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Body:
 
 
 def _rope(placed: PlacedMesh, moves: _Moves, paint: PaintOptions) -> Iterator[Body]:
-    """A rope that hangs from the right of a drum, with its load; what is below the load is hidden."""
+    """A rope from the right side of a drum with its load; a mask hides the rope below the load."""
     mesh, scale = placed.mesh, paint.scale
     radius = placed.radii[0]
     top = paint.place(placed.a + radius)
-    way = scale * moves.course.displacement(mesh.b) if moves.course else 0.0
-    low = top.plus(Point(0.0, scale * radius + 30.0 + abs(way)))
-    yield Body((Polylines(((top, low.plus(Point(0.0, max(-way, 0.0)))),), "edge"),))
-    hidden = _box(low.plus(Point(0.0, _LOAD.y / 2 + abs(way))), 4.0, _LOAD.y / 2 + abs(way))
+    travel = scale * moves.motion.displacement(mesh.b) if moves.motion else 0.0
+    low = top.plus(Point(0.0, scale * radius + 30.0 + abs(travel)))
+    yield Body((Polylines(((top, low.plus(Point(0.0, max(-travel, 0.0)))),), "edge"),))
+    hidden = _box(low.plus(Point(0.0, _LOAD.y / 2 + abs(travel))), 4.0, _LOAD.y / 2 + abs(travel))
     load = _box(low.plus(Point(0.0, _LOAD.y)), _LOAD.x, _LOAD.y)
     shapes = (Polylines((hidden,), "ground", closed=True), Polylines((load,), "block", closed=True))
     yield Body(shapes, (moves.slide(mesh.b, scale, Point(0.0, -1.0)),))
 
 
 def _screw(placed: PlacedMesh, moves: _Moves) -> Iterator[Body]:
-    """A spindle from the side with its nut; a turn moves the nut by a thread that is drawn, not to scale."""
+    """A spindle from the side with its nut; a turn moves the nut by one drawn thread, not to scale."""
     mesh, lead = placed.mesh, 14.0
     middle = Point(0.0, 0.0)
     threads = tuple(

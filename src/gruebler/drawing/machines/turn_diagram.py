@@ -1,4 +1,4 @@
-"""Diagrams over a turn that stand beneath the picture of a machine, with a cursor where the machine moves."""
+"""Diagrams over a turn below the picture of a machine, with a cursor if the machine moves."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
 
     Args:
         x: angles in radians.
-        rows: of each panel what it measures, and its values.
+        rows: the name of the quantity and the values of each panel.
         at: an angle in radians that is marked.
         title: of the figure.
         lang: language of its numbers.
@@ -38,23 +38,23 @@ def turn_diagram(x: Reals, rows: Sequence[tuple[str, Reals]], at: float | None, 
         degrees = round(math.degrees(at % math.tau), 2)
         marks = (AxisMarker(degrees, number(degrees, lang, "g") + "°"),)
     panels = []
-    for k, (words, y) in enumerate(rows):
-        axis = Axis(words, decimals(float(y.min()), float(y.max()), few=4))
-        shown = tuple(mark._replace(words=mark.words if k == 0 else "") for mark in marks)
+    for k, (text, y) in enumerate(rows):
+        axis = Axis(text, decimals(float(y.min()), float(y.max()), few=4))
+        shown = tuple(mark._replace(text=mark.text if k == 0 else "") for mark in marks)
         curves = (Curve(np.degrees(x), y, "", LINES[0]),)
         panels.append(Panel(Axis("φ in °", angles(0.0, 360.0, few=12)), axis, curves, marks=shown, size=_PANEL))
     return draw_panels(panels, title, "", lang)
 
 
 def beneath(diagram: Figure, bodies: Sequence[Body]) -> list[Shape]:
-    """The shapes of a diagram below bodies, at the left of what stands still."""
+    """The shapes of a diagram below bodies, left-aligned with the fixed ones."""
     reach = [shape for k in range(8) for shape in at_time(bodies, k / 8)]
     corner, size = bounds(reach, 0.0)
     return [moved_shape(shape, Point(corner.x, corner.y + size.y + _GAP)) for shape in diagram.shapes]
 
 
 def running(diagram: list[Shape]) -> list[Body]:
-    """The diagram and a cursor that goes evenly through all of its panels."""
+    """The diagram and a cursor that moves evenly through all of its panels."""
     frames = [shape.parts[0] for shape in diagram if isinstance(shape, Polylines) and shape.style == "axis"]
     corner, right = frames[0][1], frames[0][2]
     lines = tuple((Point(0.0, frame[0].y), Point(0.0, frame[1].y)) for frame in frames)

@@ -1,7 +1,7 @@
-"""What is to be laid out: points in the plane and the bodies that hold them together.
+"""The input of a layout: points in the plane and the bodies that connect them.
 
 For a structure picture the points are the joints and the bodies the links; for a graph it is the other way round. The
-layout knows nothing of either. A body of one point gets a free end, and a body that shares two points with another one
+layout is the same for both. A body of one point gets a free end, and a body that shares two points with another one
 gets an elbow, so that straight bars do not lie on each other.
 """
 
@@ -16,16 +16,16 @@ __all__ = ["LayoutBodies"]
 
 @dataclass(frozen=True, slots=True)
 class LayoutBodies:
-    """Points 0, 1, ... with colours, and bodies as the points they hold.
+    """Points 0, 1, ... with colours, and bodies as the points they connect.
 
-    The first ``given`` points are those asked for; free ends and elbows follow.
+    The first ``given`` points are the requested ones; free ends and elbows follow.
     """
 
     given: int
     point_colours: tuple[int, ...]
     bodies: tuple[tuple[int, ...], ...]
     paths: tuple[tuple[int, ...], ...]
-    """For each body the points in the order in which it is drawn, if it is a bar or a string with elbows."""
+    """For each body the points in drawing order, if it is a bar or a string with elbows."""
 
     @classmethod
     def of(cls, colours: Sequence[int], bodies: Sequence[Sequence[int]]) -> LayoutBodies:
@@ -36,10 +36,10 @@ class LayoutBodies:
         """
         points = list(colours)
         paths = []
-        taken: set[frozenset[int]] = set()
+        connected: set[frozenset[int]] = set()
         for body in bodies:
             if len(body) > 2:
-                taken |= {frozenset(pair) for pair in combinations(body, 2)}
+                connected |= {frozenset(pair) for pair in combinations(body, 2)}
         for body in bodies:
             path = list(body)
             if len(path) == 1:
@@ -49,10 +49,10 @@ class LayoutBodies:
                 if path[0] == path[1]:
                     path[1:1] = [len(points), len(points) + 1]
                     points += [_ELBOW, _ELBOW]
-                elif frozenset(path) in taken:
+                elif frozenset(path) in connected:
                     path.insert(1, len(points))
                     points.append(_ELBOW)
-                taken.add(frozenset(body))
+                connected.add(frozenset(body))
             paths.append(tuple(path))
         return cls(len(colours), tuple(points), tuple(tuple(b) for b in bodies), tuple(paths))
 

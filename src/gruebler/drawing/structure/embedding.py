@@ -1,7 +1,7 @@
 """Embeddings of a graph in the plane: the order of the neighbours around every vertex, counterclockwise.
 
-Every embedding of a connected planar graph arises exactly once by putting the ears of one decomposition, one after
-another, into faces (docs/theory/drawing.md); there are few for chains of usual size.
+Inserting the ears of one decomposition into faces, one after another, gives every embedding of a connected planar graph
+exactly once (docs/theory/drawing.md); chains of usual size have few embeddings.
 """
 
 from __future__ import annotations
@@ -28,29 +28,29 @@ def an_embedding(graph: Graph) -> Rotation:
     import networkx as nx
 
     planar, embedding = nx.check_planarity(nx.Graph((u, v) for u in range(len(graph)) for v in graph[u]))
-    assert planar  # the caller has asked
+    assert planar  # checked by the caller
     return [list(embedding.neighbors_cw_order(v))[::-1] for v in range(len(graph))]
 
 
 def ears(graph: Graph) -> list[list[int]]:
-    """Paths that build the graph up from vertex 0; each starts on the earlier ones and ends there or nowhere.
+    """Paths that compose the graph from vertex 0; each starts on the earlier ones and ends there or at a free vertex.
 
     >>> ears([[1, 2], [0, 2], [0, 1, 3], [2]])
     [[0, 1, 2, 0], [2, 3]]
     """
     placed = {0}
     used: set[tuple[int, int]] = set()
-    found = []
+    paths = []
     while (path := _next_ear(graph, placed, used)) is not None:
-        found.append(path)
+        paths.append(path)
         placed.update(path)
         for u, v in pairwise(path):
             used |= {(u, v), (v, u)}
-    return found
+    return paths
 
 
 def _next_ear(graph: Graph, placed: set[int], used: set[tuple[int, int]]) -> list[int] | None:
-    """A shortest path between two vertices placed, else a shortest closed one, else one edge that hangs."""
+    """A shortest path between two placed vertices, else a shortest closed one, else one edge with a free end."""
     best: tuple[int, int, list[int]] | None = None
     for v in sorted(placed):
         for w in graph[v]:
@@ -93,21 +93,21 @@ def _trace(origin: dict[int, int], v: int, u: int, t: int) -> list[int]:
 
 
 def embeddings(graph: Graph, budget: int = 4000) -> Iterator[Rotation]:
-    """All embeddings, each once up to which side is up; no more are sought when so many ears have been placed.
+    """All embeddings, each once up to reflection; the search ends when ``budget`` ears have been placed.
 
     >>> len(list(embeddings([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])))
     2
     """
     parts = ears(graph)
-    left = [budget]
+    remaining = [budget]
 
     def grow(rotation: Rotation, number: int) -> Iterator[Rotation]:
         if number == len(parts):
             yield rotation
             return
         for larger in _placements(rotation, parts[number]):
-            left[0] -= 1
-            if left[0] < 0:
+            remaining[0] -= 1
+            if remaining[0] < 0:
                 return
             yield from grow(larger, number + 1)
 
@@ -115,7 +115,7 @@ def embeddings(graph: Graph, budget: int = 4000) -> Iterator[Rotation]:
 
 
 def _placements(rotation: Rotation, path: list[int]) -> Iterator[Rotation]:
-    """The rotation with the path added, in every way."""
+    """All rotations with the path added."""
     first, last = path[0], path[-1]
     hangs = not rotation[last] and last != first
     if not rotation[first]:
@@ -136,16 +136,16 @@ def _placements(rotation: Rotation, path: list[int]) -> Iterator[Rotation]:
 
 
 def _with(rotation: Rotation, path: list[int], k: int, j: int) -> Rotation:
-    """The path goes in before the k-th neighbour of its first vertex and before the j-th one of its last."""
-    out = [list(around) for around in rotation]
+    """The rotation with the path before the k-th neighbour of its first vertex and the j-th one of its last."""
+    extended = [list(around) for around in rotation]
     for u, v, w in zip(path, path[1:], path[2:], strict=False):
-        out[v] = [u, w]
+        extended[v] = [u, w]
     if path[0] == path[-1]:
-        out[path[0]][k:k] = [path[1], path[-2]]
+        extended[path[0]][k:k] = [path[1], path[-2]]
     else:
-        out[path[0]].insert(k, path[1])
-        out[path[-1]].insert(j, path[-2])
-    return out
+        extended[path[0]].insert(k, path[1])
+        extended[path[-1]].insert(j, path[-2])
+    return extended
 
 
 def faces(rotation: Rotation) -> list[list[tuple[int, int]]]:
@@ -154,13 +154,13 @@ def faces(rotation: Rotation) -> list[list[tuple[int, int]]]:
     for v, around in enumerate(rotation):
         for k, u in enumerate(around):
             follow[u, v] = (v, around[k - 1])
-    found = []
+    walks = []
     while follow:
         dart, after = next(iter(follow.items()))
         walk = []
         while dart in follow:
             walk.append(dart)
             dart = follow.pop(dart)
-        found.append(walk)
+        walks.append(walk)
         del after
-    return found
+    return walks

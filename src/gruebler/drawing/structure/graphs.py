@@ -30,7 +30,7 @@ _NODE = 11.0
 _BIG = 6.0
 _SMALL = 3.2
 _LOOP = 15.0  # radius of the largest arrow in a loop
-_GRID = 24  # places in a row where it is looked for the most room
+_GRID = 24  # places in a row of the search for the largest free space
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +62,13 @@ def _smooth(path: tuple[Point, ...]) -> tuple[Point, ...]:
 
 
 def _bezier(points: Sequence[Point], t: float) -> Point:
-    rest = list(points)
-    while len(rest) > 1:
-        rest = [p.plus(q.minus(p), t) for p, q in pairwise(rest)]
-    return rest[0]
+    controls = list(points)
+    while len(controls) > 1:
+        controls = [p.plus(q.minus(p), t) for p, q in pairwise(controls)]
+    return controls[0]
 
 
-def draw_graph(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
+def draw_graph(structure: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
     """The link graph: a node for each link, an edge for each joint, an area for a multiple joint.
 
     A frame has a double circle; joints that do not turn have their symbol beside them.
@@ -76,7 +76,7 @@ def draw_graph(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") ->
     >>> draw_graph(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")).title
     'four-bar chain'
     """
-    chain = chain_of(thing)
+    chain = chain_of(structure)
     order = canonical_order(chain)
     rank = {chain.links[i]: k for k, i in enumerate(order.links)}
     joints = [chain.joints[k] for k in order.joints]
@@ -92,21 +92,21 @@ def draw_graph(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") ->
     names = short_names(chain.links)
     for link in chain.links:
         at = drawn.points[rank[link]]
-        if isinstance(thing, Mechanism) and link == thing.frame:
+        if isinstance(structure, Mechanism) and link == structure.frame:
             shapes.append(CircleShape(at, _NODE + 3.5, "node"))
         shapes += [CircleShape(at, _NODE, "node"), TextShape(at, names[link], "letter")]
     listed = {link: number for link, number in names.items() if link != number}
     shapes += legend(listed, drawn.points) if listed else ()
-    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+    return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 
 
-def draw_contracted(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
-    """The contracted graph: what carries three joints or more, and the strings of binary links between, as dots.
+def draw_contracted(structure: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
+    """The contracted graph: links with three joints or more, and the strings of binary links between them, as dots.
 
-    Filled nodes are links, open ones multiple joints; what hangs at one end only is a node too. A closed loop without
-    any such node is drawn from its first link.
+    Filled nodes are links, open ones multiple joints; a free end is a node too. A closed loop without any such node is
+    drawn from its first link.
     """
-    chain = chain_of(thing)
+    chain = chain_of(structure)
     nodes, strings = _strings(chain)
     drawn = _placed([int(v >= chain.n) for v in nodes], [(a, b) for a, b, _ in strings])
     shapes: list[Shape] = [Polylines((path,), "edge") for path in drawn.paths]
@@ -115,7 +115,7 @@ def draw_contracted(thing: Chain | Mechanism, *, lang: str = "en", name: str = "
     shapes += [
         CircleShape(at, _BIG, "node" if v >= chain.n else "block") for v, at in zip(nodes, drawn.points, strict=True)
     ]
-    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+    return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 
 
 def _strings(chain: Chain) -> tuple[list[int], list[tuple[int, int, int]]]:
@@ -128,53 +128,53 @@ def _strings(chain: Chain) -> tuple[list[int], list[tuple[int, int, int]]]:
             near[link].append(number)
             near[number].append(link)
     nodes = [v for v, around in enumerate(near) if len(around) != 2] or [0]
-    found, seen = [], set()
+    strings, visited = [], set()
     for v in nodes:
         for first in near[v]:
-            if (v, first) in seen:
+            if (v, first) in visited:
                 continue
             path = [v, first]
             while path[-1] not in nodes:
-                ways = [w for w in near[path[-1]] if w != path[-2]]
-                path.append(ways[0] if ways else path[-2])
-            seen |= {(v, first), (path[-1], path[-2])}
-            found.append((nodes.index(v), nodes.index(path[-1]), sum(u < chain.n for u in path[1:-1])))
-    return nodes, found
+                onward = [w for w in near[path[-1]] if w != path[-2]]
+                path.append(onward[0] if onward else path[-2])
+            visited |= {(v, first), (path[-1], path[-2])}
+            strings.append((nodes.index(v), nodes.index(path[-1]), sum(u < chain.n for u in path[1:-1])))
+    return nodes, strings
 
 
 def _along(path: Sequence[Point], part: float) -> Point:
     """The point after this part of the length of a path."""
     steps = [b.minus(a).length for a, b in pairwise(path)]
-    rest = part * sum(steps)
+    remaining = part * sum(steps)
     for a, b, step in zip(path, path[1:], steps, strict=False):
-        if rest <= step:
-            return a.plus(b.minus(a).unit, rest)
-        rest -= step
+        if remaining <= step:
+            return a.plus(b.minus(a).unit, remaining)
+        remaining -= step
     return path[-1]
 
 
-def draw_loops(thing: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
+def draw_loops(structure: Chain | Mechanism, *, lang: str = "en", name: str = "") -> Figure:
     """The structure picture with the independent loops: a numbered arrow in each inner face.
 
-    Where links cross or share two joints, faces are no loops; a shortest basis is told in words below the picture.
+    Where links cross or share two joints, faces are no loops; a list below the picture then names a shortest basis.
     """
-    placed = place_joints(thing)
+    placed = place_joints(structure)
     shapes = paint(placed)
     if len(placed.faces) != placed.chain.loops or any(len(set(face)) < 3 for face in placed.faces):
         walks = [", ".join(loop) for loop in _shortest_loops(placed.chain)]
         shapes = labels_or_numbers(placed.outlines, {link: d > 2 for link, d in placed.chain.degrees.items()}, shapes)
         shapes += legend({walk: f"{k}:" for k, walk in enumerate(walks, 1)}, _corners(shapes))
-        return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+        return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
     corners = [[placed.joints[k] for k in face] for face in placed.faces]
     for number, loop in enumerate(sorted(corners, key=lambda loop: _middle(loop)[::-1]), 1):
         at, room = _roomiest(loop)
         arc = ArcShape(at, max(7.0, min(_LOOP, room - 11.0)), math.radians(-60), math.radians(300), "drive")
         shapes += [arc, arrow_head(arc), TextShape(at, str(number), "mark")]
-    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+    return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 
 
 def _corners(shapes: Sequence[Shape]) -> list[Point]:
-    """Points that no shape but long lines and texts goes beyond."""
+    """Points that bound all shapes except long lines and texts."""
     return [point for s in shapes if isinstance(s, Polylines) for part in s.parts for point in part] + [
         s.at for s in shapes if isinstance(s, TextShape)
     ]
@@ -197,22 +197,22 @@ def _shortest_loops(chain: Chain) -> list[tuple[str, ...]]:
 
 def _from_least(cycle: list[int]) -> list[int]:
     k = cycle.index(min(cycle))
-    there = cycle[k:] + cycle[:k]
-    return min(there, [there[0], *there[:0:-1]])
+    rotated = cycle[k:] + cycle[:k]
+    return min(rotated, [rotated[0], *rotated[:0:-1]])
 
 
 def _roomiest(loop: Sequence[Point]) -> tuple[Point, float]:
-    """The point of a grid inside a polygon that is farthest from its rim, and how far."""
+    """The point of a grid inside a polygon that is farthest from its rim, and its distance."""
     left, right = min(p.x for p in loop), max(p.x for p in loop)
     top, bottom = min(p.y for p in loop), max(p.y for p in loop)
     parts = (np.arange(_GRID) + 0.5) / _GRID
     x, y = np.meshgrid(left + (right - left) * parts, top + (bottom - top) * parts, indexing="ij")
     rim, grid = complexes(loop), (x + 1j * y).ravel()
-    good = grid[is_inside(grid, rim)] if len(loop) > 2 else grid[:0]
-    if not len(good):
-        good = complexes([_middle(loop)])
-    room = np.min(from_segment(good[:, None], rim[None, :], np.roll(rim, -1)[None, :]), axis=1).round(3)
+    inside = grid[is_inside(grid, rim)] if len(loop) > 2 else grid[:0]
+    if not len(inside):
+        inside = complexes([_middle(loop)])
+    room = np.min(from_segment(inside[:, None], rim[None, :], np.roll(rim, -1)[None, :]), axis=1).round(3)
     most = float(room.max())
-    best = [Point(float(z.real), float(z.imag)) for z in good[room >= most - 1.0]]
+    best = [Point(float(z.real), float(z.imag)) for z in inside[room >= most - 1.0]]
     at = _middle(best)
     return (at, most) if is_inside(complexes([at]), rim)[0] else (max(best), most)

@@ -1,4 +1,4 @@
-"""Where a layout begins: an embedding, its outer face, the symmetry both have, and a drawing without crossings."""
+"""Initial layouts: an embedding, its outer face, their common symmetry, and a drawing without crossings."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SPARSE = 400  # vertices: from here on most of the matrix is zeros
 
 @dataclass(frozen=True, slots=True)
 class InitialLayout:
-    """An embedding whose outer face is chosen, with the symmetries that keep both."""
+    """An embedding with a chosen outer face and the symmetries of both."""
 
     rotation: Rotation
     outer: Walk
@@ -28,27 +28,27 @@ class InitialLayout:
     images: tuple[tuple[int, ...], ...]
     """Each symmetry as the images of the vertices; the identity is the first."""
     turns: NDArray[np.float64]
-    """float64[symmetries, 2, 2]: how each moves the plane."""
+    """float64[symmetries, 2, 2]: the matrix of each in the plane."""
     code: tuple[int, ...]
-    """Equal for starts that differ only in names or in which side is up."""
+    """Equal for layouts that differ only in names or by reflection."""
 
 
 def initial_layouts(rotations: Iterable[Rotation], colours: Sequence[int]) -> list[InitialLayout]:
-    """Every start once, those with symmetry first, then those with a long outer face."""
-    found: dict[tuple[int, ...], InitialLayout] = {}
+    """Every initial layout once, those with symmetry first, then those with a long outer face."""
+    layouts: dict[tuple[int, ...], InitialLayout] = {}
     for rotation in rotations:
         walks = [tuple(u for u, _ in walk) for walk in faces(rotation)]
         for k, outer in enumerate(walks):
-            code, ways = _least_code(rotation, colours, outer)
-            if code not in found:
+            code, readings = _least_code(rotation, colours, outer)
+            if code not in layouts:
                 inner = tuple(walks[:k] + walks[k + 1 :])
-                found[code] = InitialLayout(rotation, outer, inner, *_symmetries(ways, len(outer)), code)
-    return sorted(found.values(), key=lambda start: (len(start.images) == 1, -len(start.outer), start.code))
+                layouts[code] = InitialLayout(rotation, outer, inner, *_symmetries(readings, len(outer)), code)
+    return sorted(layouts.values(), key=lambda start: (len(start.images) == 1, -len(start.outer), start.code))
 
 
 @dataclass(frozen=True, slots=True)
 class _MapReading:
-    """One reading of a map: where on the outer walk it begins, in which direction, and the vertices as they come."""
+    """One reading of a map: its start on the outer walk, its direction, and the order of the vertices."""
 
     begin: int
     sign: int
@@ -56,7 +56,7 @@ class _MapReading:
 
 
 def _least_code(rotation: Rotation, colours: Sequence[int], outer: Walk) -> tuple[tuple[int, ...], list[_MapReading]]:
-    """The least code of the map over all readings of its outer walk, and the readings that give it."""
+    """The least code of the map over all readings of its outer walk, and the readings with this code."""
     near = [(len(rotation[v]), colours[v]) for v in outer]
     readings = [(near[k:] + near[:k], k, 1) for k in range(len(outer))]
     near = near[::-1]
@@ -64,22 +64,22 @@ def _least_code(rotation: Rotation, colours: Sequence[int], outer: Walk) -> tupl
     readings += [(near[last - k :] + near[: last - k], k, -1) for k in range(len(outer))]
     least = min(reading[0] for reading in readings)
     best: tuple[int, ...] | None = None
-    ways: list[_MapReading] = []
+    best_readings: list[_MapReading] = []
     for signature, begin, sign in readings:
         if signature == least:
             code, order = _read(rotation, colours, outer, begin, sign)
             if best is None or code < best:
-                best, ways = code, []
+                best, best_readings = code, []
             if code == best:
-                ways.append(_MapReading(begin, sign, order))
+                best_readings.append(_MapReading(begin, sign, order))
     assert best is not None  # some reading is the least
-    return best, ways
+    return best, best_readings
 
 
 def _read(
     rotation: Rotation, colours: Sequence[int], outer: Walk, begin: int, sign: int
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """The map as numbers, vertices counted as a search from one dart of the outer walk meets them."""
+    """The map as numbers, with the vertices in the order of a search from one dart of the outer walk."""
     first, second = outer[begin], outer[(begin + sign) % len(outer)]
     number = {first: 0, second: 1}
     order = [first, second]
@@ -98,29 +98,29 @@ def _read(
     return tuple(code), tuple(order)
 
 
-def _symmetries(ways: list[_MapReading], length: int) -> tuple[tuple[tuple[int, ...], ...], NDArray[np.float64]]:
-    """The maps from the first reading to the others; corner i of the outer walk stands at the angle -2 pi i/length."""
-    base = ways[0]
+def _symmetries(readings: list[_MapReading], length: int) -> tuple[tuple[tuple[int, ...], ...], NDArray[np.float64]]:
+    """The maps from the first reading to the others; corner i of the outer walk is at the angle -2 pi i/length."""
+    base = readings[0]
     images, turns = [], []
-    for way in ways:
+    for reading in readings:
         image = [0] * len(base.order)
-        for v, w in zip(base.order, way.order, strict=True):
+        for v, w in zip(base.order, reading.order, strict=True):
             image[v] = w
         images.append(tuple(image))
-        angle = -2 * math.pi * (way.begin - way.sign * base.sign * base.begin) / length
+        angle = -2 * math.pi * (reading.begin - reading.sign * base.sign * base.begin) / length
         cos, sin = math.cos(angle), math.sin(angle)
-        mirrored = way.sign * base.sign
+        mirrored = reading.sign * base.sign
         turns.append([[cos, -mirrored * sin], [sin, mirrored * cos]])
     return tuple(images), np.array(turns)
 
 
 def tutte(start: InitialLayout, hubs: range) -> NDArray[np.float64]:
-    """A drawing of the vertices of the start without crossings, with its symmetry: float64[vertices, 2].
+    """A drawing of the vertices of the initial layout without crossings, with its symmetry: float64[vertices, 2].
 
-    Every vertex stands in the middle of its neighbours (Tutte 1963). The graph is first made three-connected: between
-    successive neighbours of a hub comes an edge, in every face a ring with one vertex for each corner and one in its
-    middle, and around the outer face a ring that stands still on a circle. Cost O(vertices^3), of large
-    graphs O(vertices^1.5) or so.
+    Every vertex is the barycentre of its neighbours (Tutte 1963). The graph is first made three-connected by an edge
+    between successive neighbours of a hub, in every face a ring with one vertex for each corner and one in its
+    middle, and around the outer face a ring that is fixed on a circle. Cost O(vertices^3), for large graphs about
+    O(vertices^1.5).
     """
     n = len(start.rotation)
     edges = [(u, v) for u, around in enumerate(start.rotation) for v in around if u < v]
@@ -141,7 +141,7 @@ def tutte(start: InitialLayout, hubs: range) -> NDArray[np.float64]:
 
 
 def _balanced(edges: NDArray[np.int64], total: int, circle: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Places of the first vertices, each in the middle of its neighbours, while the others stand on the circle."""
+    """Places of the first vertices, each the barycentre of its neighbours, with the others fixed on the circle."""
     matrix = np.zeros((total + len(circle), total + len(circle)))
     np.add.at(matrix, tuple(edges), -1.0)
     np.add.at(matrix, tuple(edges[::-1]), -1.0)

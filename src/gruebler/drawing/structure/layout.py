@@ -1,4 +1,4 @@
-"""Where the points of a picture stand: many starts are relaxed, the best one is taken."""
+"""The places of the points of a picture: many initial layouts are relaxed, the best result is chosen."""
 
 from __future__ import annotations
 
@@ -16,32 +16,32 @@ from gruebler.drawing.structure.planarisation import PlanarisedGraph, planarised
 
 __all__ = ["Layout", "lay_out"]
 
-_STARTS = 1500  # so many divided by the number of vertices are relaxed; a chain of ten links has at most some forty
-_EMBEDDINGS = 600  # so many divided by the number of vertices are looked at
-_CROSSED = 12  # ways to cross links that are tried
+_STARTS = 1500  # divided by the number of vertices: relaxed layouts; a chain of ten links has at most about forty
+_EMBEDDINGS = 600  # divided by the number of vertices: embeddings considered
+_CROSSED = 12  # choices of crossings that are tried
 _HUB, _CROSSING = -3, -4  # colours of vertices that are not points
 _FINALISTS = 4  # relaxed again, with more weight on the smallest distances
-_SYMMETRY = 1.35  # a symmetric layout is taken even if another one has so much more clearance
+_SYMMETRY = 1.35  # a symmetric layout is preferred to others with up to this factor of clearance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Layout:
-    """Where the points stand: the bodies do not overlap, but for the pairs in ``crossings``."""
+    """The places of the points: the bodies do not overlap, except the pairs in ``crossings``."""
 
     points: NDArray[np.float64]
-    """float64[points, 2], y upward, free ends and elbows included; the longer side of the whole is 1."""
+    """float64[points, 2], y upward, free ends and elbows included; the longer side of the layout is 1."""
     outlines: tuple[tuple[int, ...], ...]
-    """The points of each body in the order in which they are drawn."""
+    """The points of each body in drawing order."""
     crossings: tuple[tuple[int, int], ...]
     """Pairs of bodies that cross."""
     covered: int
-    """How many points lie in a polygon that does not hold them."""
+    """The number of points inside a polygon to which they do not belong."""
     clearance: float
     """The smallest distance of a point from a bar or an edge that it does not end."""
     turns: NDArray[np.float64]
     """float64[symmetries, 2, 2]: the turns and reflections that map the layout onto itself."""
     images: tuple[tuple[int, ...], ...]
-    """Where each sends the points."""
+    """The images of the points under each."""
     faces: tuple[tuple[int, ...], ...]
     """The points around each inner face; none if bodies cross."""
 
@@ -53,7 +53,7 @@ class Layout:
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """What the kernels are told: segments, the bodies that own them, and the points to be kept away from them."""
+    """The input of the kernels: segments, their bodies, and the points that must keep a distance from them."""
 
     segments: NDArray[np.int64]
     owners: tuple[int, ...]
@@ -62,7 +62,7 @@ class _Task:
 
 
 def lay_out(bodies: LayoutBodies) -> Layout:
-    """The layout of bodies: no crossing if there can be none, even clearance, symmetry where an embedding has it.
+    """The layout of bodies: no crossing if that is possible, even clearance, symmetry where an embedding has it.
 
     The same for the same numbering. Cost: some 10 ms for 13 points, a second for 60.
 
@@ -98,20 +98,20 @@ def _graph(bodies: LayoutBodies) -> list[list[int]]:
 
 def _rotations(crossed: PlanarisedGraph) -> Iterable[Rotation]:
     most = max(4, _EMBEDDINGS // len(crossed.graph))
-    found = list(islice(filter(crossed.is_crossing, embeddings(crossed.graph)), most))
-    return found or [an_embedding(crossed.graph)]
+    rotations = list(islice(filter(crossed.is_crossing, embeddings(crossed.graph)), most))
+    return rotations or [an_embedding(crossed.graph)]
 
 
 @dataclass(frozen=True, slots=True)
 class _Run:
-    """One start and what becomes of it."""
+    """The relaxation of one initial layout."""
 
     bodies: LayoutBodies
     crossed: PlanarisedGraph
     start: InitialLayout
 
     def relaxed(self) -> Layout:
-        """Without crossings, if the start has none, and fairly even."""
+        """A first layout, without crossings if the start has none."""
         hubs = range(self.bodies.size, self.bodies.size + len(self.bodies.polygons))
         x = tutte(self.start, hubs)
         if self.crossed.strands:
@@ -119,10 +119,10 @@ class _Run:
         return self._layout(x, 2.0, 120)
 
     def polished(self, layout: Layout) -> Layout:
-        """With larger smallest distances."""
+        """The layout with larger smallest distances."""
         x = np.zeros((len(self.start.rotation), 2))
         x[: self.bodies.size] = layout.points * 5.0
-        return min(layout, self._layout(x, 6.0, 300), key=lambda one: one.rank)
+        return min(layout, self._layout(x, 6.0, 300), key=lambda candidate: candidate.rank)
 
     def _layout(self, x: NDArray[np.float64], power: float, rounds: int) -> Layout:
         from gruebler._numeric.compiling import for_work
@@ -168,7 +168,7 @@ class _Run:
         )
 
     def _around(self, hub: int) -> tuple[int, ...]:
-        """The points of a polygon in cyclic order, seen past crossings."""
+        """The points of a polygon in cyclic order, crossings skipped."""
         ends = {s[1]: s[-1] for s in self.crossed.strands if s[0] == hub}
         ends |= {s[-2]: s[0] for s in self.crossed.strands if s[-1] == hub}
         return tuple(ends.get(p, p) for p in self.start.rotation[hub])
@@ -201,7 +201,7 @@ class _Run:
 
 
 def _covered(points: NDArray[np.float64], outlines: tuple[tuple[int, ...], ...]) -> int:
-    """How many points lie inside a polygon that does not hold them."""
+    """The number of points inside a polygon to which they do not belong."""
     number = 0
     for outline in outlines:
         if len(set(outline)) < 3:

@@ -1,4 +1,4 @@
-"""What pictures say of themselves, for those who cannot see them."""
+"""Titles and descriptions of pictures, as alternative text."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from gruebler.text import arity, message, translate
 
 __all__ = ["chain_name", "describe", "title"]
 
-# What the chains of the literature are called; the first of a family of inversions tells the chain.
+# The names of chains in the literature; the first of a family of inversions identifies the chain.
 _CHAINS = {
     "four-bar linkage": message("four-bar chain"),
     "Watt I": message("Watt's chain"),
@@ -18,7 +18,7 @@ _CHAINS = {
 
 
 def chain_name(chain: Chain, lang: str = "en") -> str:
-    """The name of a chain that has one, or nothing.
+    """The name of a chain, or an empty text.
 
     >>> chain_name(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"), "de")
     'Viergelenkkette'
@@ -34,26 +34,26 @@ def chain_name(chain: Chain, lang: str = "en") -> str:
 _LARGEST_NAMED = 6
 
 
-def title(thing: Chain | Mechanism, lang: str = "en", name: str = "") -> str:
-    """The name given, or that of the chain or of the family of mechanisms, or what kind of thing it is.
+def title(structure: Chain | Mechanism, lang: str = "en", name: str = "") -> str:
+    """The given name, or that of the chain or of the family of mechanisms, or its kind.
 
     >>> title(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)"))
     'four-bar chain'
     """
     from gruebler.mechanism.inversion import family
 
-    if isinstance(thing, Chain):
-        return name or chain_name(thing, lang) or translate("Kinematic chain", lang)
-    return name or family(thing, lang) or translate("Mechanism", lang)
+    if isinstance(structure, Chain):
+        return name or chain_name(structure, lang) or translate("Kinematic chain", lang)
+    return name or family(structure, lang) or translate("Mechanism", lang)
 
 
-def describe(thing: Chain | Mechanism, lang: str = "en") -> str:
+def describe(structure: Chain | Mechanism, lang: str = "en") -> str:
     """Links, joints, frame and drives in a few sentences.
 
     >>> describe(Chain.parse("R(0-1) R(1-2) R(2-0)"))
     'Links: 3 (binary: 3). Joints: 3. Independent loops: 1. R(0-1) R(1-2) R(2-0).'
     """
-    chain = thing if isinstance(thing, Chain) else thing.chain
+    chain = structure if isinstance(structure, Chain) else structure.chain
     alphabet = Alphabet.of_language(lang)
     kinds = ", ".join(f"{arity(k, lang)}: {n}" for k, n in chain.link_kinds.items())
     parts = [
@@ -66,8 +66,8 @@ def describe(thing: Chain | Mechanism, lang: str = "en") -> str:
             loops=chain.loops,
         )
     ]
-    if isinstance(thing, Mechanism):
-        parts.append(translate("Frame: {frame}.", lang, frame=thing.frame))
-        if thing.drives:
-            parts.append(translate("Drives: {drives}.", lang, drives=", ".join(thing.drive_names(alphabet))))
+    if isinstance(structure, Mechanism):
+        parts.append(translate("Frame: {frame}.", lang, frame=structure.frame))
+        if structure.drives:
+            parts.append(translate("Drives: {drives}.", lang, drives=", ".join(structure.drive_names(alphabet))))
     return " ".join([*parts, f"{chain.text(alphabet)}."])

@@ -1,7 +1,7 @@
-"""Structure pictures of chains and mechanisms in the manner of textbooks: links as bodies, joints as signs.
+"""Structure pictures of chains and mechanisms in textbook style: links as bodies, joints as signs.
 
-The places depend on the structure alone: isomorphic chains get the same picture, and the inversions of a chain the same
-layout, turned so that the frame is low.
+The places depend on the structure alone: isomorphic chains have the same picture, and the inversions of a chain the
+same layout, turned so that the frame is low.
 """
 
 from __future__ import annotations
@@ -38,12 +38,12 @@ from gruebler.mechanism import Mechanism
 __all__ = ["PlacedChain", "chain_of", "draw", "letters", "mean_scale", "paint", "place_joints"]
 
 _LENGTH = 78.0  # pixels from joint to joint, on average
-_NARROW = 30.0  # pixels between a joint and a foreign link, at least, as long as the picture does not become huge
+_NARROW = 30.0  # pixels between a joint and another link, at least, unless the picture becomes too large
 
 
 @dataclass(frozen=True, slots=True)
 class PlacedChain:
-    """A chain with places for its joints, in pixels; what draws links, joints and drives needs no more."""
+    """A chain with places for its joints, in pixels: the input for drawing links, joints and drives."""
 
     chain: Chain
     joints: tuple[Point, ...]
@@ -53,12 +53,12 @@ class PlacedChain:
     drives: tuple[tuple[int, str], ...] = ()
     """Driven joints with the direction of the freedom."""
     crossing: frozenset[str] = frozenset()
-    """Links that are to be set off from others below them."""
+    """Links drawn with a halo above others."""
     faces: tuple[tuple[int, ...], ...] = ()
 
 
 def draw(
-    thing: Chain | Mechanism,
+    structure: Chain | Mechanism,
     *,
     labels: bool = False,
     lang: str = "en",
@@ -68,11 +68,11 @@ def draw(
     """The structure picture of a chain or a mechanism.
 
     Args:
-        thing: what to draw.
+        structure: the chain or mechanism.
         labels: whether to name the links.
         lang: language of title and description, ``en`` or ``de``.
-        name: the title, if it is not to be found out.
-        names: what to call links in the picture, where that is not their own name.
+        name: the title; by default a name derived from the structure.
+        names: other names for links in the picture.
 
     >>> picture = draw(Chain.parse("R(frame-crank) R(crank-rod) R(rod-piston) P(frame-piston)"))
     >>> len(picture.svg()) < 5000
@@ -80,35 +80,35 @@ def draw(
     """
     from gruebler.drawing.canvas.labels import labels_or_numbers
 
-    placed = place_joints(thing)
+    placed = place_joints(structure)
     shapes = paint(placed)
     if labels:
-        degrees = chain_of(thing).degrees
+        degrees = chain_of(structure).degrees
         outlines = {link: placed.outlines[link] for link in degrees}
         shapes = labels_or_numbers(outlines, {link: degrees[link] > 2 for link in degrees}, shapes, names)
-    return figure_of(shapes, title(thing, lang, name), describe(thing, lang))
+    return figure_of(shapes, title(structure, lang, name), describe(structure, lang))
 
 
-def chain_of(thing: Chain | Mechanism) -> Chain:
-    """The chain itself, or the mechanism's."""
-    return thing if isinstance(thing, Chain) else thing.chain
+def chain_of(structure: Chain | Mechanism) -> Chain:
+    """The chain itself, or that of the mechanism."""
+    return structure if isinstance(structure, Chain) else structure.chain
 
 
-def place_joints(thing: Chain | Mechanism) -> PlacedChain:
+def place_joints(structure: Chain | Mechanism) -> PlacedChain:
     """Places for the joints of a chain or a mechanism, links and joints in canonical order: one for each structure."""
-    frame, drives = (None, ()) if isinstance(thing, Chain) else (thing.frame, thing.drives)
-    chain, number = _ordered(chain_of(thing), frame, {drive.joint for drive in drives})
-    plain, where = _ordered(chain)
+    frame, drives = (None, ()) if isinstance(structure, Chain) else (structure.frame, structure.drives)
+    chain, number = _ordered(chain_of(structure), frame, {drive.joint for drive in drives})
+    plain, places = _ordered(chain)
     layout = _layout_of(
         tuple((joint.pair.name, tuple(sorted(map(plain.index, joint.links)))) for joint in plain.joints), chain.n
     )
     scale = mean_scale(layout)
     low = None if frame is None else plain.index(frame)
     points = [Point(scale * x, -scale * y) for x, y in upright(layout, low).tolist()]
-    back = {p: k for k, p in where.items()}
+    back = {p: k for k, p in places.items()}
     return PlacedChain(
         chain,
-        tuple(points[where[k]] for k in range(len(chain.joints))),
+        tuple(points[places[k]] for k in range(len(chain.joints))),
         {link: tuple(points[p] for p in layout.outlines[plain.index(link)]) for link in chain.links},
         frame,
         tuple(sorted((number[drive.joint], drive.direction) for drive in drives)),
@@ -118,7 +118,7 @@ def place_joints(thing: Chain | Mechanism) -> PlacedChain:
 
 
 def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = ()) -> tuple[Chain, dict[int, int]]:
-    """The chain with links and joints in canonical order, and where each joint has gone."""
+    """The chain with links and joints in canonical order, and the new number of each joint."""
     order = canonical_order(chain, frame, drives)
     moved = Chain(
         [chain.joints[k] for k in order.joints], links=[chain.links[i] for i in order.links], space=chain.space
@@ -130,12 +130,12 @@ def _ordered(chain: Chain, frame: str | None = None, drives: Collection[int] = (
 def _layout_of(rows: tuple[tuple[str, tuple[int, ...]], ...], links: int) -> Layout:
     kinds = list(dict.fromkeys(kind for kind, _ in rows))
     colours = [kinds.index(kind) for kind, _ in rows]
-    held = [[p for p, (_, members) in enumerate(rows) if link in members] for link in range(links)]
-    return lay_out(LayoutBodies.of(colours, held))
+    bodies = [[p for p, (_, members) in enumerate(rows) if link in members] for link in range(links)]
+    return lay_out(LayoutBodies.of(colours, bodies))
 
 
 def mean_scale(layout: Layout) -> float:
-    """Pixels for the longer side: bars of usual length, more where points would be too near to others."""
+    """Pixels for the longer side: for bars of usual length, more where points would be too near to others."""
     sides = [math.dist(layout.points[a], layout.points[b]) for outline in layout.outlines for a, b in pairwise(outline)]
     usual = _LENGTH / max(float(np.mean(sides)), 1e-9)
     return min(max(usual, _NARROW / max(layout.clearance, 1e-9)), 1.8 * usual)
@@ -159,7 +159,7 @@ def paint(placed: PlacedChain) -> list[Shape]:
 
 
 def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -> list[Shape]:
-    """The body of a link, its corners moved to where it takes hold of its joints."""
+    """The body of a link, its corners moved to its points of attachment at the joints."""
     moved = {placed.joints[n]: holds[link, n] for n, j in enumerate(placed.chain.joints) if link in j.links}
     corners = [moved.get(corner, corner) for corner in placed.outlines[link]]
     shape = polygon if placed.chain.degrees[link] > 2 else bar
@@ -167,7 +167,7 @@ def _link(placed: PlacedChain, link: str, holds: dict[tuple[str, int], Point]) -
 
 
 def towards(placed: PlacedChain, link: str, number: int) -> Point:
-    """The direction from a joint to where the link lies."""
+    """The direction from a joint to the link."""
     at = placed.joints[number]
     corners = placed.outlines[link]
     if placed.chain.degrees[link] < 3:

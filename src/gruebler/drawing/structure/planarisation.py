@@ -1,7 +1,7 @@
 """Graphs that have no drawing without crossings: a crossing becomes a vertex, until an embedding exists.
 
-The least number of crossings is found by search among pairs of bars, first one pair, then two. Where that fails, edges
-are put into an embedding of the others along shortest paths through its faces, which is short but not proved shortest.
+A search among pairs of bars, first one pair, then two, finds the least number of crossings. Where it fails, edges
+are inserted into an embedding of the others along shortest paths through its faces, which is not proved to be minimal.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from gruebler.drawing.structure.embedding import is_planar
 __all__ = ["PlanarisedGraph", "planarised_graph"]
 
 Edge = tuple[int, int]
-_SEARCHED = 2  # crossings; for more the search takes long
+_SEARCHED = 2  # crossings; the search for more takes too long
 _TRIES = 600
 _COST = 5  # of crossing a spoke, where crossing a bar costs 1: a bar over a polygon is uglier than two bars
 
 
 @dataclass(frozen=True, slots=True)
 class PlanarisedGraph:
-    """A planar graph in which the vertices from ``first`` on stand for crossings; the strand through each edge."""
+    """A planar graph in which the vertices from ``first`` on are crossings; the strand through each edge."""
 
     graph: tuple[tuple[int, ...], ...]
     first: int
@@ -30,7 +30,7 @@ class PlanarisedGraph:
     """The crossed edges of the old graph as paths through crossings."""
 
     def is_crossing(self, rotation: list[list[int]]) -> bool:
-        """Whether the strands really cross at each crossing of an embedding."""
+        """Whether the strands cross, not touch, at each crossing of an embedding."""
         through: dict[int, list[set[int]]] = {}
         for path in self.strands:
             for u, v, w in zip(path, path[1:], path[2:], strict=False):
@@ -39,7 +39,7 @@ class PlanarisedGraph:
 
 
 def planarised_graph(graph: list[list[int]], bars: list[Edge]) -> list[PlanarisedGraph]:
-    """All ways with the fewest crossings of bars, or one way that crosses whatever it must."""
+    """All planar graphs with the fewest crossings of bars, or one with any necessary crossings."""
     if is_planar(graph):
         return [PlanarisedGraph(tuple(map(tuple, graph)), len(graph), ())]
     pairs = [(e, f) for e, f in combinations(bars, 2) if not set(e) & set(f)]
@@ -56,46 +56,46 @@ def planarised_graph(graph: list[list[int]], bars: list[Edge]) -> list[Planarise
 
 
 def _with_crossings(graph: list[list[int]], crossings: tuple[tuple[Edge, Edge], ...]) -> PlanarisedGraph | None:
-    """Each crossing a vertex on both edges; None if an edge is crossed twice (the order would be open)."""
+    """The graph with a vertex on both edges for each crossing; None if an edge is crossed twice (ambiguous order)."""
     edges = [e for pair in crossings for e in pair]
     if len(set(edges)) < len(edges):
         return None
-    out = [list(around) for around in graph]
+    planar = [list(around) for around in graph]
     strands = []
     for pair in crossings:
-        middle = len(out)
-        out.append([])
+        middle = len(planar)
+        planar.append([])
         for u, v in pair:
-            out[u][out[u].index(v)] = middle
-            out[v][out[v].index(u)] = middle
-            out[middle] += [u, v]
+            planar[u][planar[u].index(v)] = middle
+            planar[v][planar[v].index(u)] = middle
+            planar[middle] += [u, v]
             strands.append((u, middle, v))
-    return PlanarisedGraph(tuple(map(tuple, out)), len(graph), tuple(strands))
+    return PlanarisedGraph(tuple(map(tuple, planar)), len(graph), tuple(strands))
 
 
 def _inserted(graph: list[list[int]], bars: list[Edge]) -> PlanarisedGraph:
-    """A planar part of the graph, and every other edge led through its faces over as few edges as possible."""
+    """A planar part of the graph, with every other edge inserted through its faces over as few edges as possible."""
     import networkx as nx
 
     easy = {frozenset(bar) for bar in bars}
     edges = [(u, v) for u, around in enumerate(graph) for v in around if u < v]
-    edges.sort(key=lambda e: frozenset(e) in easy)  # bars are left over rather than the spokes of bodies
+    edges.sort(key=lambda e: frozenset(e) in easy)  # spokes first, so that bars are omitted rather than spokes
     net = nx.Graph()
     net.add_nodes_from(range(len(graph)))
-    left = []
+    omitted = []
     for u, v in edges:
         net.add_edge(u, v, strand=(u, v))
         if not nx.check_planarity(net)[0]:
             net.remove_edge(u, v)
-            left.append((u, v))
-    for u, v in left:
+            omitted.append((u, v))
+    for u, v in omitted:
         _lead(net, u, v, easy)
     strands = _strands(net)
     return PlanarisedGraph(tuple(tuple(sorted(net[v])) for v in range(len(net))), len(graph), strands)
 
 
 def _lead(net: Any, u: int, v: int, easy: set[frozenset[int]]) -> None:
-    """Add the edge from u to v along a shortest way through the faces of an embedding of the net."""
+    """Add the edge from u to v along a shortest path through the faces of an embedding of the net."""
     path, over = _way(net, u, v, easy)
     before = u
     for step in pairwise(path[1:-1]):

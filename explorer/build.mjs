@@ -1,0 +1,20 @@
+// Builds the page into the folder given, else into the Python package: one ES module, no other files.
+import { build } from "esbuild";
+import { fileURLToPath } from "node:url";
+import path from "node:path";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const target = process.argv[2] ?? path.join(here, "../src/gruebler/explorer/static");
+
+await build({
+  absWorkingDir: here,
+  entryPoints: { explorer: "src/index.ts" },
+  outdir: target,
+  bundle: true,
+  format: "esm",
+  target: "es2022",
+  minify: true,
+  charset: "utf8",
+  legalComments: "none",
+  loader: { ".css": "text" },
+});

@@ -1,0 +1,276 @@
+/** The page: its header, its views, its language and theme, the link that is its document. */
+
+import { h } from "./dom";
+import { Backend, type HostModel } from "./host";
+import { currentLanguage, setLanguage, t, type Language } from "./language";
+import { BadLink, packed, unpacked } from "./link";
+import type { LinkageDocument, Model } from "./model";
+import { MotionView } from "./motion";
+import { CatalogView } from "./catalog";
+import { ExercisesView } from "./exercises";
+import { StructureView } from "./structure";
+import styles from "./style.css";
+
+export interface View {
+  readonly element: HTMLElement;
+  /** Lay the view out anew, in the language of the page. */
+  arrange(): void;
+  /** It has come to sight. */
+  appeared?(): void;
+}
+
+/** What a link carries. */
+interface Shared {
+  document: LinkageDocument;
+  name: string;
+  source: string;
+  drive: number;
+}
+
+export class App {
+  readonly backend: Backend;
+  readonly motion: MotionView;
+  private readonly views: Record<string, View>;
+  private view = "motion";
+  private readonly header = h("header", {});
+  private readonly message = h("div", { class: "message", role: "status", hidden: true });
+  private readonly root: HTMLElement;
+  private readonly host: HTMLElement;
+  private connected = true;
+  private writing = 0;
+  private hash = "";
+
+  constructor(readonly model: HostModel, element: HTMLElement) {
+    this.host = h("div", { class: "gruebler-explorer" });
+    element.append(this.host);
+    this.host.style.display = "block";
+    this.host.style.height = model.get("host") === "notebook" ? `${Number(model.get("height") ?? 640)}px` : "100%";
+    const shadow = this.host.attachShadow({ mode: "open" });
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(styles + String(model.get("styles") ?? ""));
+    shadow.adoptedStyleSheets = [sheet];
+    setLanguage(this.firstLanguage());
+    this.setTheme(this.firstTheme());
+    this.backend = new Backend(model);
+    this.motion = new MotionView(this);
+    this.views = { motion: this.motion };
+    if (this.backend.present) {
+      this.views = {
+        structure: new StructureView(this), motion: this.motion, catalog: new CatalogView(this), exercises: new ExercisesView(this),
+      };
+    }
+    for (const view of Object.values(this.views)) if (view !== this.motion) view.arrange();
+    this.root = h("div", { class: "app" }, this.header, this.message, ...Object.values(this.views).map((view) => view.element));
+    // a page of its own listens everywhere, a cell of a notebook to itself
+    (this.linkable ? document : this.root).addEventListener("keydown", (event) => this.key(event as KeyboardEvent));
+    shadow.append(this.root);
+    model.on("connection", ((on: boolean) => this.connection(on)) as (message: never) => void);
+    model.on("change:machine", (() => this.open(model.get("machine") as Model)) as (message: never) => void);
+  }
+
+  async start(): Promise<void> {
+    this.motion.open(this.model.get("machine") as Model);
+    this.show("motion");
+    if (this.linkable) {
+      await this.read();
+      window.addEventListener("hashchange", () => location.hash !== this.hash && void this.read());
+    }
+  }
+
+  destroy(): void {
+    this.motion.pause();
+    this.motion.stage.destroy();
+    this.host.remove();
+  }
+
+  private get linkable(): boolean {
+    return this.model.get("host") !== "notebook";
+  }
+
+  private firstLanguage(): Language {
+    const wanted = String(this.model.get("lang") ?? "") || navigator.language;
+    return wanted.startsWith("de") ? "de" : "en";
+  }
+
+  private firstTheme(): "light" | "dark" {
+    return window.matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  }
+
+  setTheme(theme: "light" | "dark"): void {
+    this.host.dataset.theme = theme;
+  }
+
+  // --- views ---------------------------------------------------------------------------------------------------------
+
+  show(name: string): void {
+    this.view = name;
+    for (const [key, view] of Object.entries(this.views)) view.element.classList.toggle("shown", key === name);
+    if (name !== "motion") this.motion.pause();
+    this.arrangeHeader();
+    this.views[name]!.appeared?.();
+  }
+
+  /** The name of the mechanism in the language of the page. */
+  private get name(): string {
+    const model = this.motion.machine?.model;
+    return model?.names[currentLanguage()] ?? model?.name ?? "";
+  }
+
+  private arrangeHeader(): void {
+    this.host.lang = currentLanguage();
+    const names: Record<string, string> = { structure: t("Structure"), motion: t("Motion"), catalog: t("Catalog"), exercises: t("Exercises") };
+    const keys = Object.keys(this.views);
+    const tabs = keys.length < 2 ? null : h("nav", { role: "tablist" }, ...keys.map((key) => h("button", {
+      role: "tab", "data-view": key, "aria-selected": String(key === this.view), onclick: () => this.show(key),
+    }, names[key]!)));
+    const [back, forth] = this.motion.undoable;
+    const tool = (sign: string, title: string, act: () => void, disabled = false) =>
+      h("button", { class: "quiet", title, "aria-label": title, onclick: act, disabled }, sign);
+    const language = h("select", { "aria-label": t("Language"), onchange: () => {
+      setLanguage(language.value as Language);
+      this.arrange();
+    } }, ...([["en", "English"], ["de", "Deutsch"]] as const).map(([value, text]) => h("option", { value, selected: value === currentLanguage() }, text)));
+    this.header.replaceChildren(
+      h("h1", {}, "gruebler", h("small", {}, this.name)), ...(tabs ? [tabs] : []), h("span", { class: "spring" }),
+      tool("↶", t("Undo"), () => this.motion.undo(), !back), tool("↷", t("Redo"), () => this.motion.redo(), !forth),
+      tool("⤴", t("Copy the link"), () => void this.share()),
+      tool("◐", t("Light or dark"), () => {
+        this.setTheme(this.host.dataset.theme === "dark" ? "light" : "dark");
+        this.motion.stage.draw();
+      }),
+      tool("?", t("Keys"), () => this.help()), language,
+    );
+  }
+
+  /** Everything anew, in another language. */
+  arrange(): void {
+    for (const view of Object.values(this.views)) view.arrange();
+    this.motion.measured();
+    this.motion.stage.build();
+    this.show(this.view);
+    this.say("");
+  }
+
+  say(text: string, action?: HTMLElement): void {
+    if (!this.connected && !text) text = t("The connection to gruebler is lost. The page goes on by itself; it connects again when the server is back.");
+    if (this.message.firstChild?.textContent === text && !action) return;
+    this.message.hidden = !text;
+    this.message.replaceChildren(h("span", {}, text), ...(action ? [action] : []));
+  }
+
+  private connection(on: boolean): void {
+    this.connected = on;
+    this.say("");
+  }
+
+  ask<Result>(method: string, params: Record<string, unknown>, progress?: (text: string) => void) {
+    return this.backend.ask<Result>(method, params, currentLanguage(), progress);
+  }
+
+  // --- the document --------------------------------------------------------------------------------------------------
+
+  open(model: Model): void {
+    this.say("");
+    this.motion.open(model);
+    this.show("motion");
+  }
+
+  /** Show the structure of a text. */
+  describe(text: string): void {
+    this.show("structure");
+    void (this.views["structure"] as StructureView).describe(text);
+  }
+
+  /** After a change: the link follows, a notebook is told. */
+  changed(): void {
+    this.arrangeHeader();
+    clearTimeout(this.writing);
+    this.writing = window.setTimeout(() => void this.write(), 150);
+  }
+
+  private shared(): Shared {
+    const { machine } = this.motion;
+    return { document: machine.document(), name: machine.model.name, source: machine.model.source, drive: machine.drives[machine.active] ?? 0 };
+  }
+
+  private async write(): Promise<void> {
+    const shared = this.shared();
+    this.model.set("document", shared.document);
+    this.model.save_changes();
+    if (!this.linkable) return;
+    this.hash = `#${await packed(shared)}`;
+    history.replaceState(null, "", this.hash);
+  }
+
+  /** Copy the address with the linkage in it. */
+  async share(): Promise<void> {
+    await this.write();
+    const address = this.linkable ? location.href : `#${await packed(this.shared())}`;
+    try {
+      await navigator.clipboard.writeText(address);
+      this.say(t("The link is copied. It holds the mechanism with its sizes."));
+    } catch {
+      const field = h("input", { value: address, readonly: true, "aria-label": t("Copy the link"), onfocus: () => field.select() });
+      this.say(t("Copy this link:"), field);
+      field.focus();
+    }
+  }
+
+  private async read(): Promise<void> {
+    const text = location.hash.slice(1);
+    if (!text) return;
+    try {
+      const shared = (await unpacked(text)) as Shared;
+      await this.openShared(shared);
+    } catch (error) {
+      if (error instanceof BadLink) this.say(t(error.message));
+      else this.say(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private async openShared(shared: Shared): Promise<void> {
+    const { model } = this.motion.machine;
+    const same = (key: string) => JSON.stringify(model.document[key]) === JSON.stringify(shared.document[key]);
+    if (["joints", "frame", "drives", "links"].every(same)) this.motion.openDocument(shared.document, shared.drive);
+    else if (this.backend.present) {
+      this.open(await this.ask<Model>("open_document", { document: shared.document, name: shared.name, source: shared.source }));
+    } else this.say(t("This link holds another mechanism. Open it with: gruebler explore LINK"));
+  }
+
+  // --- keys ----------------------------------------------------------------------------------------------------------
+
+  private key(event: KeyboardEvent): void {
+    const target = event.composedPath()[0] as HTMLElement;
+    if (/^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) && (target as HTMLInputElement).type !== "range") return;
+    if (event.ctrlKey || event.metaKey) {
+      if (event.key === "z" && !event.shiftKey) this.motion.undo();
+      else if (event.key === "y" || (event.key.toLowerCase() === "z" && event.shiftKey)) this.motion.redo();
+      else return;
+      event.preventDefault();
+      return;
+    }
+    if (event.key === "?") this.help();
+    else if (this.view !== "motion") return;
+    else if (event.key === " " && target.tagName !== "BUTTON" && target.tagName !== "SUMMARY") this.motion.toggle();
+    else if (event.key === "ArrowRight") this.motion.nudge(event.shiftKey ? 10 : 1);
+    else if (event.key === "ArrowLeft") this.motion.nudge(event.shiftKey ? -10 : -1);
+    else if (event.key === "+") this.motion.stage.zoom(1.25);
+    else if (event.key === "-") this.motion.stage.zoom(0.8);
+    else if (event.key === "0") this.motion.stage.fit();
+    else return;
+    event.preventDefault();
+  }
+
+  private help(): void {
+    const rows: [string, string][] = [
+      [t("Space"), t("play and pause")], ["← →", t("move the drive by 1°, with Shift by 10°")],
+      ["Tab, ← → ↑ ↓", t("choose a joint and move it, with Shift in small steps")],
+      ["Ctrl Z, Ctrl Y", t("undo, redo")], ["+ − 0", t("zoom, show everything")], ["?", t("this list")],
+    ];
+    const dialog = h("dialog", { "aria-label": t("Keys") }, h("table", {}, ...rows.map(([key, text]) => h("tr", {}, h("td", {}, h("kbd", {}, key)), h("td", {}, text)))),
+      h("form", { method: "dialog" }, h("button", { class: "key" }, t("Close"))));
+    dialog.addEventListener("close", () => dialog.remove());
+    this.root.append(dialog);
+    dialog.showModal();
+  }
+}

@@ -1,0 +1,96 @@
+/** The catalog: every machine with its picture, found by words of either language and by its features. */
+
+import type { App, View } from "./app";
+import { h } from "./dom";
+import { t } from "./language";
+import type { Model } from "./model";
+import { thumbnail } from "./structure";
+
+interface Entry {
+  id: string;
+  name: string;
+  links: number;
+  counted: number;
+  moves: boolean;
+  text: string;
+}
+
+export class CatalogView implements View {
+  readonly element = h("div", { class: "view", "data-page": "catalog" });
+  private words = "";
+  private pairs = "";
+  private links = "";
+  private readonly cards = h("div", { class: "cards", "data-list": "catalog" });
+  private readonly note = h("p", { class: "note", role: "status" });
+  private typing = 0;
+  private asked = 0;
+  private filled = false;
+  private readonly watcher = new IntersectionObserver((seen) => {
+    for (const { target, isIntersecting } of seen) {
+      if (!isIntersecting) continue;
+      this.watcher.unobserve(target);
+      void this.draw(target as HTMLElement);
+    }
+  }, { rootMargin: "200px" });
+
+  constructor(private readonly app: App) {}
+
+  appeared(): void {
+    if (!this.filled) void this.search();
+  }
+
+  arrange(): void {
+    const field = (label: string, value: string, set: (text: string) => void, hint: string, key: string) => {
+      const input = h("input", { value, placeholder: hint, "data-field": key, oninput: () => {
+        set(input.value);
+        clearTimeout(this.typing);
+        this.typing = window.setTimeout(() => void this.search(), 250);
+      } });
+      return h("label", {}, label, input);
+    };
+    this.element.replaceChildren(h("div", { class: "page" },
+      h("h2", {}, t("Catalog")),
+      h("div", { class: "form" },
+        field(t("Words"), this.words, (text) => (this.words = text), t("crank, Kurbel, …"), "words"),
+        field(t("Joint types"), this.pairs, (text) => (this.pairs = text), "P G", "pairs"),
+        field(t("Links"), this.links, (text) => (this.links = text), "", "links")),
+      this.note, this.cards));
+    if (this.filled) void this.search();
+  }
+
+  private async search(): Promise<void> {
+    const number = ++this.asked;
+    const links = /^\d+$/.test(this.links) ? Number(this.links) : null;
+    try {
+      const found = await this.app.ask<Entry[]>("catalog", { words: this.words, pairs: this.pairs, links });
+      if (number !== this.asked) return;
+      this.filled = true;
+      this.note.textContent = t("{count} machines", { count: found.length });
+      this.cards.replaceChildren(...found.map((entry) => h("button", {
+        class: "card", "data-id": entry.id, onclick: () => void this.choose(entry),
+      }, h("div", { "data-place": "" }), h("b", {}, entry.name), h("span", {}, t("{links} links, F = {counted}", { links: entry.links, counted: entry.counted }) + (entry.moves ? "" : ` · ${t("structure only")}`)))));
+      for (const card of this.cards.children) this.watcher.observe(card);
+    } catch (error) {
+      if (number === this.asked) this.note.textContent = (error as Error).message;
+    }
+  }
+
+  private async draw(card: HTMLElement): Promise<void> {
+    const id = card.dataset["id"]!;
+    try {
+      const { picture } = await this.app.ask<{ picture: string }>("picture", { id });
+      card.querySelector("[data-place]")?.replaceWith(thumbnail(picture, id));
+    } catch {
+      // it keeps its name
+    }
+  }
+
+  private async choose(entry: Entry): Promise<void> {
+    if (!entry.moves) return this.app.describe(entry.text);
+    try {
+      this.app.open(await this.app.ask<Model>("open", { id: entry.id }));
+    } catch (error) {
+      this.app.say((error as Error).message);
+    }
+  }
+}

@@ -1,0 +1,40 @@
+/** Elements in few words. Attributes that begin with `on` are listeners. */
+
+export type Child = Node | string | null | false | undefined;
+
+type Attributes = Record<string, string | number | boolean | null | undefined | ((event: never) => void)>;
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function filled<E extends Element>(element: E, attributes: Attributes, children: Child[]): E {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (typeof value === "function") element.addEventListener(name.slice(2), value as unknown as EventListener);
+    else element.setAttribute(name, value === true ? "" : String(value));
+  }
+  for (const child of children) if (child !== null && child !== false && child !== undefined) element.append(child);
+  return element;
+}
+
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K, attributes: Attributes = {}, ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  return filled(document.createElement(tag), attributes, children);
+}
+
+export function svg<K extends keyof SVGElementTagNameMap>(
+  tag: K, attributes: Attributes = {}, ...children: Child[]
+): SVGElementTagNameMap[K] {
+  return filled(document.createElementNS(SVG, tag), attributes, children) as SVGElementTagNameMap[K];
+}
+
+/** The picture in SVG that Python wrote, as an element: parsed, not trusted as markup of the page. */
+export function picture(text: string, label: string): Element {
+  const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+  for (const script of parsed.querySelectorAll("script, foreignObject")) script.remove();
+  for (const element of [parsed, ...parsed.querySelectorAll("*")])
+    for (const { name } of [...element.attributes]) if (/^on/i.test(name)) element.removeAttribute(name);
+  parsed.setAttribute("role", "img");
+  parsed.setAttribute("aria-label", label);
+  return document.importNode(parsed, true);
+}

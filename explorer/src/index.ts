@@ -1,0 +1,39 @@
+/** The page of gruebler: an ES module with the interface of an anywidget front end, so that one source has three hosts.
+ *
+ * A notebook calls `render`; a server's page and a file of their own have an element with `data-gruebler`, at which the
+ * page starts by itself. */
+
+import { App } from "./app";
+import { SocketModel, StillModel, type HostModel } from "./host";
+
+export { Kernel } from "./kernel";
+export { Machine } from "./machine";
+export { packed, unpacked } from "./link";
+export { programOf } from "./program";
+
+function render({ model, el }: { model: HostModel; el: HTMLElement }): () => void {
+  const app = new App(model, el);
+  void app.start();
+  return () => app.destroy();
+}
+
+export default { render };
+
+function begin(place: HTMLElement): void {
+  for (const element of [document.documentElement, document.body, place]) {
+    element.style.margin = "0";
+    element.style.height = "100%";
+  }
+  const values = JSON.parse(document.getElementById("gruebler-model")!.textContent ?? "{}") as Record<string, unknown>;
+  const host = place.dataset["gruebler"] ?? "file";
+  const address = new URL("ws", location.href);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  address.hash = "";
+  const model = host === "server" ? new SocketModel({ ...values, host }, address.href) : new StillModel({ ...values, host });
+  const app = new App(model, place);
+  Object.assign(window, { gruebler: app });
+  void app.start();
+}
+
+const place = typeof document === "undefined" ? null : document.querySelector<HTMLElement>("[data-gruebler]");
+if (place) begin(place);

@@ -1,0 +1,40 @@
+/** The texts of the page in the reader's language: English is the key, every other language a table. */
+
+import german from "./de.json";
+
+export type Language = "en" | "de";
+
+const TABLES: Record<Language, Record<string, string>> = { en: {}, de: german };
+
+let language: Language = "en";
+
+export function setLanguage(chosen: Language): void {
+  language = chosen;
+}
+
+export function currentLanguage(): Language {
+  return language;
+}
+
+/** A text in the reader's language; gaps are written {name}. */
+export function t(text: string, values: Record<string, string | number> = {}): string {
+  const found = TABLES[language][text] ?? text;
+  return found.replace(/\{(\w+)\}/g, (gap, name: string) => (name in values ? String(values[name]) : gap));
+}
+
+/** An angle in degrees; what is below a millionth of a degree is rounding. */
+export function angle(radians: number, digits = 4): string {
+  return `${number(Math.round((radians * 180e6) / Math.PI) / 1e6, digits)}°`;
+}
+
+/** A number with so many significant digits and the decimal sign of the language. */
+export function number(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return "–";
+  const text = String(Number(value.toPrecision(digits)) + 0);
+  return language === "de" ? text.replace(".", ",") : text;
+}
+
+/** A number that a reader typed, with a comma or a point; NaN if it is none. */
+export function parsed(text: string): number {
+  return /^\s*-?[\d.,]+(e-?\d+)?\s*$/i.test(text) ? Number(text.replace(",", ".")) : NaN;
+}

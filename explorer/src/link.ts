@@ -1,0 +1,42 @@
+/** A linkage as the part of an address behind #: version, packed document, checksum. */
+
+const VERSION = "1";
+const LONGEST = 200_000;
+
+/** CRC-32, as in zip files. */
+export function checksum(bytes: Uint8Array): string {
+  let crc = ~0;
+  for (const byte of bytes) {
+    crc ^= byte;
+    for (let k = 0; k < 8; k++) crc = crc & 1 ? (crc >>> 1) ^ 0xedb88320 : crc >>> 1;
+  }
+  return (~crc >>> 0).toString(16).padStart(8, "0");
+}
+
+async function through(stream: CompressionStream | DecompressionStream, bytes: Uint8Array<ArrayBuffer>): Promise<Uint8Array<ArrayBuffer>> {
+  const out = new Blob([bytes]).stream().pipeThrough(stream);
+  return new Uint8Array(await new Response(out).arrayBuffer());
+}
+
+export async function packed(content: unknown): Promise<string> {
+  const bytes = await through(new CompressionStream("deflate-raw"), new TextEncoder().encode(JSON.stringify(content)));
+  const text = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+  return `${VERSION}.${text.replace(/\+/g, "-").replace(/\//g, "_").replace(/=+$/, "")}.${checksum(bytes)}`;
+}
+
+/** Why a link cannot be read. */
+export class BadLink extends Error {}
+
+export async function unpacked(text: string): Promise<unknown> {
+  const [version, data, sum] = text.split(".");
+  if (version !== VERSION && /^\d+$/.test(version ?? "")) throw new BadLink("This link was made by a newer version of this page.");
+  if (!data || !sum || text.length > LONGEST) throw new BadLink("This link is not complete.");
+  try {
+    const bytes = Uint8Array.from(atob(data.replace(/-/g, "+").replace(/_/g, "/")), (c) => c.charCodeAt(0));
+    if (checksum(bytes) !== sum) throw new BadLink("This link is damaged: its checksum does not fit.");
+    return JSON.parse(new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes)));
+  } catch (error) {
+    if (error instanceof BadLink) throw error;
+    throw new BadLink("This link is damaged: its checksum does not fit.");
+  }
+}

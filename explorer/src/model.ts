@@ -1,0 +1,85 @@
+/** What Python says of a linkage (`gruebler.explorer.model.model_of`). */
+
+import type { ProgramRecord } from "./program";
+
+export interface ElementRecord {
+  joint: number;
+  link: number;
+  kind: "pin" | "line" | "round";
+  at: [number, number];
+  angle: number;
+}
+
+export interface PointRecord {
+  name: string;
+  link: number;
+  at: [number, number];
+}
+
+/** Link, point, direction, number of the plan's element (-1: none). */
+export type Place = [number, number, number, number, number, number];
+
+export interface Leg {
+  form: string;
+  outer: Place;
+  inner: Place;
+  pushed: number;
+  guide: ["R" | "P", ...Place] | null;
+}
+
+export interface OutputRecord {
+  link: number;
+  joint: number | null;
+  legs: Leg[];
+  note: Record<string, string>;
+}
+
+export interface ShapeRecord {
+  link: number;
+  style: string;
+  circle?: [number, number, number];
+  lines?: number[][];
+  closed?: boolean;
+}
+
+export interface GroupRecord {
+  dyad: boolean;
+  number: number;
+  form: string;
+  links: string[];
+  modes: boolean;
+}
+
+export type LinkageDocument = Record<string, unknown> & {
+  joints?: string;
+  elements?: Record<string, Record<string, unknown>>;
+  points?: Record<string, { link: string; at: number[] }>;
+  home?: Record<string, unknown>;
+};
+
+export interface Model {
+  version: number;
+  name: string;
+  /** The name in several languages, if it has such. */
+  names: Record<string, string>;
+  source: string;
+  document: LinkageDocument;
+  links: string[];
+  own: number;
+  frame: number;
+  unit: string;
+  joints: { name: string; pair: string; links: number[] }[];
+  elements: ElementRecord[];
+  points: PointRecord[];
+  drives: { name: string; turning: boolean; joint: number }[];
+  program: ProgramRecord;
+  sources: number[];
+  homes: { drives: number[][]; bodies: number[][]; windings: number[][] };
+  groups: GroupRecord[];
+  shortest: [number, number][];
+  released: number[];
+  start: { drives: number[]; signs: number[]; unknowns: number[] };
+  span: { turns: number; between: [number, number] | null };
+  outputs: OutputRecord[];
+  shapes: ShapeRecord[];
+}

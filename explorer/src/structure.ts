@@ -1,0 +1,202 @@
+/** The view of the structure: a chain out of all, its frame and drive, its joint types, its mobility; then dimensions. */
+
+import type { App, View } from "./app";
+import { h, picture, svg } from "./dom";
+import { Cancelled } from "./host";
+import { t } from "./language";
+import type { Model } from "./model";
+
+interface Choice {
+  text: string;
+  frame: string;
+  drives: string[];
+  family: string;
+  picture: string;
+}
+
+interface Structure {
+  text: string;
+  picture: string;
+  joints: { name: string; pair: string; at: [number, number]; types: { symbol: string; name: string; text: string; chosen: boolean }[] }[];
+  links: { name: string; at: [number, number]; outline: [number, number][]; overconstrained: boolean; rigid: boolean }[];
+  frame: string;
+  counted: number;
+  generic: number;
+  verdict: string;
+  lines: string[];
+  drives: string;
+  inversions: Choice[];
+  driven: Choice[];
+}
+
+interface Chains {
+  total: number;
+  start: number;
+  items: { text: string; picture: string }[];
+}
+
+export class StructureView implements View {
+  readonly element = h("div", { class: "view", "data-page": "structure" });
+  private text = "";
+  private links = 6;
+  private mobility = 1;
+  private chains: Chains | null = null;
+  private structure: Structure | null = null;
+  private joint = -1;
+  private readonly list = h("div", {});
+  private readonly detail = h("div", {});
+  private readonly status = h("div", { class: "form" });
+  private readonly error = h("p", { class: "error", role: "alert" });
+  private readonly field = h("textarea", { spellcheck: false, "data-field": "chain" });
+  private typing = 0;
+  private asked = 0;
+  private stop: (() => void) | null = null;
+
+  constructor(private readonly app: App) {
+    this.field.addEventListener("input", () => {
+      clearTimeout(this.typing);
+      this.typing = window.setTimeout(() => void this.describe(this.field.value), 300);
+    });
+  }
+
+  appeared(): void {
+    if (this.text) return;
+    const { model } = this.app.motion.machine;
+    void this.describe(`${String(model.document.joints)}; frame=${model.links[model.frame]}${model.drives.map((d) => `; drive=${d.name}`).join("")}`);
+  }
+
+  arrange(): void {
+    const links = h("input", { type: "number", min: 3, max: 12, value: this.links, "aria-label": t("Links"), onchange: () => (this.links = Number(links.value)) });
+    const mobility = h("input", { type: "number", min: 0, max: 6, value: this.mobility, "aria-label": t("Mobility"), onchange: () => (this.mobility = Number(mobility.value)) });
+    this.field.setAttribute("aria-label", t("The chain as text"));
+    this.element.replaceChildren(h("div", { class: "page" },
+      h("h2", {}, t("Choose a chain")),
+      h("div", { class: "form" },
+        h("label", {}, t("Links"), links), h("label", {}, t("Mobility"), mobility),
+        h("button", { class: "key", "data-act": "chains", onclick: () => void this.listChains(0) }, t("Show all chains")), this.status),
+      this.list,
+      h("h2", {}, t("The chain as text")), this.field, this.error, this.detail));
+    this.showChains();
+    if (this.text) void this.describe(this.text);
+  }
+
+  private async listChains(start: number): Promise<void> {
+    const bar = h("span", {}, "…");
+    const request = this.app.ask<Chains>("chains", { links: this.links, mobility: this.mobility, start }, (text) => (bar.textContent = text));
+    this.stop = () => request.cancel();
+    this.status.replaceChildren(h("progress", {}), bar, h("button", { class: "plain", onclick: () => this.stop?.() }, t("Cancel")));
+    try {
+      const found = await request;
+      this.chains = start && this.chains ? { ...found, items: [...this.chains.items, ...found.items] } : found;
+      this.status.replaceChildren();
+    } catch (error) {
+      this.status.replaceChildren(h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+    }
+    this.showChains();
+  }
+
+  private showChains(): void {
+    const { chains } = this;
+    if (!chains) return this.list.replaceChildren();
+    const more = chains.items.length < chains.total
+      ? h("button", { class: "plain", onclick: () => void this.listChains(chains.items.length) }, t("More")) : null;
+    this.list.replaceChildren(
+      h("p", { class: "note" }, t("{shown} of {total} chains", { shown: chains.items.length, total: chains.total })),
+      h("div", { class: "cards", "data-list": "chains" }, ...chains.items.map(({ text, picture: drawn }, k) =>
+        h("button", { class: "card", "data-chain": text, onclick: () => void this.describe(text, true) }, thumbnail(drawn, text), h("span", {}, `${k + 1}`)))),
+      ...(more ? [more] : []));
+  }
+
+  async describe(text: string, scroll = false): Promise<void> {
+    const number = ++this.asked;
+    if (this.field.value !== text) this.field.value = text;
+    try {
+      const found = await this.app.ask<Structure>("structure", { text });
+      if (number !== this.asked) return;
+      this.text = text;
+      this.structure = found;
+      if (this.joint >= found.joints.length) this.joint = -1;
+      this.error.textContent = "";
+      this.field.setAttribute("aria-invalid", "false");
+      this.showStructure();
+      if (scroll) this.field.scrollIntoView({ block: "start", behavior: "smooth" });
+    } catch (error) {
+      if (number !== this.asked) return;
+      const said = (error as Error).message;
+      this.field.setAttribute("aria-invalid", "true");
+      const place = /(?:character|Stelle) (\d+)/.exec(said);
+      this.error.replaceChildren(said);
+      if (place) {
+        const at = Number(place[1]);
+        this.error.append(h("span", { class: "place" }, `\n${text.slice(Math.max(0, at - 24), at - 1)}▸${text.slice(at - 1, at + 16)}`));
+      }
+    }
+  }
+
+  private showStructure(): void {
+    const found = this.structure!;
+    const drawn = picture(found.picture, found.text) as SVGSVGElement;
+    const marks: SVGElement[] = found.links.filter((link) => link.overconstrained || link.rigid).map((link) => svg("polyline", {
+      points: link.outline.map((p) => p.join(",")).join(" "), fill: "none", "stroke-width": 5, "stroke-linecap": "round", "stroke-linejoin": "round",
+      stroke: link.overconstrained ? "var(--accent)" : "var(--purple)", opacity: 0.85, "data-strained": link.name,
+    }));
+    const joints = found.joints.map((joint, k) => svg("circle", {
+      cx: joint.at[0], cy: joint.at[1], r: 13, fill: "transparent", stroke: k === this.joint ? "var(--key)" : "transparent", "stroke-width": 3, tabindex: 0, role: "button",
+      "aria-label": joint.name, "data-joint": joint.name, style: null, cursor: "pointer",
+      onclick: () => this.pick(k), onkeydown: (event: KeyboardEvent) => (event.key === "Enter" || event.key === " ") && (event.preventDefault(), this.pick(k)),
+    }, svg("title", {}, joint.name)));
+    drawn.append(...marks, ...joints);
+    const joint = found.joints[this.joint];
+    const types = joint ? h("div", {}, h("p", { class: "note" }, t("Type of {joint}", { joint: joint.name })),
+      h("div", { class: "joint-types" }, ...joint.types.map((type) => h("button", {
+        class: type.chosen ? "key" : "plain", title: type.name, "data-type": type.symbol, onclick: () => void this.describe(type.text),
+      }, `${type.symbol} ${type.name}`)))) : h("p", { class: "note" }, t("Click on a joint to change its type."));
+    const strained = found.links.some((link) => link.overconstrained);
+    const choices = (title: string, list: Choice[], label: (choice: Choice) => string, key: string) => list.length
+      ? [h("h2", {}, title), h("div", { class: "cards", "data-list": key }, ...list.map((choice) => h("button", {
+        class: "card", "data-text": choice.text, "aria-pressed": String(choice.text === found.text), onclick: () => void this.describe(choice.text, true),
+      }, thumbnail(choice.picture, choice.text), h("b", {}, label(choice)), choice.family ? h("span", {}, choice.family) : null)))] : [];
+    this.detail.replaceChildren(
+      h("div", { class: "two" },
+        h("div", {}, h("div", { class: "chain-picture" }, drawn), types,
+          strained ? h("p", { class: "note" }, t("Orange: overconstrained links.")) : null),
+        h("div", {},
+          h("dl", { class: "facts" },
+            h("dt", {}, t("Counted")), h("dd", { "data-fact": "counted" }, `F = ${found.counted}`),
+            h("dt", {}, t("Generic")), h("dd", { "data-fact": "generic", class: found.generic === found.counted ? "good" : "bad" }, `F = ${found.generic}`)),
+          h("pre", {}, found.lines.join("\n") + (found.drives ? `\n${found.drives}` : "")),
+          h("div", { class: "form" }, h("button", { class: "key", "data-act": "realise", onclick: () => void this.realise() }, t("Find dimensions and move it")))),
+      ),
+      ...choices(t("Frames that make a difference"), found.inversions, (choice) => t("frame {frame}", { frame: choice.frame }), "inversions"),
+      ...choices(t("Drives at the frame that make a difference"), found.driven, (choice) => choice.drives.join(", "), "driven"));
+  }
+
+  private pick(joint: number): void {
+    this.joint = this.joint === joint ? -1 : joint;
+    this.showStructure();
+  }
+
+  private async realise(): Promise<void> {
+    const bar = h("span", {}, "…");
+    const request = this.app.ask<{ model: Model; message: string }>("realise", { text: this.text }, (text) => (bar.textContent = text));
+    const cancel = h("button", { class: "plain", onclick: () => request.cancel() }, t("Cancel"));
+    const place = this.detail.querySelector('[data-act="realise"]')!.parentElement!;
+    const waiting = h("span", { class: "form" }, h("progress", {}), bar, cancel);
+    place.append(waiting);
+    try {
+      const { model, message } = await request;
+      waiting.remove();
+      this.app.open({ ...model, name: t("A mechanism with found dimensions") });
+      this.app.say(message);
+    } catch (error) {
+      waiting.replaceChildren(h("span", { class: "error" }, error instanceof Cancelled ? t("Cancelled.") : (error as Error).message));
+    }
+  }
+}
+
+export function thumbnail(drawn: string, label: string): Element {
+  const made = picture(drawn, label);
+  made.setAttribute("height", "120");
+  made.removeAttribute("width");
+  return made;
+}

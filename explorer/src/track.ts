@@ -1,0 +1,105 @@
+/** The slider of the drive: where it may go, where the output turns back, where the transmission is worst. */
+
+import { h, svg } from "./dom";
+import { angle, number, t } from "./language";
+import type { Cycle } from "./machine";
+
+const TURN = 2 * Math.PI;
+
+export class Track {
+  readonly element: HTMLElement;
+  private readonly root = svg("svg", { "aria-hidden": "true" });
+  private readonly knob = svg("circle", { class: "knob", r: 9, cy: 17 });
+  private cycle: Cycle | null = null;
+  private unit = 1;
+  private from = 0;
+  private to = 1;
+  private limits: [number, number] = [0, 1];
+
+  constructor(private readonly pick: (value: number, beyond: boolean) => void) {
+    this.element = h("div", { class: "track", role: "slider", tabindex: 0 }, this.root);
+    this.element.addEventListener("pointerdown", (event) => {
+      this.element.setPointerCapture(event.pointerId);
+      this.at(event);
+    });
+    this.element.addEventListener("pointermove", (event) => event.buttons && this.at(event));
+  }
+
+  private at(event: PointerEvent): void {
+    const box = this.element.getBoundingClientRect();
+    const part = Math.max(0, Math.min(1, (event.clientX - box.left - 12) / (box.width - 24)));
+    const value = this.from + part * (this.to - this.from);
+    const [low, high] = this.limits;
+    this.pick(Math.max(low, Math.min(high, value)), value < low || value > high);
+  }
+
+  /** The drive values that are played and that the slider reaches. */
+  get range(): [number, number] {
+    return this.limits;
+  }
+
+  show(cycle: Cycle, turning: boolean, between: [number, number] | null, dead: number[], least: number | null, unit: string): void {
+    this.cycle = cycle;
+    this.unit = turning ? TURN / 360 : 1;
+    const room = cycle.full ? 0 : 1e-7 * (cycle.high - cycle.low);
+    let [low, high] = [cycle.low + room, cycle.high - room];
+    if (between && !cycle.full) {
+      const wanted: [number, number] = [Math.max(low, between[0]), Math.min(high, between[1])];
+      if (wanted[1] > wanted[0]) [low, high] = wanted;
+    }
+    if (cycle.full) {
+      low = 0;
+      high = TURN * cycle.turns;
+    }
+    this.limits = [low, high];
+    const width = high - low;
+    if (cycle.full) [this.from, this.to] = [low, high];
+    else if (turning && width < TURN) [this.from, this.to] = [(low + high) / 2 - Math.PI, (low + high) / 2 + Math.PI];
+    else [this.from, this.to] = [low - 0.12 * (width || 1), high + 0.12 * (width || 1)];
+    const parts: SVGElement[] = [];
+    const x = (value: number) => `${((value - this.from) / (this.to - this.from)) * 100}%`;
+    const line = (a: number, b: number, style: string) => parts.push(svg("line", { class: style, x1: x(a), x2: x(b), y1: 17, y2: 17 }));
+    line(this.from, this.to, "barred");
+    if (!cycle.full) {
+      if (cycle.stops[0]) line(this.from, low, "hatched");
+      if (cycle.stops[1]) line(high, this.to, "hatched");
+    }
+    line(low, high, "free");
+    const wrap = (value: number) => this.wrapped(value);
+    const mark = (value: number, style: string, d: string, title: string) => {
+      const here = wrap(value);
+      if (here < this.from || here > this.to) return;
+      const group = svg("svg", { x: x(here), y: 0, overflow: "visible" }, svg("path", { class: style, d }, svg("title", {}, title)));
+      parts.push(group);
+    };
+    const shown = (value: number) => (turning ? angle(wrap(value), 5) : `${number(wrap(value), 5)} ${unit}`);
+    for (const value of dead) mark(value, "dead", "M0 8 L-5 0 H5 Z", t("Dead centre at {value}", { value: shown(value) }));
+    if (least !== null) mark(least, "least", "M0 26 L-4.5 33 H4.5 Z", t("Smallest transmission angle at {value}", { value: shown(least) }));
+    const label = (value: number, anchor: string) => {
+      const text = svg("text", { x: x(value), y: 39, "text-anchor": anchor }, turning ? angle(value) : number(value, 4));
+      parts.push(text);
+    };
+    label(low, cycle.full ? "start" : "middle");
+    if (high > low) label(high, cycle.full ? "end" : "middle");
+    const inner = svg("svg", { x: 12, width: "calc(100% - 24px)", overflow: "visible" }, ...parts, this.knob);
+    inner.style.width = "calc(100% - 24px)";
+    this.root.replaceChildren(inner);
+    this.element.setAttribute("aria-label", t("Drive"));
+    this.element.setAttribute("aria-valuemin", String(low / this.unit));
+    this.element.setAttribute("aria-valuemax", String(high / this.unit));
+  }
+
+  /** A drive value as it is shown: of full turns the one from 0 on. */
+  wrapped(value: number): number {
+    if (!this.cycle?.full) return value;
+    const period = this.cycle.turns * TURN;
+    const rest = ((value % period) + period) % period;
+    return period - rest < 1e-6 ? 0 : rest;
+  }
+
+  set(value: number): void {
+    const here = this.wrapped(value);
+    this.knob.setAttribute("cx", `${Math.max(0, Math.min(1, (here - this.from) / (this.to - this.from))) * 100}%`);
+    this.element.setAttribute("aria-valuenow", (here / this.unit).toFixed(3));
+  }
+}

@@ -1,0 +1,114 @@
+"""`gruebler explore`: a page on which a mechanism moves and can be dragged, from a server here or as one file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import Any
+
+from gruebler.cli.draw import entry_of, linkage_and_range
+from gruebler.cli.output import write_file
+from gruebler.cli.parser import Parser
+from gruebler.errors import GrueblerError
+from gruebler.explorer.model import model_of
+from gruebler.text import LANGUAGES, translate
+
+__all__ = ["add", "run"]
+
+_PORT = 8117
+
+
+def add(parser: Parser) -> None:
+    """Add the arguments."""
+    parser.describe(
+        description="A page on which a linkage moves, its joints and lengths are dragged, and curve, dead centres and "
+        "transmission angle follow at once; it also lists chains, inversions and joint types, finds dimensions, shows "
+        "the catalog and sets exercises. With -o one HTML file that moves and can be dragged without any server.",
+        epilog="Examples: gruebler explore; gruebler explore four-bar:25,70,40,70; gruebler explore lambda -o "
+        "lambda.html. The server needs starlette and uvicorn: pip install 'gruebler[web]'.",
+    )
+    parser.add_argument(
+        "linkage",
+        nargs="?",
+        default="crankrocker",
+        metavar="FILE|ID|CHAIN|LENGTHS|LINK",
+        help="a file, a catalog entry, a chain or mechanism as text, lengths such as four-bar:25,70,40,70, or a link "
+        "copied from the page (default: crankrocker)",
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="one file .html instead of a server")
+    parser.add_argument("--port", type=int, metavar="N", help="where it listens (default: 8117, or any free one)")
+    parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help="who may reach it (default: 127.0.0.1)")
+    parser.add_argument("--no-browser", action="store_true", help="only print the address")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the file, or serve until interrupted."""
+    if arguments.port is not None and not 0 <= arguments.port < 65536:
+        raise GrueblerError("--port: expected a number from 0 to 65535, but found {port}", port=arguments.port)
+    model = _model(arguments.linkage, arguments.lang)
+    if arguments.output is not None:
+        from gruebler.explorer.page import single_file
+
+        if arguments.output.suffix.lower() not in (".html", ".htm"):
+            raise GrueblerError("-o: expected a file .html, but found {name!r}", name=arguments.output.name)
+        write_file(arguments.output, single_file(model, _page_language(arguments.lang)).encode("utf-8"), arguments.lang)
+        return 0
+    return _serve(model, arguments)
+
+
+def _model(word: str, lang: str) -> dict[str, Any]:
+    """The model of a word; a chain gets dimensions."""
+    if "#" in word or word.startswith("1."):
+        from gruebler.explorer.links import read_link
+        from gruebler.formats import linkage_from_json
+
+        shared = read_link(word)
+        return model_of(linkage_from_json(shared.document), name=shared.name, source=shared.source)
+    if "(" in word and not Path(word).is_file():
+        from gruebler.explorer.structures import mechanism_of
+        from gruebler.realisation.realise import realise
+
+        found = realise(mechanism_of(word))
+        if found.linkage is None:
+            raise GrueblerError("{message}", message=found.message(lang))
+        return model_of(found.linkage)
+    linkage, between = linkage_and_range(word)
+    record = entry_of(word)
+    return model_of(
+        linkage,
+        name=word if record is None else record.name,
+        source=word,
+        between=between,
+    )
+
+
+def _serve(model: dict[str, Any], arguments: argparse.Namespace) -> int:
+    try:
+        from gruebler.explorer import server
+    except ImportError:
+        raise GrueblerError(
+            "the server of the page needs starlette and uvicorn: pip install 'gruebler[web]', or write one file with -o"
+        ) from None
+    listening = server.bound_socket(
+        arguments.host, _PORT if arguments.port is None else arguments.port, arguments.port is not None
+    )
+    host, port = listening.getsockname()[:2]
+    shown = f"[{host}]" if ":" in host else host
+    token = server.kept_token()
+    address = f"http://{shown}:{port}/{token}/"
+    print(translate("The page is at {address}", arguments.lang, address=address))
+    print(translate("Stop it with Ctrl C.", arguments.lang), flush=True)
+    if not arguments.no_browser and sys.stdout.isatty():
+        import webbrowser
+
+        webbrowser.open(address)
+    lang = _page_language(arguments.lang)
+    names = frozenset() if host in ("127.0.0.1", "::1") else frozenset({arguments.host, shown})
+    server.run_server(server.ExplorerServer(model, token, lang=lang, names=names), listening)
+    return 0
+
+
+def _page_language(lang: str) -> str:
+    """The language in which the page opens: another than English if it is asked for, else the browser's own."""
+    return "" if lang == LANGUAGES[0] else lang

@@ -1,0 +1,47 @@
+"""What the library's kernel finds, written so that the page's kernel can be compared with it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from gruebler.arrays import Complexes, Reals
+from gruebler.explorer.model import program_record
+from gruebler.kinematics.kernel_calls import run_rows
+from gruebler.kinematics.solve import cached_plan
+from gruebler.linkages import Linkage
+
+__all__ = ["golden_record"]
+
+
+def golden_record(linkage: Linkage, rows: Reals, signs: Reals, unknowns: Reals) -> dict[str, Any]:
+    """A path, (rows, drives), and what is found along it with velocities and accelerations for speed 1, as plain data.
+
+    Numbers that are not finite are None.
+    """
+    plan = cached_plan(linkage)
+    speeds = np.zeros((2, *rows.shape))
+    speeds[0] = 1
+    found = run_rows(plan.program, plan, rows, speeds, 2, signs, unknowns)
+    idle = np.tile(plan.held, (len(rows), 1))
+    return {
+        "program": program_record(plan),
+        "path": np.concatenate([rows, idle], axis=1).ravel().tolist(),
+        "speeds": [np.concatenate([s, np.zeros_like(idle)], axis=1).ravel().tolist() for s in speeds],
+        "signs": signs.tolist(),
+        "unknowns": unknowns.tolist(),
+        "status": int(found.status),
+        "reached": int(found.reached),
+        "at": float(found.at),
+        "fault": int(found.fault),
+        "places": _finite(found.places),
+        "turns": _finite(found.turns),
+        "rates": _finite(found.rates),
+        "roots": _finite(found.roots),
+    }
+
+
+def _finite(values: Reals | Complexes) -> list[float | None]:
+    flat = np.stack([values.real, values.imag], axis=-1).ravel() if np.iscomplexobj(values) else values.ravel()
+    return [float(v) if np.isfinite(v) else None for v in flat]

@@ -1,0 +1,310 @@
+"""What the page may ask of the library: each request has a name, typed parameters and plain data as its answer."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Callable, Mapping
+from itertools import islice
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from gruebler.errors import GrueblerError
+from gruebler.text import error_in_language, translate
+
+__all__ = ["REQUESTS", "answer"]
+
+Progress = Callable[[str], None]
+Word = Annotated[str, msgspec.Meta(max_length=200)]
+ChainText = Annotated[str, msgspec.Meta(max_length=5_000)]
+_PAGE = 60  # pictures in one answer
+
+
+class _Params(msgspec.Struct, forbid_unknown_fields=True):
+    pass
+
+
+class Nothing(_Params):
+    """No parameters."""
+
+
+class ListCatalog(_Params):
+    """Words that must all occur in a machine's name, remark, source or links, in either language."""
+
+    words: Word = ""
+    pairs: Word = ""
+    links: Annotated[int, msgspec.Meta(ge=1, le=100)] | None = None
+
+
+class CatalogId(_Params):
+    """A machine of the catalog."""
+
+    id: Word
+
+
+class OpenDocument(_Params):
+    """A linkage as plain data (`gruebler.formats.linkage_to_json`)."""
+
+    document: dict[str, Any]
+    name: Word = ""
+    source: Word = ""
+
+
+class DescribeStructure(_Params):
+    """A chain or mechanism as text."""
+
+    text: ChainText
+
+
+class ListChains(_Params):
+    """Chains of turning joints."""
+
+    links: Annotated[int, msgspec.Meta(ge=3, le=12)]
+    mobility: Annotated[int, msgspec.Meta(ge=0, le=6)] = 1
+    start: Annotated[int, msgspec.Meta(ge=0, le=10_000)] = 0
+
+
+class Realise(_Params):
+    """A mechanism for which dimensions are wanted."""
+
+    text: ChainText
+    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class Export(_Params):
+    """A linkage and the kind of file that is wanted of it."""
+
+    document: dict[str, Any]
+    kind: Literal["toml", "gif", "html", "pdf"]
+    name: Word = ""
+
+
+class NewExercise(_Params):
+    """A fresh task."""
+
+    kind: Word
+    level: Annotated[int, msgspec.Meta(ge=1, le=3)] = 1
+    seed: Annotated[int, msgspec.Meta(ge=0, le=10**9)] = 0
+
+
+class MarkAnswers(_Params):
+    """Answers to a task by key."""
+
+    id: Word
+    answers: dict[Word, Word]
+
+
+def answer(method: str, params: Mapping[str, Any], lang: str, progress: Progress) -> Any:
+    """The answer to a request as plain data.
+
+    Args:
+        method: a name in `REQUESTS`.
+        params: its parameters, as JSON gives them.
+        lang: the language of all texts.
+        progress: is called with a sentence now and then while work goes on.
+
+    Raises `GrueblerError` for what cannot be answered, wrong parameters included.
+
+    >>> answer("structure", {"text": "R(0-1) R(1-2) R(2-3) R(3-0)"}, "en", print)["counted"]
+    1
+    """
+    if method not in REQUESTS:
+        raise GrueblerError("there is no request {method!r}", method=method[:40])
+    kind, work = REQUESTS[method]
+    try:
+        typed = msgspec.convert(params, kind)
+    except msgspec.ValidationError as error:
+        raise GrueblerError("{method}: {problem}", method=method, problem=str(error)) from None
+    return work(typed, lang, progress)
+
+
+def _list_catalog(asked: ListCatalog, lang: str, _: Progress) -> list[dict[str, Any]]:
+    from gruebler.catalog.loader import Query, search
+    from gruebler.mechanism import Mechanism
+    from gruebler.mobility import counted
+
+    found = search(Query(words=tuple(asked.words.split()), links=asked.links, pairs=tuple(asked.pairs.split())))
+    return [
+        {
+            "id": one.id,
+            "name": one.name.in_language(lang),
+            "links": one.chain().n,
+            "counted": counted(one.chain()),
+            "moves": one.dimensions is not None and one.space == "planar",
+            "text": Mechanism(one.chain(), one.frame or one.chain().links[0], one.drives).text(),
+        }
+        for one in found
+    ]
+
+
+def _catalog_picture(asked: CatalogId, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.catalog import entry
+    from gruebler.drawing.linkage.picture import draw_linkage
+    from gruebler.drawing.structure import draw
+    from gruebler.mechanism import Mechanism
+
+    record = entry(asked.id)
+    name = record.name.in_language(lang)
+    if record.dimensions is not None and record.space == "planar":
+        figure = draw_linkage(record.linkage(), between=_between(asked.id), lang=lang, name=name)
+    else:
+        chain = record.chain()
+        figure = draw(Mechanism(chain, record.frame or chain.links[0], record.drives), lang=lang, name=name)
+    return {"picture": figure.svg(styled=False)}
+
+
+def _between(id: str) -> tuple[float, float] | None:
+    """The drive values between which a machine is shown, in radians where the drive turns."""
+    from math import radians
+
+    from gruebler.catalog import entry
+
+    record = entry(id)
+    assert record.dimensions is not None
+    shown, drives = record.dimensions.range, record.linkage().mechanism.drives
+    if shown is None or not drives or not drives[0].turning:
+        return shown
+    return radians(shown[0]), radians(shown[1])
+
+
+def _open(asked: CatalogId, _: str, __: Progress) -> dict[str, Any]:
+    from gruebler.catalog import entry
+    from gruebler.explorer.model import model_of
+
+    record = entry(asked.id)
+    linkage = record.linkage()  # an entry without dimensions is refused in one sentence
+    return model_of(linkage, name=record.name, source=record.id, between=_between(asked.id))
+
+
+def _open_document(asked: OpenDocument, _: str, __: Progress) -> dict[str, Any]:
+    from gruebler.explorer.model import model_of
+    from gruebler.formats import linkage_from_json
+
+    return model_of(linkage_from_json(asked.document), name=asked.name, source=asked.source)
+
+
+def _structure(asked: DescribeStructure, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.explorer.structures import structure_record
+
+    return structure_record(asked.text, lang)
+
+
+def _chains(asked: ListChains, lang: str, progress: Progress) -> dict[str, Any]:
+    from gruebler.drawing.structure import draw
+    from gruebler.enumeration import chains, count_chains
+
+    total = count_chains(asked.links, asked.mobility).chains
+    items = []
+    for chain in islice(chains(asked.links, asked.mobility), asked.start, asked.start + _PAGE):
+        items.append({"text": chain.text(), "picture": draw(chain, lang=lang).svg(styled=False)})
+        if len(items) % 10 == 0:
+            progress(translate("{done} of {total} chains", lang, done=asked.start + len(items), total=total))
+    return {"total": total, "start": asked.start, "items": items}
+
+
+def _realise(asked: Realise, lang: str, progress: Progress) -> dict[str, Any]:
+    from gruebler.explorer.model import model_of
+    from gruebler.explorer.structures import mechanism_of
+    from gruebler.realisation.realise import realise
+
+    progress(translate("Looking for dimensions with which it moves", lang))
+    found = realise(mechanism_of(asked.text), seed=asked.seed)
+    if found.linkage is None:
+        raise GrueblerError("{message}", message=found.message(lang))
+    linkage = found.linkage
+    return {"model": model_of(linkage, name=""), "message": found.message(lang)}
+
+
+def _measures(asked: OpenDocument, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.analysis.measures import measures
+    from gruebler.formats import linkage_from_json
+
+    return {"lines": measures(linkage_from_json(asked.document)).explain(lang).splitlines()}
+
+
+def _export(asked: Export, lang: str, _: Progress) -> dict[str, str]:
+    from gruebler.formats import linkage_from_json, linkage_to_toml
+
+    linkage = linkage_from_json(asked.document)
+    if asked.kind == "toml":
+        return _file(linkage_to_toml(linkage).encode("utf-8"), "application/toml")
+    if asked.kind == "html":
+        from gruebler.explorer.model import model_of
+        from gruebler.explorer.page import single_file
+
+        return _file(single_file(model_of(linkage, name=asked.name), lang).encode("utf-8"), "text/html")
+    if asked.kind == "gif":
+        from gruebler.drawing.linkage.animation_frames import animated_frames
+
+        return _file(animated_frames(linkage, "gif", lang=lang, name=asked.name), "image/gif")
+    from gruebler.drawing.canvas.files import picture_bytes
+    from gruebler.drawing.linkage.picture import draw_linkage
+
+    return _file(picture_bytes(draw_linkage(linkage, lang=lang, name=asked.name), "pdf"), "application/pdf")
+
+
+def _file(content: bytes, kind: str) -> dict[str, str]:
+    return {"base64": base64.b64encode(content).decode("ascii"), "type": kind}
+
+
+def _exercise_kinds(_: Nothing, lang: str, __: Progress) -> list[dict[str, str]]:
+    from gruebler.exercises import KINDS
+
+    return [{"kind": kind, "name": name.in_language(lang)} for kind, (name, _) in KINDS.items()]
+
+
+def _new_exercise(asked: NewExercise, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.exercises import ascii_key, generate, plain_name, solve
+
+    task = generate(asked.kind, asked.seed, asked.level)
+    results = solve(task).results
+    return {
+        "id": task.id,
+        "name": task.name.in_language(lang),
+        "task": task.task.in_language(lang),
+        "asked": [
+            {
+                "key": ascii_key(question.key),
+                "name": result.name.in_language(lang),
+                "unit": result.unit,
+                "choice": isinstance(result.value, bool),
+            }
+            for question in task.asked
+            for result in [results[question.key]]
+            if plain_name(result)
+        ],
+    }
+
+
+def _mark(asked: MarkAnswers, lang: str, _: Progress) -> dict[str, Any]:
+    from gruebler.exercises import exercise, grade, solution_text, solve
+
+    task = exercise(asked.id)
+    marks = []
+    for key, given in asked.answers.items():
+        if not given.strip():
+            continue
+        try:
+            one = grade(task, {key: given})[0]
+        except GrueblerError as error:
+            marks.append({"key": key, "mark": "wrong", "hint": error_in_language(error, lang)})
+            continue
+        marks.append({"key": key, "mark": str(one.mark), "hint": one.hint.in_language(lang) if one.hint else ""})
+    return {"marks": marks, "solution": solution_text(task, solve(task), lang)}
+
+
+REQUESTS: dict[str, tuple[type[_Params], Callable[[Any, str, Progress], Any]]] = {
+    "catalog": (ListCatalog, _list_catalog),
+    "picture": (CatalogId, _catalog_picture),
+    "open": (CatalogId, _open),
+    "open_document": (OpenDocument, _open_document),
+    "structure": (DescribeStructure, _structure),
+    "chains": (ListChains, _chains),
+    "realise": (Realise, _realise),
+    "measures": (OpenDocument, _measures),
+    "export": (Export, _export),
+    "exercise_kinds": (Nothing, _exercise_kinds),
+    "exercise": (NewExercise, _new_exercise),
+    "mark": (MarkAnswers, _mark),
+}
+"""Name, parameters, work."""

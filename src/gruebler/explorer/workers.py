@@ -1,0 +1,117 @@
+"""Work for the page in processes of its own, so that it can be cancelled and a failure harms nobody else."""
+
+from __future__ import annotations
+
+import asyncio
+import sys
+from asyncio.subprocess import PIPE, Process
+from collections.abc import Callable
+from typing import Any
+
+import msgspec
+
+from gruebler.errors import GrueblerError
+
+__all__ = ["CancelledError", "Workers"]
+
+LONGEST = 120.0
+"""Seconds after which a request is ended."""
+_WIDEST = 64_000_000  # bytes of an answer
+
+
+class CancelledError(Exception):
+    """The request was cancelled by who asked."""
+
+
+class Workers:
+    """At most so many processes, begun when they are needed and kept for the next request.
+
+    Memory is bounded by their number: a request waits until one is free.
+    """
+
+    def __init__(self, most: int = 2) -> None:
+        self._free: list[Process] = []
+        self._all: set[Process] = set()
+        self._slots = asyncio.Semaphore(most)
+
+    async def begin(self) -> None:
+        """Start one, so that the first request need not wait for it."""
+        self._free.append(await self._started())
+
+    async def ask(
+        self,
+        method: str,
+        params: dict[str, Any],
+        lang: str,
+        progress: Callable[[str], None],
+        cancelled: asyncio.Event,
+        longest: float = LONGEST,
+    ) -> Any:
+        """The answer to a request of `gruebler.explorer.requests`.
+
+        Raises `GrueblerError` with what is wrong with the question, or if its work takes too long or fails, and
+        `CancelledError` once the event is set.
+        """
+        async with self._slots:
+            if cancelled.is_set():
+                raise CancelledError
+            process = self._free.pop() if self._free else await self._started()
+            answer = asyncio.ensure_future(_exchange(process, [method, params, lang], progress))
+            stop = asyncio.ensure_future(cancelled.wait())
+            found = None
+            try:
+                await asyncio.wait({answer, stop}, timeout=longest, return_when=asyncio.FIRST_COMPLETED)
+                if answer.done():
+                    found = answer.result()
+            finally:  # whoever went away leaves no process with half an answer
+                stop.cancel()
+                answer.cancel()
+                if found is None:
+                    await self._end(process)
+                else:
+                    self._free.append(process)
+            if found is None:
+                if cancelled.is_set():
+                    raise CancelledError
+                if answer.cancelled() or not answer.done():
+                    raise GrueblerError("this took longer than {seconds:g} s and was ended", seconds=longest)
+                raise GrueblerError("gruebler failed at this request; its terminal shows the reason")
+            kind, content = found
+            if kind == "error":
+                raise GrueblerError("{text}", text=content)
+            return content
+
+    async def _started(self) -> Process:
+        command = (sys.executable, "-m", "gruebler.explorer.worker")
+        process = await asyncio.create_subprocess_exec(*command, stdin=PIPE, stdout=PIPE, limit=_WIDEST)
+        self._all.add(process)
+        return process
+
+    async def _end(self, process: Process) -> None:
+        self._all.discard(process)
+        if process.returncode is None:
+            process.kill()
+        await process.wait()
+
+    async def close(self) -> None:
+        """End all processes."""
+        self._free.clear()
+        for process in list(self._all):
+            await self._end(process)
+
+
+async def _exchange(process: Process, request: list[Any], progress: Callable[[str], None]) -> tuple[str, Any] | None:
+    """Send a request and wait for its answer; None if the process ends before."""
+    assert process.stdin is not None
+    assert process.stdout is not None
+    try:
+        process.stdin.write(msgspec.json.encode(request) + b"\n")
+        await process.stdin.drain()
+        while line := await process.stdout.readline():
+            kind, content = msgspec.json.decode(line)
+            if kind != "progress":
+                return kind, content
+            progress(content)
+    except (BrokenPipeError, ConnectionResetError):
+        pass
+    return None

@@ -1,0 +1,91 @@
+"""What the page finds by itself (range, dead centres, transmission angle, dragged sizes) against the library."""
+
+import json
+import shutil
+import subprocess
+from math import pi
+from pathlib import Path
+
+import msgspec
+import pytest
+
+from gruebler.analysis.measures import Measures, measures
+from gruebler.catalog import entries
+from gruebler.explorer.model import model_of
+from gruebler.formats import linkage_from_json
+from gruebler.fourbar import FourBar
+from gruebler.linkages import Linkage
+
+BUILT = Path(__file__).parents[2] / "src/gruebler/explorer/static/explorer.js"
+NODE = pytest.mark.skipif(shutil.which("node") is None, reason="the page's kernel needs node to be executed here")
+
+
+def measured(linkages: list[Linkage], tmp_path: Path) -> list[dict]:
+    file = tmp_path / "models.jsonl"
+    file.write_bytes(b"".join(msgspec.json.encode(model_of(one)) + b"\n" for one in linkages))
+    command = ["node", str(Path(__file__).parent / "measures.mjs"), str(BUILT), str(file)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=300)
+    found = [json.loads(line) for line in done.stdout.splitlines()]
+    assert len(found) == len(linkages)
+    return found
+
+
+def check(name: str, found: dict, wanted: Measures, size: float) -> None:
+    span = wanted.span
+    assert (found["full"], found["turns"]) == (span.full, span.turns), name
+    if not span.full:
+        assert found["low"] == pytest.approx(span.low, abs=1e-6 * max(1, size)), name
+        assert found["high"] == pytest.approx(span.high, abs=1e-6 * max(1, size)), name
+    period = 2 * pi * max(1, found["turns"])
+    values = [one["value"] % period if span.full else one["value"] for one in found["deadCentres"]]
+    assert sorted(values) == pytest.approx(sorted(one.drive for one in wanted.dead_centres), abs=1e-7), name
+    if wanted.transmission is None:
+        assert found["least"] is None, name
+    else:
+        assert found["least"]["mu"] == pytest.approx(wanted.transmission.smallest.mu, abs=1e-7), name
+
+
+@NODE
+def test_every_planar_machine_is_measured_and_dragged_as_the_library_does_it(tmp_path):
+    machines = {e.id: e.linkage() for e in entries().values() if e.dimensions is not None and e.space == "planar"}
+    dragged, compared = 0, 0
+    for (name, linkage), found in zip(machines.items(), measured(list(machines.values()), tmp_path), strict=True):
+        for drag in found["drags"]:
+            assert "refused" not in drag, (name, drag)
+            assert drag["missed"] < 1e-9, (name, drag["joint"])
+            assert drag["moved"] < 1e-9, (name, drag["joint"])
+            dragged += 1
+        assert linkage_from_json(found["document"]).mechanism == linkage.mechanism
+        if len(linkage.mechanism.drives) != 1:
+            continue
+        check(name, found, measures(linkage), linkage.size)
+        for drag in found["drags"][:1]:
+            other = linkage_from_json(drag["document"])
+            if cached_is_overconstrained(linkage):
+                continue
+            wanted = measures(other)
+            assert drag["full"] == wanted.span.full, (name, drag["joint"])
+            if wanted.transmission is not None:
+                # the ends of a range are known to half the digits of the sizes, which went through degrees
+                assert drag["least"]["mu"] == pytest.approx(wanted.transmission.smallest.mu, abs=1e-6), name
+            compared += 1
+    assert dragged > 150
+    assert compared > 25
+
+
+def cached_is_overconstrained(linkage: Linkage) -> bool:
+    from gruebler.kinematics.solve import cached_plan
+
+    return bool(cached_plan(linkage).released)
+
+
+@NODE
+def test_the_law_of_grashof(tmp_path):
+    """An independent check without any machine of the catalog: which four-bars turn, and their transmission angles."""
+    bars = [FourBar(25, 70, 40, 70), FourBar(50, 70, 40, 70), FourBar(30, 30, 60, 40), FourBar(10, 12, 15, 16)]
+    for bar, found in zip(bars, measured([bar.linkage() for bar in bars], tmp_path), strict=True):
+        sides = sorted((bar.a, bar.b, bar.c, bar.d))
+        crank = sides[0] + sides[3] < sides[1] + sides[2] and sides[0] in (bar.a, bar.d)
+        assert found["full"] == crank
+        if crank:
+            assert found["least"]["mu"] == pytest.approx(bar.transmission_angle.smallest, abs=1e-9)

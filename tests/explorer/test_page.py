@@ -1,0 +1,243 @@
+"""The page in a real browser: every view is walked through, machines are played, dragged, shared."""
+
+import json
+import re
+
+import numpy as np
+import pytest
+
+from gruebler.analysis.measures import measures
+from gruebler.catalog import entries
+from gruebler.cli import main
+from gruebler.explorer.links import SharedLinkage, link_of, read_link
+from gruebler.explorer.model import model_of
+from gruebler.formats import linkage_from_json, linkage_to_json
+from gruebler.fourbar import FourBar
+
+LEAST = "gruebler.motion.machine.leastTransmission().mu"
+CURVE = "JSON.stringify(Array.from(gruebler.motion.machine.cycle.rows.places.slice(0, 4000)))"
+
+
+@pytest.fixture(scope="module")
+def single_file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("page") / "lambda.html"
+    assert main(["explore", "lambda", "-o", str(path)]) == 0
+    return path
+
+
+def test_the_single_file_is_small_moves_and_asks_for_nothing(tab, single_file):
+    assert single_file.stat().st_size < 300_000
+    page = tab().open(single_file.as_uri())
+    assert page.requests == [single_file.as_uri()]
+    drive = page.page.evaluate("gruebler.motion.machine.drives[0]")
+    page.page.keyboard.press("Space")
+    page.page.wait_for_timeout(500)
+    page.page.keyboard.press("Space")
+    assert abs(page.page.evaluate("gruebler.motion.machine.drives[0]") - drive) > 0.05
+    before, curve = page.page.evaluate(LEAST), page.page.evaluate(CURVE)
+    place = page.middle('[data-joint="R(coupler-rocker)"] .joint')
+    page.drag(place, (-60, 20), (-140, 10))
+    after = page.page.evaluate(LEAST)
+    assert abs(after - before) > 0.01
+    assert page.page.evaluate(CURVE) != curve
+    end = page.middle('[data-joint="R(coupler-rocker)"] .joint')
+    assert end == pytest.approx((place[0] - 200, place[1] + 30), abs=2)
+    # what the page shows of the dragged linkage is what the library finds of it
+    dragged = linkage_from_json(json.loads(page.page.evaluate("JSON.stringify(gruebler.motion.machine.document())")))
+    found = measures(dragged).transmission
+    assert found is not None
+    assert found.smallest.mu == pytest.approx(after, abs=1e-6)
+    page.page.keyboard.press("Control+z")
+    assert page.page.evaluate(LEAST) == pytest.approx(before, abs=1e-9)
+    page.page.keyboard.press("Control+y")
+    assert page.page.evaluate(LEAST) == pytest.approx(after, abs=1e-9)
+    assert page.requests == [single_file.as_uri()]
+
+
+def test_joints_lengths_and_points_without_a_mouse(tab, single_file):
+    page = tab(width=360, height=740, locale="de-DE", scheme="dark").open(single_file.as_uri())
+    assert page.page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert "Kenngrößen" in page.page.locator("summary").first.inner_text()
+    before = page.page.evaluate(LEAST)
+    page.page.locator('[data-joint="R(coupler-rocker)"]').focus()
+    for _ in range(4):
+        page.page.keyboard.press("ArrowUp")
+    assert page.page.evaluate(LEAST) != pytest.approx(before, abs=1e-4)
+    field = page.page.locator('[data-panel="sizes"] input').nth(1)
+    field.fill("22,5")
+    field.press("Enter")
+    crank = page.page.evaluate("gruebler.motion.machine.lengths()[1].value")
+    assert crank == pytest.approx(22.5)
+    field.fill("-3")
+    field.press("Enter")
+    assert field.get_attribute("aria-invalid") == "true"
+    field.fill("500")
+    field.press("Enter")
+    assert "zusammenbauen" in page.page.locator(".message").inner_text()
+    assert page.page.evaluate("gruebler.motion.machine.lengths()[1].value") == pytest.approx(22.5)
+    page.page.locator('[aria-label^="Koppelpunkt"]').click()
+    page.page.mouse.click(*page.middle('[data-joint="R(crank-coupler)"] .joint'))
+    assert page.page.evaluate("gruebler.motion.machine.points.length") == 2
+
+
+def test_where_the_range_ends_the_page_says_it_as_the_library_does(tab, tmp_path):
+    path = tmp_path / "rocker.html"
+    assert main(["explore", "four-bar:50,70,40,70", "-o", str(path)]) == 0
+    page = tab().open(path.as_uri())
+    low, high = page.page.evaluate("[gruebler.motion.machine.cycle.low, gruebler.motion.machine.cycle.high]")
+    from gruebler.kinematics import move
+
+    end = move(FourBar(50, 70, 40, 70).linkage(), np.radians(np.arange(60, 361)))
+    assert end.stop is not None
+    assert high == pytest.approx(end.stop.drives[0], abs=1e-9)
+    assert low == pytest.approx(measures(FourBar(50, 70, 40, 70).linkage()).span.low, abs=1e-9)
+    box = page.page.locator(".track").bounding_box()
+    page.drag((box["x"] + 40, box["y"] + 17), (box["width"] - 50, 0))
+    assert page.page.locator(".message").inner_text() == end.message()
+
+
+def test_a_link_is_the_same_linkage_elsewhere(tab, single_file):
+    page = tab().open(single_file.as_uri())
+    page.drag(page.middle('[data-joint="R(crank-coupler)"] .joint'), (30, -25))
+    page.page.wait_for_timeout(400)
+    address = page.page.evaluate("location.href")
+    assert re.search(r"#1\.[\w-]+\.[0-9a-f]{8}$", address)
+    other = tab().open(address)
+    other.until("gruebler.motion.machine.document().elements !== undefined")
+    other.page.wait_for_timeout(300)
+    sizes = "gruebler.motion.machine.lengths().map((one) => one.value)"
+    assert other.page.evaluate(sizes) == pytest.approx(page.page.evaluate(sizes), rel=1e-12)
+    assert other.page.evaluate("gruebler.motion.machine.drives[0]") == pytest.approx(
+        page.page.evaluate("gruebler.motion.machine.drives[0]"), abs=1e-9
+    )
+    # Python reads it, and writes what the page reads
+    shared = read_link(address)
+    linkage = linkage_from_json(shared.document)
+    assert linkage.length("crank", 0, 1) == pytest.approx(page.page.evaluate(sizes)[1], rel=1e-12)
+    again = link_of(SharedLinkage(linkage_to_json(linkage), shared.name, shared.source, shared.drive))
+    third = tab().open(f"{single_file.as_uri()}#{again}")
+    third.page.wait_for_timeout(400)
+    assert third.page.evaluate(sizes) == pytest.approx(page.page.evaluate(sizes), rel=1e-12)
+    for wrong, words in (
+        (address[:-1] + ("0" if address[-1] != "0" else "1"), "damaged"),
+        (address.replace("#1.", "#2."), "newer"),
+        (address[:-9], "not complete"),
+    ):
+        page.page.goto("about:blank")
+        page.page.goto(wrong)
+        page.until("window.gruebler?.motion?.machine !== undefined")
+        page.page.wait_for_timeout(300)
+        assert words in page.page.locator(".message").inner_text()
+
+
+def test_from_a_chain_to_a_moving_mechanism(tab, server):
+    """The Watt chain out of the six-link ones, a slider in it, dimensions, a drag, the link in a new page."""
+    page = tab().open(server.address)
+    view = page.page
+    view.click('[data-view="structure"]')
+    view.click('[data-act="chains"]')
+    view.locator('[data-list="chains"] .card').nth(1).wait_for()
+    assert view.locator('[data-list="chains"] .card').count() == 2
+    view.locator('[data-list="chains"] .card').first.click()
+    view.locator('[data-list="inversions"] .card span:text-is("Watt II")').wait_for()
+    view.locator('[data-list="driven"] .card').nth(1).click()
+    view.wait_for_timeout(600)
+    names = view.locator(".chain-picture [data-joint]").evaluate_all("all => all.map((e) => e.dataset.joint)")
+    frame = re.search(r"frame=(\w+)", view.locator('[data-field="chain"]').input_value())[1]
+    driven = re.search(r"drive=(\S+)", view.locator('[data-field="chain"]').input_value())[1]
+    joint = next(name for name in names if name != driven and re.search(rf"\b{frame}\b", name))
+    view.locator(f'.chain-picture [data-joint="{joint}"]').click()
+    view.locator('[data-type="P"]').click()
+    view.locator('.chain-picture [data-joint^="P("]').first.wait_for()
+    assert view.locator('[data-fact="counted"]').inner_text() == "F = 1"
+    view.locator('[data-act="realise"]').click()
+    page.until("gruebler.motion.machine.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
+    view.wait_for_timeout(300)
+    before, curve = view.evaluate("gruebler.motion.machine.leastTransmission()?.mu"), view.evaluate(CURVE)
+    joints = view.evaluate(
+        "gruebler.motion.machine.model.joints.flatMap((j, k) => gruebler.motion.machine.draggable(k) ? [j.name] : [])"
+    )
+    page.drag(page.middle(f'.stage [data-joint="{joints[-1]}"] .joint'), (0, -20), (8, -10))
+    assert view.evaluate(CURVE) != curve
+    after = view.evaluate("gruebler.motion.machine.leastTransmission()?.mu")
+    assert before is None or after != before
+    view.wait_for_timeout(400)
+    other = tab().open(view.evaluate("location.href"))
+    other.until("gruebler.motion.machine.model.joints.some((joint) => joint.pair === 'prismatic')", 60)
+    sizes = "gruebler.motion.machine.lengths().map((one) => one.value)"
+    assert other.page.evaluate(sizes) == pytest.approx(view.evaluate(sizes), rel=1e-9)
+
+
+def test_errors_of_a_text_stand_at_their_place(tab, server):
+    page = tab(locale="de-DE").open(server.address)
+    page.page.click('[data-view="structure"]')
+    page.page.locator('[data-fact="counted"]').wait_for()
+    field = page.page.locator('[data-field="chain"]')
+    field.fill("R(0-1) R(1-2")
+    page.page.locator(".error .place").wait_for()
+    assert field.get_attribute("aria-invalid") == "true"
+    field.fill("R(0-1) R(1-2) R(2-3) R(3-0) R(0-2) R(3-4) R(4-5) R(5-6) R(6-7) R(7-3)")
+    page.page.locator("[data-strained]").first.wait_for()
+    strained = page.page.locator("[data-strained]").evaluate_all("all => all.map((e) => e.dataset.strained)")
+    assert set(strained) >= {"0", "1", "2", "3"}
+
+
+def test_every_planar_machine_plays_without_an_error(tab, single_file):
+    page = tab().open(single_file.as_uri())
+    machines = [e for e in entries().values() if e.dimensions is not None and e.space == "planar"]
+    for machine in machines:
+        page.page.evaluate("(model) => gruebler.open(model)", model_of(machine.linkage(), name=machine.name))
+        before = page.page.evaluate("Array.from(gruebler.motion.machine.pose.turns)")
+        places = page.page.evaluate("Array.from(gruebler.motion.machine.pose.places)")
+        page.page.evaluate("gruebler.motion.toggle()")
+        page.page.wait_for_timeout(120)
+        page.page.evaluate("gruebler.motion.pause()")
+        moved = page.page.evaluate("Array.from(gruebler.motion.machine.pose.turns)") != before
+        moved |= page.page.evaluate("Array.from(gruebler.motion.machine.pose.places)") != places
+        assert moved == bool(machine.linkage().mechanism.drives), machine.id
+        assert page.errors == [], machine.id
+    assert len(machines) >= 61
+
+
+def test_the_catalog_and_the_exercises(tab, server):
+    page = tab(locale="de-DE").open(server.address)
+    view = page.page
+    view.click('[data-view="catalog"]')
+    view.locator('[data-list="catalog"] .card svg').first.wait_for()
+    view.locator('[data-field="words"]').fill("wiper")
+    view.locator('[data-id="wiper"]').wait_for()
+    page.until("gruebler.views.catalog.element.querySelectorAll('.card').length === 1")
+    view.locator('[data-id="wiper"]').click()
+    page.until("gruebler.motion.machine.model.source === 'wiper'")
+    assert "Scheibenwischer" in view.locator("header h1").inner_text()
+    view.click('[data-view="exercises"]')
+    view.locator("[data-answer]").first.wait_for()
+    from gruebler.exercises import ascii_key, generate, solve
+
+    kind, level, seed = view.evaluate("(({kind, level, seed}) => [kind, level, seed])(gruebler.views.exercises)")
+    task = generate(kind, seed, level)
+    answers = [str(solve(task).results[asked.key].value) for asked in task.asked]
+    keys = [ascii_key(asked.key) for asked in task.asked]
+    for key, answer in zip(keys, answers, strict=True):
+        view.locator(f'[data-answer="{key}"]').fill(answer)
+    view.locator(f'[data-answer="{keys[0]}"]').fill("1000")
+    view.locator('[data-act="mark"]').click()
+    view.locator("[data-mark]").nth(len(keys) - 1).wait_for()
+    marks = view.locator("[data-mark]").evaluate_all("all => all.map((e) => e.dataset.mark)")
+    assert marks == ["wrong"] + ["right"] * (len(keys) - 1)
+
+
+def test_a_server_that_goes_and_comes_back(tab, server):
+    page = tab().open(server.address)
+    page.until("gruebler.model.socket !== null")
+    server.kill()
+    page.until("!gruebler.message.hidden")
+    assert "connection" in page.page.locator(".message").inner_text()
+    page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (25, 10))
+    sizes = page.page.evaluate("gruebler.motion.machine.lengths().map((one) => one.value)")
+    page.page.evaluate("void gruebler.ask('catalog', {words: 'wiper'}).then((found) => (window.late = found))")
+    server.start()
+    assert page.until("window.late")[0]["id"] == "wiper"
+    page.until("gruebler.message.hidden")
+    assert page.page.evaluate("gruebler.motion.machine.lengths().map((one) => one.value)") == sizes
+    page.errors[:] = [e for e in page.errors if "WebSocket" not in e]

@@ -1,0 +1,147 @@
+"""The server of the page: who may talk to it, what it refuses, in which order it answers."""
+
+import json
+import threading
+from pathlib import Path
+from urllib.error import HTTPError
+from urllib.request import Request, urlopen
+
+import pytest
+
+websockets = pytest.importorskip("websockets.sync.client", reason="the server of the page needs websockets")
+
+from websockets.exceptions import InvalidStatus  # noqa: E402
+
+from gruebler.explorer.model import model_of  # noqa: E402
+from gruebler.formats import linkage_to_json  # noqa: E402
+from gruebler.fourbar import FourBar  # noqa: E402
+
+
+def connected(server, **settings):
+    origin = f"http://127.0.0.1:{server.port}"
+    settings = {"origin": origin, "max_size": 2**26} | settings
+    return websockets.connect(server.address.replace("http", "ws") + "ws", **settings)
+
+
+def asked(socket, text: str) -> dict:
+    socket.send(text)
+    return json.loads(socket.recv(timeout=60))
+
+
+def status(address: str, **headers: str) -> int:
+    try:
+        with urlopen(Request(address, headers=headers), timeout=10) as answer:
+            return answer.status
+    except HTTPError as error:
+        return error.code
+
+
+def test_who_does_not_know_the_token_or_the_name_gets_nothing(server):
+    base = f"http://127.0.0.1:{server.port}"
+    assert status(server.address) == 200
+    assert status(server.address + "explorer.js") == 200
+    for path in ("/", "/explorer.js", "/wrong/", "/wrong/explorer.js", "/../../etc/passwd", "/wrong/ws"):
+        assert status(base + path) == 404
+    assert status(server.address, Host="evil.example") == 404
+    assert status(server.address, Host=f"evil.example:{server.port}") == 404
+    assert status(server.address + "..%2fserver.py") == 404
+    with urlopen(server.address, timeout=10) as answer:
+        policy = answer.headers["Content-Security-Policy"]
+        text = answer.read().decode()
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    assert 'src="explorer.js"' in text
+
+
+def test_a_socket_from_another_origin_is_closed(server):
+    for origin in (None, "http://evil.example", f"http://127.0.0.1:{server.port + 1}"):
+        with pytest.raises(InvalidStatus), connected(server, origin=origin) as socket:
+            socket.recv(timeout=5)
+
+
+@pytest.mark.parametrize(
+    ("frame", "words"),
+    [
+        ("{", "no message"),
+        ('{"id": 1, "method": "measures", "params": {"document": {"a": NaN}}}', "no message"),
+        ('{"id": 1, "method": "measures", "params": {"document": ' + "[" * 9000 + "]" * 9000 + "}}", ""),
+        ('{"id": 1, "method": "measures", "params": {"document": ' + '{"a":' * 9000 + "1" + "}" * 9000 + "}}", ""),
+        ('{"id": "one", "method": "catalog"}', "id"),
+        ('{"id": 1, "method": "catalog", "surplus": 1}', "surplus"),
+        ('{"id": 1, "method": "shutdown"}', "there is no request 'shutdown'"),
+        ('{"id": 1, "method": "__class__", "params": {}}', "there is no request"),
+        ('{"id": 1, "method": "chains", "params": {"links": 40}}', "links"),
+        ('{"id": 1, "method": "chains", "params": {"links": 1e400}}', ""),
+        ('{"id": 1, "method": "open", "params": {"id": "../../etc/passwd"}}', "passwd"),
+        ('{"id": 1, "method": "open", "params": {}}', "id"),
+        ('{"id": 1, "method": "structure", "params": {"text": "' + "R(0-1)" * 5000 + '"}}', "length"),
+        ('{"id": 1, "method": "measures", "params": {"document": {"joints": "R(0-1)"}}}', ""),
+        ('"' + "x" * 500_000 + '"', "at most 400,000 characters"),
+    ],
+)
+def test_hostile_frames_get_one_sentence_and_the_next_question_its_answer(server, frame, words):
+    with connected(server) as socket:
+        answer = asked(socket, frame)
+        assert "\n" not in answer["error"]
+        assert 0 < len(answer["error"]) < 1200
+        assert words in answer["error"]
+        assert asked(socket, '{"id": 7, "method": "exercise_kinds"}')["id"] == 7
+
+
+def test_bytes_are_refused(server):
+    with connected(server) as socket:
+        socket.send(b"\x00\xff")
+        assert "not bytes" in json.loads(socket.recv(timeout=20))["error"]
+
+
+def test_two_pages_and_a_hundred_drags_each(server):
+    """No answer is lost, none comes out of order, each is that of its own question."""
+    failures: list[str] = []
+
+    def page(first: float) -> None:
+        lengths = [first + 0.1 * k for k in range(100)]
+        with connected(server) as socket:
+            for k, length in enumerate(lengths):
+                document = linkage_to_json(FourBar(length, 70, 40, 70).linkage())
+                text = {"id": k, "method": "open_document", "params": {"document": document}, "lang": "de"}
+                socket.send(json.dumps(text))
+            for k, length in enumerate(lengths):
+                answer = json.loads(socket.recv(timeout=120))
+                crank = answer["result"]["document"]["elements"]["crank"]["R(crank-coupler)"][0]
+                if answer["id"] != k or crank != pytest.approx(length):
+                    failures.append(f"{answer['id']} instead of {k}")
+
+    threads = [threading.Thread(target=page, args=(first,)) for first in (18.0, 24.0)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert failures == []
+    if Path(f"/proc/{server.process.pid}").is_dir():
+        assert len(workers(server)) <= 2
+
+
+def workers(server) -> list[int]:
+    """The processes that the server has started."""
+    children = Path(f"/proc/{server.process.pid}/task/{server.process.pid}/children")
+    return [int(pid) for pid in children.read_text().split()]
+
+
+def test_long_work_is_cancelled(server):
+    with connected(server) as socket:
+        socket.send(json.dumps({"id": 1, "method": "chains", "params": {"links": 12, "start": 6000}}))
+        socket.send(json.dumps({"id": 2, "method": "exercise_kinds"}))
+        socket.send(json.dumps({"id": 1, "cancel": True}))
+        answers = [json.loads(socket.recv(timeout=60)) for _ in range(2)]
+        assert answers[0] == {"id": 1, "cancelled": True}
+        assert answers[1]["id"] == 2
+
+
+def test_answers_are_those_of_the_library(server):
+    linkage = FourBar(25, 70, 40, 70).linkage()
+    with connected(server) as socket:
+        question = {"id": 1, "method": "open_document", "params": {"document": linkage_to_json(linkage)}}
+        found = asked(socket, json.dumps(question))["result"]
+    wanted = json.loads(json.dumps(model_of(linkage)))
+    assert found["program"] == wanted["program"]
+    assert found["start"] == wanted["start"]

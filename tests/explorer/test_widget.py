@@ -1,0 +1,122 @@
+"""The notebook widget: its Python side, and its front end under a host that gives the interface of anywidget."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import gruebler as gr
+from gruebler.errors import GrueblerError
+from gruebler.explorer.page import module_text, picture_styles
+from gruebler.fourbar import FourBar
+
+BAR = FourBar(25, 70, 40, 70)
+
+# what a notebook gives to a front-end module: a model with get, set, save_changes, on, off, send; and an element
+HOST = """<!doctype html><meta charset="utf-8"><div id="cell"></div><script type="module">
+import widget from "./explorer.js";
+const values = JSON.parse(document.getElementById("values").textContent), listeners = {};
+window.sent = []; window.saved = [];
+const model = {
+  get: (name) => values[name],
+  set: (name, value) => { values[name] = value; },
+  save_changes: () => saved.push(values.document),
+  on: (event, callback) => (listeners[event] ??= []).push(callback),
+  off: (event) => { delete listeners[event]; },
+  send: (content) => sent.push(content),
+};
+window.tell = (event, content) => listeners[event].forEach((callback) => callback(content));
+window.values = values;
+window.end = widget.render({ model, el: document.getElementById("cell") });
+</script><script type="application/json" id="values">VALUES</script>"""
+
+
+@pytest.fixture
+def widget():
+    pytest.importorskip("anywidget", reason="the widget needs anywidget")
+    return gr.explore(BAR.linkage({"K": (45, 40)}))
+
+
+def answers(widget, *questions):
+    said = []
+    widget.send = said.append
+    for question in questions:
+        widget._handle_custom_msg(question, [])
+    return said
+
+
+def test_the_linkage_goes_in_and_comes_back(widget):
+    assert widget.linkage.mechanism == BAR.linkage().mechanism
+    assert widget.linkage.points == BAR.linkage({"K": (45, 40)}).points
+    document = json.loads(json.dumps(widget.document))
+    document["elements"]["crank"]["R(crank-coupler)"] = [30.0, 0.0]
+    widget.document = document
+    assert widget.linkage.length("crank", 0, 1) == 30
+    assert "export" in widget._esm
+    assert widget.get_state()["host"] == "notebook"
+
+
+def test_requests_are_answered_or_refused_in_one_sentence(widget):
+    said = answers(
+        widget,
+        {"id": 1, "method": "measures", "params": {"document": widget.document}, "lang": "de"},
+        {"id": 2, "method": "nothing", "params": {}},
+        {"id": 3, "method": 7},
+        {"id": 4, "cancel": True},
+        "nonsense",
+    )
+    assert [one["id"] for one in said] == [1, 2, 3]
+    assert any("Übertragungswinkel" in line for line in said[0]["result"]["lines"])
+    assert "there is no request 'nothing'" in said[1]["error"]
+    assert "error" in said[2]
+
+
+def test_only_linkages_are_explored():
+    with pytest.raises(GrueblerError, match="expected a linkage"):
+        gr.explore("lambda")
+
+
+def test_the_front_end_in_a_cell(tab, tmp_path):
+    from gruebler.explorer.model import model_of
+
+    values = {"host": "notebook", "lang": "de", "height": 600, "styles": picture_styles()}
+    values["machine"] = model_of(BAR.linkage({"K": (45, 40)}))
+    text = json.dumps(values).replace("<", "\\u003c")
+    page = tab()
+    for name, content, kind in (
+        ("", HOST.replace("VALUES", text), "text/html"),
+        ("explorer.js", module_text(), "text/javascript"),
+    ):
+        page.page.route(f"http://cell.test/{name}", served(content, kind))
+    page.page.goto("http://cell.test/")
+    page.page.locator('[data-joint="R(coupler-rocker)"]').wait_for()
+    assert "Abmessungen" in page.page.locator('[data-panel="sizes"] summary').inner_text()
+    page.drag(page.middle('[data-joint="R(coupler-rocker)"] .joint'), (40, -10))
+    page.until("saved.length > 1")
+    document = page.page.evaluate("saved.at(-1)")
+    dragged = read(document)
+    assert dragged.length("rocker", 2, 3) != pytest.approx(40)
+    # the page asks for measures of what was dragged, and shows the answer
+    question = page.until("sent.find((one) => one.method === 'measures')")
+    page.page.evaluate("(answer) => tell('msg:custom', answer)", {"id": question["id"], "result": {"lines": ["Gut."]}})
+    page.until("document.querySelector('.gruebler-explorer').shadowRoot.textContent.includes('Gut.')")
+    page.page.evaluate("end()")
+    assert page.page.locator(".gruebler-explorer").count() == 0
+
+
+def served(content: str, kind: str):
+    return lambda route: route.fulfill(body=content, content_type=f"{kind}; charset=utf-8")
+
+
+def read(document: dict):
+    from gruebler.formats import linkage_from_json
+
+    return linkage_from_json(document)
+
+
+def test_a_saved_notebook_shows_it(widget, tmp_path: Path):
+    """What a notebook keeps of a widget: its state, from which the page is drawn anew."""
+    state = widget.get_state()
+    kept = json.loads(json.dumps({key: state[key] for key in ("host", "lang", "height", "machine", "document")}))
+    assert kept["machine"]["program"]["operations"]
+    assert read(kept["document"]) == widget.linkage
