@@ -161,6 +161,7 @@ class DriveCycle(Brief):
         motion, rows = _run(self.plan, np.concatenate([start.drives[0], drives]), order, start)
         if not motion.complete:
             raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
+        motion.whole[:] += start.whole[0]
         return _rows(motion, rows[1:], order)
 
     def _nearest(self, drive: float) -> Motion:
