@@ -4,6 +4,7 @@ from argparse import Namespace
 
 from gruebler import GrueblerError
 from gruebler.cli.commands import command
+from gruebler.cli.link_names import spell_links_alike
 
 
 def arguments_of(name, *words, **options):
@@ -16,8 +17,11 @@ def arguments_of(name, *words, **options):
 def run_command(capsys, name, *arguments):
     """The exit status of a command, what it printed, and what it said on standard error or refused."""
     chosen = command(name)
+    parser = chosen.parser()
     try:
-        status = chosen.module().run(chosen.parser().parse_args(arguments))
+        given = parser.parse_args(arguments)
+        spell_links_alike(parser, given)
+        status = chosen.module().run(given)
     except SystemExit as stop:
         status = stop.code
     except GrueblerError as error:

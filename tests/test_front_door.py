@@ -91,22 +91,37 @@ def test_animations_are_saved_by_their_ending(value, suffix, tmp_path):
 
 
 CHAIN = gr.Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0)")
+MECHANISM = gr.Mechanism(CHAIN, "0", [0])
+FOUND_A_MECHANISM = "expected Chain, but found Mechanism: take its chain"
 MISTAKES = [
     (lambda: gr.move(CHAIN, [0.0]), "a Chain has no dimensions: realise(mechanism) finds some"),
     (lambda: gr.move(gr.FourBar, [0.0]), "expected a linkage, a FourBar"),
     (lambda: gr.measures(entry("loco3").placed()), "expected a planar linkage, but found a SpatialLinkage"),
-    (lambda: gr.draw(7), "a int has no picture"),
+    (lambda: gr.draw(7), "values of type int have no picture"),
     (lambda: gr.draw(CRANK_ROCKER, poses=3), "draw_linkage has no option 'poses'"),
-    (lambda: gr.animate(CHAIN), "a Chain has no moving picture"),
+    (lambda: gr.animate(CHAIN), "values of type Chain have no moving picture"),
     (lambda: gr.plot(CRANK_ROCKER, "transmision"), "there is no plot 'transmision'"),
     (lambda: gr.draw(CRANK_ROCKER).save("x.bmp"), "end it with .svg, .png or .pdf"),
     (lambda: gr.write("x.toml", CRANK_ROCKER), "the value comes first, then 'x.toml'"),
     (lambda: gr.write(CRANK_ROCKER, 7), "expected the path of a file, but found 7"),
-    (lambda: gr.write(7, "x.toml"), "a int cannot be written"),
+    (lambda: gr.write(7, "x.toml"), "values of type int cannot be written"),
     (lambda: gr.write(CHAIN, "x.toml"), "chains go to .json, .txt or .g6, not '.toml'"),
-    (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .g6 or .txt, not '.bmp'"),
+    (lambda: gr.read(7), "expected the path of a file, but found 7"),
+    (lambda: gr.read("x.bmp"), "x.bmp: expected .toml, .json, .csv, .txt, .g6,"),
     (lambda: gr.read("missing.g6"), "missing.g6: cannot be read"),
     (lambda: gr.synthesise(7), "expected a task of positions"),
+    (lambda: gr.mobility_report("R(0-1)"), "expected Chain, but found str"),
+    *(
+        (lambda function=function: function(MECHANISM), FOUND_A_MECHANISM)
+        for function in (gr.mobility_report, gr.code, gr.symmetry, gr.inversions, gr.derive, gr.extend)
+    ),
+    (lambda: list(gr.driven_mechanisms(MECHANISM)), FOUND_A_MECHANISM),
+    (lambda: gr.is_isomorphic(CHAIN, MECHANISM), FOUND_A_MECHANISM),
+    (lambda: gr.decompose(CHAIN), "expected Mechanism, but found Chain"),
+    (lambda: gr.realise(CHAIN), "expected Mechanism, but found Chain"),
+    (lambda: gr.statics(CRANK_ROCKER, gr.Loads(moments={"rocker": 1})), "expected Motion, but found FourBar"),
+    (lambda: gr.statics(gr.move(CRANK_ROCKER, [0.0]), None), "expected Loads, but found NoneType"),
+    (lambda: list(gr.variants(4)), "expected Requirements, but found int"),
 ]
 
 
@@ -123,3 +138,11 @@ def test_values_of_many_numbers_are_printed_in_a_line():
     for value in (motion, gr.circuit(CRANK_ROCKER), gr.draw(CRANK_ROCKER), gr.measures(CRANK_ROCKER)):
         assert "\n" not in repr(value)
         assert len(repr(value)) < 1500
+
+
+@pytest.mark.parametrize(
+    "size", [gr.FourBar(25, 70, 40, 70), gr.SliderCrank(25, 70), gr.InvertedSliderCrank(25, 70)], ids=repr
+)
+def test_lengths_show_themselves_in_notebooks_as_their_linkage(size):
+    assert size._repr_svg_() == size.linkage()._repr_svg_()
+    assert size._repr_svg_().startswith("<svg")

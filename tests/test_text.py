@@ -4,6 +4,7 @@ import ast
 import re
 from string import Formatter
 
+import numpy as np
 import pytest
 
 from gruebler import errors
@@ -18,6 +19,7 @@ from gruebler.text import (
     message,
     number,
     plural,
+    reason_of,
     translate,
 )
 from tests.messages import LOCALE, SOURCES, Found, Unreadable, catalog_path, compiled, messages, read, updated
@@ -136,8 +138,8 @@ def test_an_error_can_be_raised_with_a_message():
 
 def test_offered_words_are_translated():
     error = GrueblerError("{word!r}{suggestion}", word="cranck", suggestion=nearest("cranck", ["frame", "crank"]))
-    assert str(error) == "'cranck'; did you mean 'crank'?"
-    assert error_in_language(error, "de") == "'cranck'; gemeint ist vielleicht 'crank'"
+    assert str(error) == "'cranck' (did you mean 'crank'?)"
+    assert error_in_language(error, "de") == "'cranck' (gemeint ist vielleicht 'crank')"
 
 
 def test_whatever_is_read_in_a_language_fills_a_gap():
@@ -159,3 +161,31 @@ def test_errors_survive_a_way_between_processes():
     again = pickle.loads(pickle.dumps(error))
     assert (str(again), again.text, again.values) == (str(error), error.text, error.values)
     assert isinstance(message("{a}", a=1), Message)
+
+
+@pytest.mark.parametrize(
+    ("value", "english", "german"),
+    [
+        (-1.5, "not -1.5", "nicht -1,5"),
+        (-40.0, "not -40", "nicht -40"),
+        (np.float64(0.25), "not 0.25", "nicht 0,25"),
+        (float("nan"), "not nan", "nicht nan"),
+        (1e300, "not 1e+300", "nicht 1e+300"),
+        ("1.5", "not '1.5'", "nicht '1.5'"),
+    ],
+)
+def test_a_wrong_number_is_quoted_in_the_language(value, english, german):
+    error = GrueblerError("{name} must be positive, not {value!r}", name="a", value=value)
+    assert error_in_language(error, "en").endswith(english)
+    assert error_in_language(error, "de").endswith(german)
+
+
+def test_reasons_of_the_system_are_translated(tmp_path):
+    with pytest.raises(FileNotFoundError) as missing:
+        (tmp_path / "none").read_bytes()
+    assert str(reason_of(missing.value)) == "No such file or directory"
+    assert translate("{why}", "de", why=reason_of(missing.value)) == "Datei oder Ordner nicht gefunden"
+    assert reason_of(OSError("torn cable")) == "torn cable"
+    with pytest.raises(UnicodeDecodeError) as bytes_only:
+        b"\xff".decode()
+    assert str(reason_of(bytes_only.value)) == "it is not UTF-8 text"

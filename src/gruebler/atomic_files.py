@@ -24,6 +24,7 @@ from tempfile import gettempdir, mkdtemp
 from typing import BinaryIO
 
 from gruebler.errors import RunError
+from gruebler.text import reason_of
 
 if sys.platform != "win32":
     import fcntl
@@ -74,8 +75,8 @@ def atomic_file(path: Path, *, durable: bool = True, tidy: bool = True) -> Itera
     except OSError as error:
         about = str(path) if error.filename is None else str(error.filename)
         if about != str(path) and not about.endswith(PARTIAL):  # not the file written here
-            raise RunError("{file} cannot be used: {reason}", file=about, reason=error.strerror or error) from None
-        raise RunError("{path} cannot be written: {reason}", path=path, reason=error.strerror or error) from None
+            raise RunError("{file} cannot be used: {reason}", file=about, reason=reason_of(error)) from None
+        raise RunError("{path} cannot be written: {reason}", path=path, reason=reason_of(error)) from None
     finally:
         if temporary != path:
             temporary.unlink(missing_ok=True)
@@ -139,7 +140,7 @@ def temporary_directory() -> Iterator[Path]:
         raise RunError(
             "{folder} cannot be used for temporary files: {reason}",
             folder=gettempdir(),
-            reason=error.strerror or error,
+            reason=reason_of(error),
         ) from None
     try:
         yield directory

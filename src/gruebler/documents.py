@@ -14,7 +14,7 @@ from typing import Any, NoReturn, TypeVar
 
 import msgspec
 
-from gruebler.text import Message, message
+from gruebler.text import Message, message, reason_of
 
 __all__ = ["Failing", "convert_document", "infinities_as_words", "load_document"]
 
@@ -35,7 +35,7 @@ def load_document(path: Path, fail: Failing) -> Any:
         with path.open("rb") as file:
             content = file.read(LARGEST + 1)
     except OSError as error:
-        raise fail(message("cannot be read ({reason})", reason=error.strerror or error)) from None
+        raise fail(message("cannot be read ({reason})", reason=reason_of(error))) from None
     if len(content) > LARGEST:
         raise fail(message("larger than {limit:,} bytes", limit=LARGEST))
     try:

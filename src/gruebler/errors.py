@@ -1,7 +1,7 @@
-"""What can be wrong with a question, each kind with a name of its own.
+"""The errors of this library.
 
 Every message says what was expected, what was found and, where there is one, the way out. A wrong call
-raises; an honest failure (a budget spent, a proof not found) is a result and never one of these.
+raises; a failure (a budget spent, a proof not found) is a result and never one of these.
 """
 
 import re
@@ -27,7 +27,7 @@ class Template(Protocol):
 
 
 class GrueblerError(ValueError):
-    """The common parent: catching it catches every refusal of this library, and nothing else.
+    """The base class of all errors of this library.
 
     It carries an English text with gaps and the values that fill them (or a message that has both), so that
     `text.error_in_language` can say it in another language. What it says is one line of bounded length, however long
@@ -111,21 +111,37 @@ def _without_middle(text: str, most: int) -> str:
     return text[: most - len(middle) - end] + middle + text[-end:]
 
 
+def expect(value: object, wanted: type) -> None:
+    """Nothing if a value is of a class; otherwise `GrueblerError`, which names the attribute of the value that is.
+
+    >>> expect(3, str)
+    Traceback (most recent call last):
+    gruebler.errors.GrueblerError: expected str, but found int
+    """
+    if isinstance(value, wanted):
+        return
+    names = {"wanted": wanted.__name__, "found": type(value).__name__}
+    attribute = wanted.__name__.lower()
+    if isinstance(getattr(value, attribute, None), wanted):
+        raise GrueblerError("expected {wanted}, but found {found}: take its {attribute}", attribute=attribute, **names)
+    raise GrueblerError("expected {wanted}, but found {found}", **names)
+
+
 class Suggestion(str):
-    """The end of an English message that offers a word; `text` says it in other languages."""
+    """A remark in an English message that offers a word; `text` translates it."""
 
     word: str
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """The end of a message that offers the known word nearest to a wrong one, or nothing.
+    """A remark for behind a wrong word, which offers the known word nearest to it; empty if none is near.
 
     >>> nearest("cranck", ["frame", "crank"])
-    "; did you mean 'crank'?"
+    " (did you mean 'crank'?)"
     """
     close = get_close_matches(word, list(known), n=1, cutoff=0.5)
     if not close:
         return ""
-    suggestion = Suggestion(f"; did you mean {close[0]!r}?")
+    suggestion = Suggestion(f" (did you mean {close[0]!r}?)")
     suggestion.word = close[0]
     return suggestion

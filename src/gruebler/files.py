@@ -1,21 +1,30 @@
-"""`read` and `write`: any value in a file, by the ending of its name and by what the file holds."""
+"""`read`, `write` and `convert`: any value in a file, by the ending of its name and by what the file holds.
+
+`FORMATS` is the one table of formats: another one is another row.
+"""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+import warnings
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from importlib import import_module
+from math import atan2
 from os import PathLike, fspath
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from gruebler.atomic_files import atomic_file
 from gruebler.documents import load_document
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, nearest
+from gruebler.text import Message, joined, joined_by_or, message
 
 if TYPE_CHECKING:
     from typing import TypeAlias
 
     from gruebler.chain import Chain
+    from gruebler.formats.pin_drawings import PinDrawing
     from gruebler.gears import TrainReading
     from gruebler.linkages import Linkage
     from gruebler.screws import SpatialLinkage
@@ -23,50 +32,48 @@ if TYPE_CHECKING:
 
     Value: TypeAlias = Chain | list[Chain] | Linkage | SpatialLinkage | TrainReading | Task
 
-__all__ = ["read", "write"]
+__all__ = ["FORMATS", "Format", "FormatWarning", "convert", "format_of", "read", "write"]
 
-_TASKS = frozenset({"positions", "points", "inputs", "swing", "stroke"}) - {"joints"}
-_ENDINGS = ".toml, .json, .csv, .g6 or .txt"
-
-
-def read(path: str | PathLike[str]) -> Value:
-    """The value in a file.
-
-    ``.toml`` and ``.json`` hold a linkage with its dimensions, a linkage by joint screws, a task of synthesis, a gear
-    train (``train``, TOML only) or chains (JSON only); ``.csv`` a task; ``.g6`` and ``.txt`` chains, one a line.
-
-    Raises `GrueblerError` that names the file and what does not fit.
-    """
-    path = Path(path)
-    match path.suffix.lower():
-        case ".csv":
-            from gruebler.synthesis import read_task
-
-            return read_task(path)
-        case ".g6" | ".txt":
-            return _chains(path)
-        case ".toml" | ".json":
-            return _document(path)
-        case suffix:
-            raise GrueblerError(
-                "{path}: expected {endings}, not {suffix!r}", path=path, endings=_ENDINGS, suffix=suffix
-            )
+_TASKS = frozenset({"positions", "points", "inputs", "function", "swing", "stroke"})
+_LINKAGES = frozenset({"joints", "four_bar", "slider_crank", "inverted_slider_crank"})  # they may have points, too
+_LARGEST_TABLE = 1_000_000  # bytes
+_POSE = 4  # numbers: a place and a direction
 
 
-def _chains(path: Path) -> list[Chain]:
-    from gruebler.chain import Chain
-    from gruebler.formats.structures import read_structures
-
-    return [structure.value for structure in read_structures(path) if isinstance(structure.value, Chain)]
+class FormatWarning(UserWarning):
+    """A file has something that the value does not have, or the other way round."""
 
 
-def _document(path: Path) -> Value:
+class Format(NamedTuple):
+    """A row of the table of formats."""
+
+    name: str
+    suffixes: tuple[str, ...]
+    """Endings of file names; without one the format is named."""
+    title: Message
+    """Whose format it is."""
+    carries: Message
+    """What it can carry."""
+    read: Callable[[Path, list[Message]], Any] | None
+    """The value in a file; the list gets a message for each thing that the value does not have."""
+    write: Callable[[Any, Path, list[Message]], None] | None
+    """Write a value; the list gets a message for each thing that the file does not have."""
+
+
+# --- readers and writers of the table ----------------------------------------------------------------
+
+
+def _own_document(path: Path, left_out: list[Message]) -> Value:
+    """A TOML or JSON document: of this library, or JSON of another program that shows by its keys."""
     data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
     if isinstance(data, list):
         return [_chain(path, item) for item in data]
     if not isinstance(data, Mapping):
         raise GrueblerError("{path}: expected a table of keys", path=path)
-    if not _TASKS.isdisjoint(data):
+    for form in _JSON_OF_OTHERS.values():
+        if form.shows(data):
+            return _linkage(path, partial(form.read, data, left_out), left_out)
+    if not _TASKS.isdisjoint(data) and _LINKAGES.isdisjoint(data):
         from gruebler.synthesis import read_task
 
         return read_task(path)
@@ -90,65 +97,450 @@ def _chain(path: Path, document: Any) -> Chain:
         raise GrueblerError("{path}: {error}", path=path, error=error) from None
 
 
-def write(value: object, path: str | PathLike[str]) -> Path:
+def _write_own_document(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.chain import Chain
+    from gruebler.linkages import Linkage
+    from gruebler.synthesis import Task
+
+    del left_out
+    suffix = path.suffix.lower()
+    if isinstance(value, Linkage):
+        from gruebler.formats import write_linkage
+
+        write_linkage(path, value)
+    elif isinstance(value, Task):
+        from gruebler.synthesis import write_task
+
+        write_task(path, value)
+    elif suffix == ".json":
+        document = value.to_json() if isinstance(value, Chain) else [chain.to_json() for chain in value]
+        _write_text(path, json.dumps(document, ensure_ascii=False, indent=1) + "\n")
+    else:
+        raise GrueblerError("{path}: chains go to .json, .txt or .g6, not {suffix!r}", path=path, suffix=suffix)
+
+
+def _task(path: Path, left_out: list[Message]) -> Task:
+    """A task in CSV, or without a header a curve of four-bar-rs, closed if its name has ``.closed.``."""
+    from gruebler.formats.four_bar_rs import curve_from_csv
+    from gruebler.formats.text_files import read_text
+    from gruebler.synthesis import PathTask, PositionTask, read_task
+
+    del left_out
+    text = read_text(path, _LARGEST_TABLE)
+    try:
+        rows = curve_from_csv(text)
+        if rows is None:
+            return read_task(path)
+        if len(rows[0]) == _POSE:
+            return PositionTask(tuple((x, y, atan2(dy, dx)) for x, y, dx, dy in rows))
+        return PathTask(tuple((x, y) for x, y in rows), closed=".closed." in path.name.lower())
+    except GrueblerError as error:
+        if str(path) in str(error):
+            raise
+        raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+
+def _write_task(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.synthesis import Task, write_task
+
+    del left_out
+    if not isinstance(value, Task):
+        raise GrueblerError("{path}: expected a task of synthesis", path=path)
+    write_task(path, value)
+
+
+def _write_text(path: Path, text: str) -> None:
+    with atomic_file(path, durable=False) as file:
+        file.write(text.encode("utf-8"))
+
+
+def _linkage(path: Path, drawing: Callable[[], PinDrawing], left_out: list[Message]) -> Linkage:
+    """The linkage of a drawing; errors name the file."""
+    from gruebler.formats.pin_drawings import linkage_of
+
+    try:
+        return linkage_of(drawing(), left_out)
+    except GrueblerError as error:
+        raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+
+def _as_linkage(value: Any) -> Linkage:
+    """The linkage to write; `GrueblerError` for a value without dimensions."""
+    from gruebler.linkages.conversion import as_linkage
+
+    return as_linkage(value)
+
+
+def _drawn(
+    name: str, suffixes: tuple[str, ...], title: Message, carries: Message, module: str, reader: str, writer: str
+) -> Format:
+    """A row for a text of pins and slots: the functions of a module in `formats` read and write it."""
+
+    def function(name: str) -> Callable[..., Any]:
+        found: Callable[..., Any] = getattr(import_module(f"gruebler.formats.{module}"), name)
+        return found
+
+    def read(path: Path, left_out: list[Message]) -> Linkage:
+        from gruebler.formats.text_files import read_text
+
+        text = read_text(path)
+        return _linkage(path, lambda: function(reader)(text, left_out), left_out)
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.formats.pin_drawings import drawing_of
+
+        _write_text(path, function(writer)(drawing_of(_as_linkage(value), left_out), left_out))
+
+    return Format(name, suffixes, title, carries, read, write)
+
+
+class _JsonForm(NamedTuple):
+    """A JSON document of another program."""
+
+    module: str
+    shown_by: str
+    reader: str
+    writer: str
+
+    def function(self, name: str) -> Any:
+        return getattr(import_module(f"gruebler.formats.{self.module}"), name)
+
+    def shows(self, document: Any) -> bool:
+        return bool(self.function(self.shown_by)(document))
+
+    def read(self, document: Any, left_out: list[Message]) -> PinDrawing:
+        drawing: PinDrawing = self.function(self.reader)(document, left_out)
+        return drawing
+
+    def write(self, drawing: PinDrawing, left_out: list[Message]) -> Any:
+        return self.function(self.writer)(drawing, left_out)
+
+
+_JSON_OF_OTHERS = {
+    "motiongen": _JsonForm("motiongen", "is_motiongen", "drawing_from_motiongen", "motiongen_from_drawing"),
+    "pylinkage": _JsonForm("pylinkage", "is_pylinkage", "drawing_from_pylinkage", "pylinkage_from_drawing"),
+}
+
+
+def _json_of_others(name: str, title: Message, carries: Message) -> Format:
+    form = _JSON_OF_OTHERS[name]
+
+    def read(path: Path, left_out: list[Message]) -> Linkage:
+        data = load_document(path, lambda text: GrueblerError("{path}: {problem}", path=path, problem=text))
+        if not form.shows(data):
+            raise GrueblerError("{path}: is no document of {program}", path=path, program=title)
+        return _linkage(path, lambda: form.read(data, left_out), left_out)
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.formats.pin_drawings import drawing_of
+
+        document = form.write(drawing_of(_as_linkage(value), left_out), left_out)
+        _write_text(path, json.dumps(document, indent=1) + "\n")
+
+    return Format(name, (), title, carries, read, write)
+
+
+def _write_mjcf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.formats.mjcf import mjcf_from_linkage
+
+    _write_text(path, mjcf_from_linkage(_as_linkage(value), left_out))
+
+
+def _write_dxf(value: Any, path: Path, left_out: list[Message]) -> None:
+    from gruebler.formats.dxf import dxf_from_linkage
+
+    _write_text(path, dxf_from_linkage(_as_linkage(value), left_out))
+
+
+def _lines(name: str, suffix: str, title: Message, carries: Message) -> Format:
+    def read(path: Path, left_out: list[Message]) -> list[Chain]:
+        from gruebler.formats.chain_files import read_lines
+
+        del left_out
+        return list(read_lines(path, name))
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.formats.chain_files import write_lines
+
+        write_lines(_chains_of(value, left_out), path, name)
+
+    return Format(name, (suffix, f"{suffix}.gz"), title, carries, read, write)
+
+
+def _graph(name: str, suffixes: tuple[str, ...], title: Message, carries: Message) -> Format:
+    def read(path: Path, left_out: list[Message]) -> Chain:
+        from gruebler.formats.chain_files import chain_from_graph_text
+        from gruebler.formats.text_files import read_text
+
+        del left_out
+        text = read_text(path)
+        try:
+            return chain_from_graph_text(text, name)
+        except GrueblerError as error:
+            raise GrueblerError("{path}: {error}", path=path, error=error) from None
+
+    def write(value: Any, path: Path, left_out: list[Message]) -> None:
+        from gruebler.formats.chain_files import graph_text
+
+        chains = list(_chains_of(value, left_out))
+        if len(chains) != 1:
+            raise GrueblerError("{path}: the format holds one chain, not {count}", path=path, count=len(chains))
+        _write_text(path, graph_text(chains[0], name, left_out))
+
+    return Format(name, suffixes, title, carries, read, write)
+
+
+def _chains_of(value: Any, left_out: list[Message]) -> Iterable[Chain]:
+    """The chains to write: those given, or the chain of a linkage."""
+    from gruebler.chain import Chain
+    from gruebler.linkages.conversion import HasLinkage
+
+    if isinstance(value, Chain):
+        return [value]
+    if isinstance(value, HasLinkage) or hasattr(value, "mechanism"):
+        left_out.append(message("dimensions, frame and drives"))
+        mechanism = value.mechanism if hasattr(value, "mechanism") else value.linkage().mechanism
+        return [mechanism.chain]
+    if isinstance(value, Sequence) and all(isinstance(each, Chain) for each in value):
+        return value
+    raise GrueblerError("a {kind} is no chain", kind=type(value).__name__)
+
+
+_PINS = message("one position of a linkage of pins, slides and slots, points, drives of pins on the frame; no wheels")
+_ANY_CHAIN = message("one chain with any joints")
+
+FORMATS: tuple[Format, ...] = (
+    Format(
+        "toml",
+        (".toml",),
+        message("gruebler, TOML"),
+        message("linkages, tasks, joint screws, gear trains (read), completely"),
+        _own_document,
+        _write_own_document,
+    ),
+    Format(
+        "json",
+        (".json",),
+        message("gruebler, JSON; JSON of other programs is recognised"),
+        message("linkages, tasks, chains, joint screws (read), completely"),
+        _own_document,
+        _write_own_document,
+    ),
+    Format(
+        "csv",
+        (".csv",),
+        message("gruebler, CSV; curves of four-bar-rs are recognised"),
+        message("tasks of synthesis, completely"),
+        _task,
+        _write_task,
+    ),
+    _lines("text", ".txt", message("gruebler, texts of chains"), message("chains one a line, with any joints")),
+    _lines("graph6", ".g6", message("nauty, House of Graphs"), message("chains one a line: revolute, one between two")),
+    _lines("sparse6", ".s6", message("nauty"), message("chains one a line: simple revolute joints")),
+    _graph("graphml", (".graphml",), message("GraphML"), _ANY_CHAIN),
+    _graph("gml", (".gml",), message("GML"), _ANY_CHAIN),
+    _graph("dot", (".dot", ".gv"), message("Graphviz"), _ANY_CHAIN),
+    _graph("edge-list", (".edgelist", ".edges"), message("edge list"), message("one chain with simple joints")),
+    _graph("matrix", (".adj",), message("adjacency matrix"), message("one chain with simple revolute joints")),
+    _drawn(
+        "linkage2",
+        (".linkage2",),
+        message("Linkage by D. Rector"),
+        message("one position of a linkage of pins and slots, points, driven cranks, driven lengths of links"),
+        "linkage2",
+        "drawing_from_linkage2",
+        "linkage2_from_drawing",
+    ),
+    _drawn(
+        "pyslvs",
+        (".pyslvs",),
+        message("Pyslvs"),
+        message("one position of a linkage of pins, slides and slots, points; drives in comments"),
+        "pyslvs",
+        "drawing_from_pyslvs",
+        "pyslvs_from_drawing",
+    ),
+    _drawn("pmks", (".pmks",), message("PMKS+"), _PINS, "pmks", "drawing_from_pmks", "pmks_from_drawing"),
+    _drawn(
+        "four-bar-rs",
+        (".ron",),
+        message("four-bar-rs"),
+        message("a four-bar with a driven crank and one coupler point"),
+        "four_bar_rs",
+        "drawing_from_ron",
+        "ron_from_drawing",
+    ),
+    _json_of_others(
+        "motiongen",
+        message("MotionGen"),
+        message("one position of a linkage of pins, slides and slots, points, drives"),
+    ),
+    _json_of_others(
+        "pylinkage",
+        message("pylinkage"),
+        message("one position of a linkage of pins, pins in slots of the frame, points, driven cranks on the frame"),
+    ),
+    Format(
+        "dxf",
+        (".dxf",),
+        message("CAD, laser cutters (DXF)"),
+        message("plates of links of pins and slides with holes, paths of points, in one position"),
+        None,
+        _write_dxf,
+    ),
+    Format(
+        "mjcf",
+        (".mjcf",),
+        message("MuJoCo"),
+        message("a linkage of pins, slides and slots as a model that runs, points, drives"),
+        None,
+        _write_mjcf,
+    ),
+)
+"""Every format, those of this library first."""
+
+
+# --- what is called ----------------------------------------------------------------------------------
+
+
+def format_of(path: str | PathLike[str], name: str | None = None) -> Format:
+    """The format of a name, else of the ending of a path; `GrueblerError` lists those there are.
+
+    >>> format_of("chains.g6.gz").name, format_of("leg.json", "pylinkage").name
+    ('graph6', 'pylinkage')
+    """
+    if name is not None:
+        for form in FORMATS:
+            if form.name == name:
+                return form
+        names = [form.name for form in FORMATS]
+        raise GrueblerError(
+            "there is no format {name!r}{suggestion}; known are {names}",
+            name=name,
+            suggestion=nearest(name, names),
+            names=", ".join(names),
+        )
+    lower = Path(path).name.lower()
+    for form in FORMATS:
+        if lower.endswith(form.suffixes):
+            return form
+    endings = [ending for form in FORMATS for ending in form.suffixes if not ending.endswith(".gz")]
+    raise GrueblerError(
+        "{path}: expected {endings}, not {suffix!r}",
+        path=path,
+        endings=joined_by_or(endings),
+        suffix=Path(path).suffix,
+    )
+
+
+def read(path: str | PathLike[str], format_name: str | None = None, *, left_out: list[Message] | None = None) -> Value:
+    """The value in a file: a linkage, a chain or a list of chains, a task, a gear train.
+
+    Args:
+        path: a file; the ending of its name says the format, JSON of other programs is recognised.
+        format_name: the format, if the name does not say it: one of `FORMATS`.
+        left_out: gets a message for each thing in the file that the value does not have; without it such things are
+            warnings, `FormatWarning`.
+
+    Raises `GrueblerError` that names the file and what does not fit. docs/theory/formats.md has every format.
+    """
+    if not isinstance(path, str | PathLike):
+        raise GrueblerError("expected the path of a file, but found {path!r}", path=path)
+    path = Path(path)
+    form = format_of(path, format_name)
+    if form.read is None:
+        raise GrueblerError("{path}: the format {name} is written only", path=path, name=form.name)
+    notes: list[Message] = []
+    value = form.read(path, notes)
+    _say(notes, left_out, message("{path}: not read: {items}", path=path, items=joined(notes, "; ")))
+    return value  # type: ignore[no-any-return]
+
+
+def _say(notes: list[Message], left_out: list[Message] | None, text: Message) -> None:
+    if left_out is not None:
+        left_out += notes
+    elif notes:
+        warnings.warn(str(text), FormatWarning, stacklevel=3)
+
+
+def write(
+    value: object,
+    path: str | PathLike[str],
+    format_name: str | None = None,
+    *,
+    left_out: list[Message] | None = None,
+) -> Path:
     """Write a value into a file that `read` takes back; returns the path.
 
-    A linkage or task goes to ``.toml`` or ``.json``, a task also to ``.csv``, a chain or a list of chains to ``.json``,
-    ``.txt`` or ``.g6``. The file appears complete or not at all.
+    Args:
+        value: a linkage, a chain or a list of chains, a task.
+        path: a file, which appears complete or not at all; the ending of its name says the format.
+        format_name: the format, if the name does not say it: one of `FORMATS`.
+        left_out: gets a message for each thing of the value that the file does not have; without it such things are
+            warnings, `FormatWarning`.
 
-    Raises `GrueblerError` for a value or an ending that do not go together, and if the two are exchanged.
+    Raises `GrueblerError` for a value and a format that do not go together, and if value and path are exchanged.
     """
     if isinstance(value, str | PathLike) and not isinstance(path, str | PathLike):
         raise GrueblerError("write(value, path): the value comes first, then {path!r}", path=fspath(value))
     if not isinstance(path, str | PathLike):
         raise GrueblerError("write(value, path): expected the path of a file, but found {path!r}", path=path)
-    from gruebler.chain import Chain
-    from gruebler.linkages import Linkage
     from gruebler.linkages.conversion import makes_linkage
-    from gruebler.synthesis import Task
 
     path = Path(path)
-    if isinstance(value, Linkage) or makes_linkage(value):
-        from gruebler.formats import write_linkage
-
-        write_linkage(path, value if isinstance(value, Linkage) else value.linkage())
-    elif isinstance(value, Task):
-        from gruebler.synthesis import write_task
-
-        write_task(path, value)
-    elif isinstance(value, Chain):
-        _write_chains(path, [value], alone=True)
-    elif isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value):
-        _write_chains(path, list(value), alone=False)
-    else:
-        raise GrueblerError(
-            "a {kind} cannot be written; linkages, tasks, chains and lists of chains can", kind=type(value).__name__
-        )
+    if makes_linkage(value):
+        value = value.linkage()
+    _check_kind(value)
+    form = format_of(path, format_name)
+    if form.write is None:
+        raise GrueblerError("{path}: the format {name} is read only", path=path, name=form.name)
+    notes: list[Message] = []
+    form.write(value, path, notes)
+    _say(notes, left_out, message("{path}: not written: {items}", path=path, items=joined(notes, "; ")))
     return path
 
 
-def _write_chains(path: Path, chains: list[Chain], *, alone: bool) -> None:
-    match path.suffix.lower():
-        case ".json":
-            documents = [chain.to_json() for chain in chains]
-            text = json.dumps(documents[0] if alone else documents, ensure_ascii=False, indent=1) + "\n"
-        case ".txt":
-            text = "".join(f"{chain.text()}\n" for chain in chains)
-        case ".g6":
-            text = "".join(f"{_graph6(chain)}\n" for chain in chains)
-        case suffix:
-            raise GrueblerError("{path}: chains go to .json, .txt or .g6, not {suffix!r}", path=path, suffix=suffix)
-    with atomic_file(path, durable=False) as file:
-        file.write(text.encode("utf-8"))
+def _check_kind(value: object) -> None:
+    from gruebler.chain import Chain
+    from gruebler.linkages import Linkage
+    from gruebler.synthesis import Task
+
+    chains = isinstance(value, Sequence) and value and all(isinstance(item, Chain) for item in value)
+    if not (chains or isinstance(value, Chain | Linkage | Task)):
+        raise GrueblerError(
+            "values of type {kind} cannot be written; linkages, tasks, chains and lists of chains can",
+            kind=type(value).__name__,
+        )
 
 
-def _graph6(chain: Chain) -> str:
-    """The chain as a graph; `GrueblerError` if it has other joints than simple revolute ones."""
-    import networkx
+def convert(
+    source: str | PathLike[str],
+    target: str | PathLike[str],
+    source_format: str | None = None,
+    target_format: str | None = None,
+) -> list[Message]:
+    """Read a file in one format and write it in another; returns what was left out, as messages.
 
-    if any(joint.count != 1 or joint.pair.name != "revolute" for joint in chain.joints):
-        raise GrueblerError("graph6 holds chains with simple revolute joints only, not {chain}", chain=chain.text())
-    graph = networkx.Graph()
-    graph.add_nodes_from(range(chain.n))
-    graph.add_edges_from(tuple(map(chain.index, joint.links)) for joint in chain.joints)
-    return str(networkx.to_graph6_bytes(graph, header=False).decode("ascii").strip())
+    Files of chains one a line are converted line by line, however many there are. Raises `GrueblerError` as `read` and
+    `write`.
+
+    >>> import tempfile
+    >>> folder = Path(tempfile.mkdtemp())
+    >>> _ = (folder / "chain.txt").write_text("R(a-b) R(b-c) R(c-d) R(d-a)", encoding="utf-8")
+    >>> convert(folder / "chain.txt", folder / "chain.graphml")
+    []
+    >>> print(read(folder / "chain.graphml"))
+    R(a-b) R(a-d) R(b-c) R(c-d)
+    """
+    from gruebler.formats.chain_files import LINES, read_lines, write_lines
+
+    source, target = Path(source), Path(target)
+    from_form, to_form = format_of(source, source_format), format_of(target, target_format)
+    if source.exists() and target.exists() and source.samefile(target):
+        raise GrueblerError("{path}: would be written over itself", path=source)
+    left_out: list[Message] = []
+    if from_form.name in LINES and to_form.name in LINES:
+        write_lines(read_lines(source, from_form.name), target, to_form.name)
+    else:
+        write(read(source, source_format, left_out=left_out), target, target_format, left_out=left_out)
+    return left_out

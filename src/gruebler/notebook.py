@@ -1,6 +1,6 @@
 """How values show themselves: in one line, and in a notebook as a picture.
 
-The front door puts the drawing here, so that no value imports upward.
+`gruebler/__init__.py` puts the drawing functions here, so that no value imports a higher room.
 """
 
 from __future__ import annotations

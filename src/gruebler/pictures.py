@@ -141,7 +141,7 @@ def animate(value: Any, *, seconds: float = 4.0, **options: Any) -> Animation:
     value, kind = _drawn(value)
     if not kind.moving:
         raise GrueblerError(
-            "a {kind} has no moving picture: animate a linkage, cam, Geneva drive or train",
+            "values of type {kind} have no moving picture: animate a linkage, cam, Geneva drive or train",
             kind=type(value).__name__,
         )
     if kind.moving == "linkage":
@@ -193,7 +193,7 @@ def _drawn(value: Any) -> tuple[Any, _Kind]:
     kind = _KINDS.get(type(value).__name__)
     if kind is None:
         raise GrueblerError(
-            "a {kind} has no picture; these have: {known}, FourBar, SliderCrank, InvertedSliderCrank",
+            "values of type {kind} have no picture; these have: {known}, FourBar, SliderCrank, InvertedSliderCrank",
             kind=type(value).__name__,
             known=", ".join(_KINDS),
         )

@@ -8,6 +8,7 @@ themselves, and messages and errors inside a message are translated with it.
 
 from __future__ import annotations
 
+import errno
 import gettext
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -42,6 +43,7 @@ __all__ = [
     "number_separator",
     "numbers",
     "plural",
+    "reason_of",
     "translate",
     "translate_in_context",
 ]
@@ -104,8 +106,14 @@ class _LocalFormatter(Formatter):
         if isinstance(value, GrueblerError):
             return error_in_language(value, self.lang)
         if isinstance(value, Suggestion):
-            return translate("; did you mean {word!r}?", self.lang, word=value.word)
+            return translate(" (did you mean {word!r}?)", self.lang, word=value.word)
         return value.in_language(self.lang) if isinstance(value, Readable) else value
+
+    def convert_field(self, value: Any, conversion: str | None) -> Any:
+        if conversion == "r" and isinstance(value, float):
+            # Still a number for `format_field`: NumPy's have their type in their repr, and -40.0 was given as -40.
+            return int(value) if value.is_integer() and abs(value) < 2**53 else float(value)
+        return super().convert_field(value, conversion)
 
     def format_field(self, value: Any, form: str) -> str:
         written = format(value, form)
@@ -171,6 +179,29 @@ def message(text: str, /, **values: Any) -> Message:
     '4 links'
     """
     return Message(text, values)
+
+
+_REASONS = {
+    errno.EACCES: message("Permission denied"),
+    errno.EISDIR: message("Is a directory"),
+    errno.ENAMETOOLONG: message("File name too long"),
+    errno.ENOENT: message("No such file or directory"),
+    errno.ENOSPC: message("No space left on device"),
+    errno.ENOTDIR: message("Not a directory"),
+    errno.EROFS: message("Read-only file system"),
+}
+"""Why files cannot be used, in the words of the C library; what is rarer stays in those of the system."""
+
+
+def reason_of(error: OSError | UnicodeDecodeError) -> Message | str:
+    """Why a file could not be read or written.
+
+    >>> str(reason_of(FileNotFoundError(errno.ENOENT, "")))
+    'No such file or directory'
+    """
+    if isinstance(error, UnicodeDecodeError):
+        return message("it is not UTF-8 text")
+    return _REASONS.get(error.errno or 0) or error.strerror or str(error)
 
 
 def joined(parts: Iterable[object], separator: str = ", ") -> Message:

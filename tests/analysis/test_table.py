@@ -58,6 +58,6 @@ def test_shape_units_and_language():
 
 def test_an_unknown_column_is_answered_by_the_nearest():
     with pytest.raises(
-        GrueblerError, match=r"no column 'slidr'; did you mean 'slider'\?; it has R\(frame-crank\), slider"
+        GrueblerError, match=r"no column 'slidr' \(did you mean 'slider'\?\); it has R\(frame-crank\), slider"
     ):
         table()["slidr"]

@@ -84,3 +84,13 @@ def test_several_drives():
         rows = [home - step * np.eye(3)[k], home + step * np.eye(3)[k]]
         assert one.value == pytest.approx(np.diff(move(linkage, rows).angle("bucket"))[0] / (2 * step), rel=1e-6)
     assert "goes by 2 for each unit of P(frame-slider1)" in machine_report(entry("diff_lever")).explain()
+
+
+@pytest.mark.parametrize("id", ["drafting", "drafting3", "pent"])
+def test_an_output_at_rest_does_not_show_rounding(id):
+    """The head of a drafting machine stays parallel to the board."""
+    report = machine_report(entry(id))
+    assert 0.0 in [partial.value for partial in report.partials]
+    assert all(partial.value == 0 or abs(partial.value) > 1e-3 for partial in report.partials)
+    assert "rests while" in report.explain()
+    assert "e-" not in " ".join(line for line in report.explain().splitlines() if line.startswith("  As drawn"))

@@ -52,7 +52,7 @@ def test_a_four_bar_in_words(capsys):
 def test_german(capsys):
     status, out, _ = run(capsys, "slidercrank", "--lang", "de", "--at", "55", "--speed", "60")
     assert status == 0
-    assert "Rollen: crank = Kurbel, conrod = Koppel, slider = Schieber." in out
+    assert "Rollen: Kurbel = Kurbel, Koppel = Koppel, Gleitstein = Schieber." in out
     assert "Übertragungswinkel [°]" in out
 
 
@@ -200,7 +200,7 @@ def test_refusals(capsys, arguments, words):
 
 def test_who_turns_fully_is_told(capsys):
     _, out, _ = run(capsys, "lambda", "--lang", "de")
-    assert "D(crank-coupler) volle Umläufe, D(coupler-rocker) 50,6659°" in out
+    assert "D(Kurbel-Koppel) volle Umläufe, D(Koppel-Schwinge) 50,6659°" in out
     document, _ = table(capsys, "lambda")
     assert [row["full"] for row in document["rotatability"]] == [True, True, False, False]
 

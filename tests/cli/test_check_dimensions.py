@@ -20,7 +20,7 @@ def test_an_entry_in_both_languages(capsys):
     assert "Mobility: counted -3, generic 0, instant 1, finite 1." in out
     assert "with b = 2 the count gives 1" in out
     _, german, _ = run(capsys, "loco3", "--explain", "--lang", "de")
-    assert "jackshaft, wheel1, wheel2 sind 3 gleiche und parallele Kurbeln" in german
+    assert "Blindwelle, Treibrad 1, Treibrad 2 sind 3 gleiche und parallele Kurbeln" in german
 
 
 def test_lengths_at_a_pose(capsys):

@@ -86,8 +86,9 @@ def test_catalog_list_show_search(capsys):
     status, out, _ = run(capsys, "catalog", "list", "--lang", "de")
     assert status == 0
     assert "exercise-5b" in out
+    assert "003, Bild 3.3; 000/003, Abschnitt 3.5.4 und Aufgabe 19" in out
     _, out, _ = run(capsys, "catalog", "show", "vcomp", "exercise-6", "--lang", "de")
-    assert "D(crank-conrod1-conrod2)" in out
+    assert 'D(Kurbel-"Pleuel 1"-"Pleuel 2")' in out
     assert "Aufgabe" in out
     _, out, _ = run(capsys, "catalog", "search", "compressor", "--links", "6", "--json")
     assert [e["id"] for e in json.loads(out)] == ["vcomp"]

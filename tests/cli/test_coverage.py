@@ -67,13 +67,35 @@ def test_every_command_is_understood():
                 command_named(name).parser().parse_args(arguments)
 
 
-@pytest.mark.slow
+def test_every_command_has_something_to_print():
+    commands = {command for row in coverage.coverage_rows() for command, _ in row.commands}
+    assert commands == set(coverage._table().expected)
+    assert [command for command in commands if not coverage.expected_parts(command)] == []
+    assert all(part.strip() for command in commands for part in coverage.expected_parts(command))
+
+
+def test_parts_of_an_output_are_compared_word_by_word():
+    said = "rocker  79.84591°  R(0-1)  n = 4\nSchwinge: 79,84591°"
+    for part in ("rocker 79.846°", "rocker 79.8459°", "Schwinge: 79,846", "R(0-1) n = 4"):
+        assert coverage.missing_parts(said, [part]) == [], part
+    for part in (
+        "rocker 79.88°",
+        "rocker 79°",
+        "rocker R(0-1)",
+        "n = 4.01",
+        "n = 5",
+        "Schwinge: 79,88°",
+        "R(0-1) n = 4 4",
+    ):
+        assert coverage.missing_parts(said, [part]) == [part]
+
+
 @pytest.mark.parametrize(
     ("command", "wanted"), sorted({one for row in coverage.coverage_rows() for one in row.commands}), ids=str
 )
 def test_every_command_does_it(command, wanted):
     outcome = coverage.execute(command, wanted)
-    assert outcome.good, f"{outcome.status}: {outcome.said}"
+    assert outcome.good, f"{outcome.status}: {outcome.said}; not printed: {outcome.missing}"
 
 
 def test_the_table(run):
@@ -110,11 +132,26 @@ def test_what_is_missing_is_said(run, monkeypatch):
     assert "gruebler.no_such_thing  (missing)" in out
 
 
+def test_a_wrong_value_is_said(run, monkeypatch):
+    rows = (coverage.Row("x", "four-bar", "Viergelenk", (("grashof 25 70 40 70", 0),), ()),)
+    monkeypatch.setattr(coverage, "coverage_rows", lambda: rows)
+    assert run("--run")[0] == 0
+    monkeypatch.setattr(coverage, "expected_parts", lambda _: ("time ratio: 1.12048", "time ratio: 1.13"))
+    status, out = run("--run")
+    assert status == 1
+    assert "(does not print 'time ratio: 1.13')" in out
+    assert "0 of 1 commands ended as expected" in out
+    document = json.loads(run("--run", "--json")[1])
+    assert document[0]["commands"][0]["missing"] == ["time ratio: 1.13"]
+
+
 def test_a_strange_machine_is_refused(monkeypatch, tmp_path):
-    text = '[[concepts]]\nwhere = "1"\nde = "x"\nen = "x"\n[[machines]]\nid = "unicorn"\n'
+    text = '[[concepts]]\nwhere = "1"\nde = "x"\nen = "x"\n[[machines]]\nid = "unicorn"\n[expected]\n'
     (tmp_path / "coverage.toml").write_text(text, encoding="utf-8")
     monkeypatch.setattr(coverage, "catalog_folder", lambda: tmp_path)
+    coverage._table.cache_clear()
     coverage.coverage_rows.cache_clear()
     with pytest.raises(CatalogError, match="no entry 'unicorn'"):
         coverage.coverage_rows()
+    coverage._table.cache_clear()
     coverage.coverage_rows.cache_clear()

@@ -211,3 +211,16 @@ def test_graph6_files_are_taken_back(tmp_path, capsys):
     assert main(["check", str(path), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [one["verdict"] for one in found] == ["constrained"] * 16
+
+
+@pytest.mark.parametrize(
+    ("links", "mobility", "why"),
+    [
+        ("7", "1", "there is no chain of 7 links with mobility 1: F = 3(n - 1) - 2 g1 makes n + F odd."),
+        ("4", "3", "there is no such chain of 4 links with mobility 3."),
+    ],
+)
+def test_an_empty_list_gives_its_reason(capfd, links, mobility, why):
+    status, out, err = run(capfd, "enumerate", "--links", links, "--mobility", mobility)
+    assert (status, out, err) == (0, "", f"gruebler enumerate: {why}\n")
+    assert json.loads(run(capfd, "enumerate", "--links", links, "--mobility", mobility, "--json")[1]) == []

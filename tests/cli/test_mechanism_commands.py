@@ -137,3 +137,8 @@ def test_the_limit_of_a_gallery_is_that_of_the_assortment(capsys, tmp_path):
     assert (status, "6,856 chains are too many for one page" in err) == (2, True)
     status, _, err = run(capsys, "gallery", "--links", "12", "--assortment", "6,6", "-o", str(page))
     assert (status, "there are no such chains" in err) == (2, True)
+
+
+def test_a_search_without_tries_is_refused_by_the_name_of_the_option(capsys):
+    status, _, error = run(capsys, "realise", "quad", "--tries", "0")
+    assert (status, error) == (2, "gruebler realise: --tries: expected a whole number of at least 1, but found 0\n")

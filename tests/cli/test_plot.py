@@ -16,7 +16,7 @@ def run(capsys, *arguments):
     ("arguments", "title"),
     [
         ([FOUR_BAR], "four-bar linkage: transfer functions of rocker"),
-        ([FOUR_BAR, "--output", "coupler", "--lang", "de"], "Viergelenkgetriebe: Übertragungsfunktionen von coupler"),
+        ([FOUR_BAR, "--output", "coupler", "--lang", "de"], "Viergelenkgetriebe: Übertragungsfunktionen von Koppel"),
         ([FOUR_BAR, "--kind", "transmission"], "four-bar linkage: transmission angle of rocker"),
         (["conchoid", "--kind", "curves"], "coupler curves"),
         (

@@ -161,3 +161,10 @@ def test_mistakes_are_one_sentence(capsys, command, arguments, words):
     with pytest.raises(GrueblerError, match=words) as caught:
         run(capsys, command, **arguments)
     assert "\n" not in str(caught.value)
+
+
+def test_a_list_without_names_has_no_column_for_them(capsys):
+    """Of six links none of the groups has the name of a form, of four links one has."""
+    assert run(capsys, assur, list=6)[1].splitlines()[0].split() == ["class", "order", "group"]
+    _, out = run(capsys, assur, list=4)
+    assert [line.split()[0] for line in out.splitlines()] == ["form", "3-RR", "IV"]

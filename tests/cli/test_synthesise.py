@@ -58,6 +58,23 @@ def test_an_expression_and_its_minimax_optimum(capsys):
     assert "Minimax optimum: largest error 0.0036" in capsys.readouterr().out
 
 
+def test_a_function_file_gives_the_same_optimum(tmp_path, capsys):
+    path = tmp_path / "log.toml"
+    path.write_text('function = "log10(x)"\ninterval = [1, 2]\ninput_swing = 60\noutput_swing = 60\n', encoding="utf-8")
+    assert main(["synthesise", "function", str(path), "--minimax"]) == 0
+    assert "Minimax optimum: largest error 0.0036" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("options", ["--swing 60 --crank-angle 200", "--stroke 50 --time-ratio 1"])
+def test_a_page_of_dead_centres_has_the_construction_and_moving_designs(options, tmp_path):
+    page = tmp_path / "page.html"
+    assert main(["synthesise", "dead-centres", *options.split(), "--number", "3", "--draw", str(page)]) == 0
+    text = page.read_text(encoding="utf-8")
+    assert all(f"{step}. " in text for step in range(1, 6))
+    assert text.count("<svg") >= 8
+    assert "<animateTransform" in text
+
+
 def test_dead_centres_in_german(capsys):
     assert main(["synthesise", "dead-centres", "--swing", "60", "--crank-angle", "200", "--lang", "de"]) == 0
     assert "unendlich viele" in capsys.readouterr().out

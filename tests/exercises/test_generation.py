@@ -142,7 +142,7 @@ def test_words_as_answers():
 @pytest.mark.parametrize(
     ("answers", "words"),
     [
-        ({"HH": "40"}, "does not ask for 'HH'; did you mean 'H'"),
+        ({"HH": "40"}, r"does not ask for 'HH' \(did you mean 'H'\?\)"),
         ({"H": "forty"}, "expected a number in mm, not 'forty'"),
         ({"H": "nan"}, "expected a number"),
         ({"H": "inf"}, "expected a number"),

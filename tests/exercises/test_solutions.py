@@ -5,6 +5,7 @@ reference.json was computed independently of this project from the documents 000
 
 import json
 import re
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from gruebler.catalog import check_exercise
+from gruebler.catalog import check_exercise, entries, exercises
 from gruebler.errors import CatalogError, LinkageError
 from gruebler.exercises import (
     all_exercises,
@@ -31,6 +32,7 @@ from gruebler.exercises import (
     transmission_angle,
     velocities,
 )
+from gruebler.exercises.messages import source_text
 from gruebler.exercises.solution import fill_template, number
 from gruebler.formats import Exercise
 from gruebler.formats.catalog_records import Question
@@ -634,3 +636,27 @@ def test_lines_begin_with_capitals():
     for task in all_exercises().values():
         for line in solution_text(task, solve(task), "de").split("Lösungsweg:")[1].splitlines():
             assert not re.match(r"\s*(\d+\. |  )[a-zäöü][a-zäöüß]{2,}\b", line), line
+
+
+def test_sources_of_the_whole_catalog_are_translated():
+    """What is left of a source are numbers, punctuation and the words of the German catalog."""
+    left = Counter[str]()
+    for record in [*entries().values(), *exercises().values()]:
+        german = source_text(record.source, "de")
+        assert re.sub(r"\D", "", german) == re.sub(r"\D", "", record.source)
+        left.update(re.findall(r"[^\W\d_]{3,}", german))
+    english = {
+        "section",
+        "sections",
+        "exercise",
+        "figure",
+        "chapter",
+        "variant",
+        "first",
+        "second",
+        "not",
+        "and",
+        "the",
+    }
+    assert english.isdisjoint(left)
+    assert {"Bild", "Abschnitt", "Aufgabe", "Kapitel", "Variante"} <= set(left)

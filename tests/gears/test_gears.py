@@ -270,7 +270,7 @@ def test_words_in_both_languages():
         ("screw a b", "expected 'screw SPINDLE"),
         ("rack a:3 b:2", "a link that slides"),
         ("a:1 b:2 on", "after 'on'"),
-        ("a:1 b:2; c=1", "no moving link 'c'"),
+        ("a:1 b:2; c=1", "no moving link 'c'; its links are a, b"),
         ("a:1 b:2; a=1 a=2", "given twice"),
         ("a:1 b:2 lead=3", "no option 'lead'"),
         ("rack p:3 s; screw q s lead=2", "by its pitch"),
@@ -394,3 +394,7 @@ def test_ratios_with_thousands_of_digits_are_said_in_six():
     assert fraction_text(found) == "1e+5000"
     assert fraction_text(1 / found) == "1e-5000"
     assert "Speeds: 1e+5000 w0 - w5000 = 0" in explain_train(reading)
+
+
+def test_one_mesh_is_not_several():
+    assert explain_train(read_train("sun:24 planet:18")).startswith("2 moving links, 1 independent mesh: mobility 1.")

@@ -139,8 +139,8 @@ def test_a_spent_budget_is_said():
     found = realise(mechanism, budget=1, seed=15)
     assert not found.found
     assert found.linkage is None
-    assert re.search(r"3 drawings tried \(seed 15\)", found.message())
-    assert "3 Zeichnungen" in found.message("de")
+    assert re.search(r"3 layouts tried \(seed 15\)", found.message())
+    assert "3 Entwürfe" in found.message("de")
     check(realise(mechanism, budget=600, seed=15))
 
 

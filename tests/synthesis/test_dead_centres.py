@@ -75,7 +75,7 @@ def test_the_design_really_moves_so():
     design = found.designs[0]
     made = measures(design.linkage)
     assert made.time_ratio == pytest.approx(1.2, abs=1e-6)
-    assert "infinitely many" in found.notes[0]
+    assert "infinitely many" in str(found.notes[0])
     assert [d.verdict.transmission for d in found.designs] == sorted(
         (d.verdict.transmission for d in found.designs), reverse=True
     )

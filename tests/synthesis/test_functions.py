@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from gruebler.errors import SynthesisError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
-from gruebler.synthesis import FunctionTask, synthesise_function
+from gruebler.synthesis import FunctionTask, function_task, synthesise_function
+from gruebler.synthesis.coordination import Coordination
 from gruebler.synthesis.formulas import Formula, FunctionLaw, chebyshev_spacing
-from gruebler.synthesis.functions import Coordination, _errors, _moved, function_task, minimax, structural_error
+from gruebler.synthesis.structural_error import _errors, _moved, minimax, structural_error
 
 lengths = st.floats(0.5, 3.0)
 

@@ -9,9 +9,11 @@ from hypothesis import strategies as st
 from gruebler.errors import SynthesisError
 from gruebler.synthesis import (
     DeadCentreTask,
+    FunctionLaw,
     FunctionTask,
     PathTask,
     PositionTask,
+    function_task,
     read_task,
     task_from_json,
     task_to_json,
@@ -20,11 +22,12 @@ from gruebler.synthesis import (
 
 numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
 angles = st.floats(-math.pi, math.pi)
+swings = st.floats(0.1, 2)
 
 
 @st.composite
 def tasks(draw):
-    kind = draw(st.integers(0, 4))
+    kind = draw(st.integers(0, 5))
     count = draw(st.integers(2, 6))
     xs = [k * 10 + draw(st.floats(-4, 4)) for k in range(count)]
     ys = draw(st.lists(numbers, min_size=count, max_size=count))
@@ -38,12 +41,20 @@ def tasks(draw):
         return PathTask(points, crank_angles=tuple(0.3 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)))
     if kind == 3:
         return FunctionTask([0.1 * k + 0.01 * draw(st.floats(0, 1)) for k in range(count)], turned)
+    if kind == 4:
+        starts = draw(st.tuples(*[st.none() | angles] * 2))
+        law = FunctionLaw("log10(x) + x^2", (1, draw(st.floats(1.5, 3))), draw(swings), draw(swings), *starts)
+        return function_task(law, draw(st.integers(2, 5)), output=draw(st.sampled_from(["angle", "travel"])))
     return DeadCentreTask(swing=draw(st.floats(0.01, 3)), time_ratio=draw(st.floats(1, 5)))
 
 
 @given(tasks(), st.sampled_from(["toml", "json", "csv"]))
 def test_files_give_the_task_back(tmp_path_factory, task, form):
     path = tmp_path_factory.mktemp("task") / f"task.{form}"
+    if form == "csv" and getattr(task, "law", None) is not None:
+        with pytest.raises(SynthesisError, match="a CSV file has no columns for function"):
+            write_task(path, task)
+        return
     write_task(path, task)
     assert read_task(path) == task
     assert task_from_json(task_to_json(task)) == task
@@ -64,6 +75,8 @@ def test_files_give_the_task_back(tmp_path_factory, task, form):
         (lambda: DeadCentreTask(swing=1, time_ratio=0.9), "at least 1"),
         (lambda: DeadCentreTask(swing=4, time_ratio=1), "between 0 and 180"),
         (lambda: PathTask([(0, 0), (1, float("nan"))]), "point 2"),
+        (lambda: function_task(FunctionLaw("x", (0, 1), 1, 1), 9), "precision_points: expected 2 to 5"),
+        (lambda: FunctionTask([0, 1], [0, 1], law=FunctionLaw("x", (0, 1), 1, 1)), "not those of the function"),
     ],
 )
 def test_bad_tasks_are_refused_in_one_sentence(make, sentence):
@@ -81,6 +94,14 @@ def test_bad_tasks_are_refused_in_one_sentence(make, sentence):
         ("a.toml", "position = [[0,0,0]]", "a task has positions, points"),
         ("a.toml", "positions = [[0,0,0],[1,1]]", "positions 2"),
         ("a.json", '{"points": [[0, 0], [1, 1]], "closd": true}', "did you mean 'closed'"),
+        ("a.toml", 'function = "log10(y)"\ninterval = [1, 2]\ninput_swing = 60\noutput_swing = 60', "unknown name 'y'"),
+        ("a.toml", 'function = "x"\ninterval = [1, 2, 3]\ninput_swing = 60\noutput_swing = 60', "interval"),
+        (
+            "a.toml",
+            'function = "x"\ninterval = [1, 2]\ninput_swing = "wide"\noutput_swing = 60',
+            "input_swing: expected",
+        ),
+        ("a.toml", 'function = "x"\ninterval = [1, 2]\noutput_swing = 60', "input_swing"),
         ("a.txt", "", ".toml, .json or .csv"),
     ],
 )

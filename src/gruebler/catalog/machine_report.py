@@ -13,7 +13,7 @@ from gruebler.catalog.feature_query import entry_features, entry_mechanism, feat
 from gruebler.catalog.features import AccessFeatures
 from gruebler.chain.pairs import Alphabet
 from gruebler.errors import LinkageError
-from gruebler.formats.catalog_records import Entry
+from gruebler.formats.catalog_records import Entry, source_text
 from gruebler.linkages import Linkage
 from gruebler.mechanism import DriveReport, Mechanism, check_drives
 from gruebler.mobility import MobilityReport, mobility_report
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 __all__ = ["GuidedPoint", "MachineReport", "Partial", "machine_report"]
 
 _ROWS = 361
+_ROUNDING = 1e-9
+# A partial derivative far below one length of the machine, or one radian, for each of the same is rounding: an output
+# at rest computes to some 1e-15, the slowest gear of a machine that anybody draws is a thousandth.
 
 
 class Partial(NamedTuple):
@@ -97,7 +100,9 @@ class MachineReport(Brief):
             "freedoms": None if self.freedoms is None else self.freedoms.to_json(),
             "features": features_to_json(self.features),
             "drives_fix_the_motion": None if self.drives is None else self.drives.fixed,
-            "dimensions": None if sizes is None else {"assumed": sizes.assumed, "source": sizes.source},
+            "dimensions": None
+            if sizes is None
+            else {"assumed": sizes.assumed, "source": source_text(sizes.source, LANGUAGES[0])},
             "measures": None if self.measures is None else self.measures.to_json(),
             "partials": [partial._asdict() for partial in self.partials],
             "points": [point._asdict() for point in self.points],
@@ -168,8 +173,12 @@ def _partials(linkage: Linkage) -> tuple[Partial, ...]:
         return ()
     reference = pose_at_reference(plan, np.zeros(len(names))).drives
     output = find_output(linkage)
+    far = 1.0 if output.turning else linkage.size
+    each = [1.0 if drive.turning else linkage.size for drive in linkage.mechanism.drives]
     values = [output.values(move(linkage, [reference], speed=[unit], order=1), 1)[0] for unit in np.eye(len(names))]
-    return tuple(Partial(output.name, *row) for row in zip(names, reference.tolist(), map(float, values), strict=True))
+    rest = [abs(value) * drive <= _ROUNDING * far for value, drive in zip(values, each, strict=True)]
+    rates = [0.0 if still else float(value) for value, still in zip(values, rest, strict=True)]
+    return tuple(Partial(output.name, *row) for row in zip(names, reference.tolist(), rates, strict=True))
 
 
 def _shown_transmission(entry: Entry, measured: Measures | None) -> tuple[float, float] | None:
@@ -219,6 +228,7 @@ _TEXTS = {
     "range": message("Shown between {low:g}{unit} and {high:g}{unit}."),
     "shown": message("In the range shown the transmission angle is {small:.4g}° to {large:.4g}°."),
     "partial": message("As drawn, {output} goes by {ratio:.6g} for each unit of {drive} (angles in radians)."),
+    "rest": message("As drawn, {output} rests while {drive} moves."),
     "closed": message("{name} on {link}: a closed path {length:.6g} {unit} long, {width:.6g} wide, {height:.6g} high."),
     "open": message(
         "{name} on {link}: a path {length:.6g} {unit} long between the limits, {width:.6g} wide, {height:.6g} high."
@@ -240,7 +250,7 @@ def _sections(report: MachineReport, lang: str) -> Iterator[tuple[str, list[str]
         names = ", ".join(report.mechanism.drive_names(alphabet))
         usual = report.moves == report.mobility.generic
         yield "drive", [names, report.drives.explain(lang) if usual else say("special", moves=report.moves)]
-    if lines := _dimension_lines(report.entry, say):
+    if lines := _dimension_lines(report.entry, say, lang):
         yield "dimensions", lines
     if report.measures is not None:
         lines = report.measures.explain(lang).splitlines()
@@ -252,7 +262,10 @@ def _sections(report: MachineReport, lang: str) -> Iterator[tuple[str, list[str]
         partials = zip(report.partials, report.mechanism.drive_names(alphabet), strict=True)
         yield (
             "measures",
-            [say("partial", output=partial.output, ratio=partial.value, drive=name) for partial, name in partials],
+            [
+                say("partial" if partial.value else "rest", output=partial.output, ratio=partial.value, drive=name)
+                for partial, name in partials
+            ],
         )
     if report.measures is not None and report.points:
         unit = report.measures.linkage.unit
@@ -269,11 +282,14 @@ def _moves_lines(report: MachineReport, say: Any, lang: str) -> list[str]:
     return [say("claimed", mobility=claims.mobility, reason=claims.reason or "")]
 
 
-def _dimension_lines(entry: Entry, say: Any) -> list[str]:
+def _dimension_lines(entry: Entry, say: Any, lang: str) -> list[str]:
     sizes = entry.dimensions or entry.screws
     if sizes is None:
         return []
-    lines = [say("source", source=sizes.source) if sizes.source else say("assumed"), say("unit", unit=sizes.unit)]
+    lines = [
+        say("source", source=source_text(sizes.source, lang)) if sizes.source else say("assumed"),
+        say("unit", unit=sizes.unit),
+    ]
     if entry.dimensions is None:
         return [*lines, say("screws")]
     if entry.dimensions.range is not None:

@@ -13,19 +13,30 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from gruebler.chain.pairs import PAIRS, Alphabet, Pair, Space, read_symbols
 from gruebler.errors import NotationError, PairError
 from gruebler.text import Message, message
 
-__all__ = ["joint_text", "link_name", "link_text", "read", "space_of", "split_links", "symbols_for", "write"]
+__all__ = [
+    "joint_text",
+    "link_name",
+    "link_text",
+    "read",
+    "renamed_links",
+    "space_of",
+    "split_links",
+    "symbols_for",
+    "write",
+]
 
 _BARE = r"""[^\s()\-",:;]+"""
 _NAME = rf'(?:"(?:[^"\\]|\\.)*"|{_BARE})'
 _SYMBOL = re.compile(r"\s*[,;]?\s*([^\W\d]\w*)\s*\(\s*")
 _LINK = re.compile(rf"({_NAME})\s*")
 _BLANKS = re.compile(r"\s*")
+_IN_JOINT = re.compile(rf"(?<=[(-])\s*({_NAME})\s*(?=[-)])")
 _PREFIX = re.compile(r"\s*([a-z]\w*)\s*:", re.IGNORECASE)
 
 
@@ -153,6 +164,27 @@ def link_text(name: str) -> str:
     ('crank', '"lower wishbone"')
     """
     return name if re.fullmatch(_BARE, name) else json.dumps(name, ensure_ascii=False)
+
+
+def renamed_links(text: str, names: Mapping[str, str]) -> str:
+    """A link, the joints of a chain, a driven freedom, or a point ``LINK:X,Y``, with other names for the links.
+
+    >>> renamed_links("R(a-b) R(b-c)", {"a": "base plate", "b": "arm"}), renamed_links("b:5,-2", {"b": "arm"})
+    ('R("base plate"-arm) R(arm-c)', 'arm:5,-2')
+    """
+    if text in names:
+        return names[text]
+    start, colon, end = text.rpartition(":")
+    if colon and start in names:
+        return f"{names[start]}:{end}"
+    if colon and start.endswith(")") and (links := split_links(end)) and not set(links) - set(names):
+        text = f"{start}:{'-'.join(link_text(names[link]) for link in links)}"  # the driven part of a multiple joint
+
+    def name(match: re.Match[str]) -> str:
+        link = _unquoted(match[1])
+        return link_text(names[link]) if link in names else match[0]
+
+    return _IN_JOINT.sub(name, text)
 
 
 def symbols_for(pairs: Iterable[Pair], space: Space, alphabet: Alphabet = Alphabet.INTERNATIONAL) -> dict[Pair, str]:

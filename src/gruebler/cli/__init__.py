@@ -15,7 +15,7 @@ from pathlib import Path
 from gruebler.cli.commands import command, command_names, overview
 from gruebler.cli.parser import argparse_in_language, wanted_language
 from gruebler.errors import GrueblerError, shortened
-from gruebler.text import LANGUAGES, error_in_language, translate
+from gruebler.text import LANGUAGES, error_in_language, reason_of, translate
 
 __all__ = ["main"]
 
@@ -38,7 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         _forget_output()
         return 0
     except OSError as error:
-        problem = error.strerror or str(error)
+        problem = reason_of(error)
         if error.filename is not None:
             file = shortened(repr(error.filename))
             return _complain(words, translate("{file} cannot be opened: {problem}", lang, file=file, problem=problem))
@@ -56,11 +56,14 @@ def _run(words: list[str], lang: str) -> int:
         print(f"gruebler {__version__}")
         return 0
     chosen = command(words[0], words[1:])
+    parser = chosen.parser(lang)
     with argparse_in_language(lang):
-        arguments = chosen.parser(lang).parse_args(words[1:])
+        arguments = parser.parse_args(words[1:])
     from gruebler.cli.compiling_progress import show_compiling
+    from gruebler.cli.link_names import spell_links_alike
     from gruebler.cli.printed_file import printed_to_file
 
+    spell_links_alike(parser, arguments)
     show_compiling(lang)
     try:
         with printed_to_file(arguments):

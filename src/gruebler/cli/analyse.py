@@ -16,6 +16,7 @@ from gruebler.analysis.table import motion_table
 from gruebler.arrays import Reals
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.drive_rows import add_range, default_rows, given_rows, turning_drives
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of, with_points
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
@@ -28,7 +29,7 @@ from gruebler.kinematics import Motion, move
 from gruebler.kinematics.branches import read_branch
 from gruebler.kinematics.solve import all_branches, cached_plan
 from gruebler.linkages import Linkage
-from gruebler.text import LANGUAGES, Message, error_in_language, joined, message, translate
+from gruebler.text import Message, error_in_language, joined, message, translate
 
 if TYPE_CHECKING:
     from gruebler.analysis.measures import Measures
@@ -109,7 +110,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measures and table; 1 if the linkage cannot be assembled, or not be moved all the way."""
-    linkage, shown_range = linkage_of(arguments.linkage)
+    linkage, shown_range = linkage_of(arguments.linkage, language_of_names(arguments))
     linkage = with_points(linkage, arguments.point)
     turning = turning_drives(linkage)
     plan = cached_plan(linkage)
@@ -142,7 +143,7 @@ def run(arguments: argparse.Namespace) -> int:
         else:
             motion = move(linkage, given, branch=arguments.branch)
         table = (
-            motion_table(motion, outputs, arguments.point, lang=_language_of_names(arguments)) if len(motion) else None
+            motion_table(motion, outputs, arguments.point, lang=language_of_names(arguments)) if len(motion) else None
         )
         return _report(linkage, None, motion, list(table or ()), arguments)
     try:
@@ -166,7 +167,7 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.point,
             rates=(speeds[0], accelerations[0], jerks[0]) if speeds else None,
             transmission=None if measures.transmission is None else measures.output.name,
-            lang=_language_of_names(arguments),
+            lang=language_of_names(arguments),
         )
         columns = [*table, *_geometry(motion, outputs, arguments)]
     return _report(linkage, measures, motion, [column.without(before) for column in columns], arguments)
@@ -234,17 +235,12 @@ def _geometry(motion: Motion, outputs: Sequence[Output], arguments: argparse.Nam
     """The columns of --poles and --curvature."""
     from gruebler.geometry.columns import curvature_columns, pole_columns
 
-    columns = pole_columns(motion, _language_of_names(arguments)) if arguments.poles and not _listed(arguments) else []
+    columns = pole_columns(motion, language_of_names(arguments)) if arguments.poles and not _listed(arguments) else []
     if arguments.curvature:
         columns += curvature_columns(
-            motion, arguments.point, [output.link for output in outputs], _language_of_names(arguments)
+            motion, arguments.point, [output.link for output in outputs], language_of_names(arguments)
         )
     return columns
-
-
-def _language_of_names(arguments: argparse.Namespace) -> str:
-    """The names of columns in JSON are the same in every language."""
-    return LANGUAGES[0] if arguments.json else str(arguments.lang)
 
 
 def _listed(arguments: argparse.Namespace) -> bool:

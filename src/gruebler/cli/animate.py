@@ -41,9 +41,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the animation into a file, or as SVG on standard output."""
     dark = arguments.dark
     suffix = picture_suffix(arguments.out, dark, _SUFFIXES)
-    linkage, between = linkage_and_range(arguments.linkage)
+    linkage, between = linkage_and_range(arguments.linkage, arguments.lang)
     linkage = with_points(linkage, arguments.curve)
-    record = entry_of(arguments.linkage)
+    record = entry_of(arguments.linkage, arguments.lang)
     options = AnimationOptions(
         branch=arguments.branch,
         between=between,

@@ -10,6 +10,7 @@ from gruebler.assur.forms import roman
 from gruebler.assur.listing import expected_seconds_of_groups
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import mechanism_of
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.long_work import ask_before, progress
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -56,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
         groups = list(progress(assur_groups(arguments.list), _PROGRESS.in_language(arguments.lang)))
         _print([_group_item(group) for group in groups], arguments, lambda: _list(groups, arguments.lang))
         return 0
-    mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive)
+    mechanism = mechanism_of(arguments.mechanism, arguments.frame, arguments.drive, language_of_names(arguments))
     if not mechanism.drives:
         choices = list(drive_choices(mechanism.chain, mechanism.frame, anywhere=arguments.anywhere))
         items = [
@@ -132,7 +133,8 @@ def _list(groups: list[AssurGroup], lang: str) -> None:
         named = "" if form == group.code else form
         rows.append((named, roman(group.class_number), str(group.order), group.chain.text(alphabet)))
     headers = [translate("form", lang), translate("class", lang), translate("order", lang), translate("group", lang)]
-    print_table(headers, rows, numbers=(2,))
+    first = 0 if any(form for form, *_ in rows) else 1  # groups of more than four links have no names
+    print_table(headers[first:], [row[first:] for row in rows], numbers=(2 - first,))
 
 
 def _compare(choices: list[Decomposition], lang: str) -> None:

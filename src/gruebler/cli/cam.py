@@ -30,7 +30,7 @@ from gruebler.cli.tables import print_table
 from gruebler.cli.turn_table import print_turn, records, turn_degrees
 from gruebler.errors import GrueblerError
 from gruebler.events import Extremum
-from gruebler.text import Message, message, number
+from gruebler.text import Message, message, number, reason_of
 
 __all__ = ["add", "run"]
 
@@ -175,8 +175,7 @@ def _contour_points(path: Path) -> list[tuple[float, float]]:
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        problem = getattr(error, "strerror", None) or error
-        raise GrueblerError("{path}: cannot be read: {problem}", path=path, problem=problem) from None
+        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
     points = []
     for line_number, line in enumerate(lines, 1):
         cells = line.partition("#")[0].replace(",", " ").replace(";", " ").split()

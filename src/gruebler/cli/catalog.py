@@ -15,6 +15,7 @@ from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
 from gruebler.documents import infinities_as_words
 from gruebler.formats import Entry, Exercise
+from gruebler.formats.catalog_records import source_text
 from gruebler.mechanism import Mechanism
 from gruebler.mobility import counted
 from gruebler.text import translate
@@ -78,7 +79,7 @@ def _described(record: Entry | Exercise, arguments: argparse.Namespace) -> str:
     if arguments.full and isinstance(record, Entry):
         from gruebler.catalog.machine_report import machine_report
 
-        text += "\n\n" + machine_report(record).explain(arguments.lang)
+        text += "\n\n" + machine_report(record.in_language(arguments.lang)).explain(arguments.lang)
     return text
 
 
@@ -91,16 +92,26 @@ def _list(arguments: argparse.Namespace) -> None:
     rows = []
     for machine in machines:
         chain = machine.chain()
-        rows.append((machine.id, machine.name.in_language(lang), str(chain.n), str(counted(chain)), machine.source))
+        rows.append(
+            (
+                machine.id,
+                machine.name.in_language(lang),
+                str(chain.n),
+                str(counted(chain)),
+                source_text(machine.source, lang),
+            )
+        )
     id, name, source = translate("id", lang), translate("name", lang), translate("source", lang)
     print_table([id, name, "n", "F", source], rows, numbers=(2, 3))
     print("\n" + translate("Exercises on these machines (gruebler check ID, gruebler exercise show ID):", lang))
-    print_table([id, name, source], [(task.id, task.name.in_language(lang), task.source) for task in tasks])
+    print_table(
+        [id, name, source], [(task.id, task.name.in_language(lang), source_text(task.source, lang)) for task in tasks]
+    )
 
 
 def _shown(record: Entry | Exercise, lang: str) -> str:
     title = f"{record.name.in_language(lang)} ({record.id})"
-    lines = [title, "-" * len(title), translate("Source: {source}", lang, source=record.source)]
+    lines = [title, "-" * len(title), translate("Source: {source}", lang, source=source_text(record.source, lang))]
     if isinstance(record, Exercise):
         lines.append(translate("Task: {task}", lang, task=record.task.in_language(lang)))
         lines += [
@@ -108,9 +119,10 @@ def _shown(record: Entry | Exercise, lang: str) -> str:
             for case in record.cases
         ]
         return "\n".join(lines)
+    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
+    record = record.in_language(lang)
     chain, alphabet = record.chain(), Alphabet.of_language(lang)
     drives = Mechanism(chain, record.frame or chain.links[0], record.drives).drive_names(alphabet)
-    names = ", ".join(f"{link} = {german}" if link != german else link for link, german in record.links.items())
     lines += [
         translate("Chain: {chain}", lang, chain=chain.text(alphabet)),
         translate("Links: {links}", lang, links=names if lang == "de" else ", ".join(record.links)),

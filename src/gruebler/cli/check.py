@@ -12,6 +12,7 @@ from typing import Any
 from gruebler.catalog import CheckedEntry, check_all, check_entry, check_exercise, entries, entry, exercises
 from gruebler.chain import Chain
 from gruebler.cli.drive_rows import pose_of
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import is_lengths, linkage_of
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
@@ -208,7 +209,7 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]
     if word in exercises() and not Path(word).is_file():
         yield from check_exercise(exercises()[word])
         return
-    for structure in _structures(word, arguments.space):
+    for structure in _structures(word, arguments.space, language_of_names(arguments)):
         try:
             yield _checked_structure(structure, arguments)
         except GrueblerError as error:
@@ -217,7 +218,7 @@ def _checked(word: str, arguments: argparse.Namespace) -> Iterator[CheckedEntry]
             raise GrueblerError("{place}: {error}", place=structure.place, error=error) from None
 
 
-def _structures(word: str, space: str | None) -> Iterator[Structure]:
+def _structures(word: str, space: str | None, lang: str) -> Iterator[Structure]:
     path = Path(word)
     if word == "-":
         text = sys.stdin.read()
@@ -230,9 +231,9 @@ def _structures(word: str, space: str | None) -> Iterator[Structure]:
     elif path.is_file() or path.suffix.lower() in STRUCTURE_ENDINGS:
         yield from read_structures(path, space)
     elif is_lengths(word):
-        yield Structure(word, "", linkage_of(word)[0])
+        yield Structure(word, "", linkage_of(word, lang)[0])
     else:
-        yield Structure(word, "", entry(word))
+        yield Structure(word, "", entry(word).in_language(lang))
 
 
 def _checked_structure(structure: Structure, arguments: argparse.Namespace) -> CheckedEntry:

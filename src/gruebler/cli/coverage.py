@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import io
+import math
+import re
 import shlex
 import sys
 from collections.abc import Iterator, Sequence
@@ -24,7 +26,17 @@ from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError
 from gruebler.text import Message, message, translate
 
-__all__ = ["Outcome", "Row", "add", "coverage_rows", "execute", "find_function", "run"]
+__all__ = [
+    "Outcome",
+    "Row",
+    "add",
+    "coverage_rows",
+    "execute",
+    "expected_parts",
+    "find_function",
+    "missing_parts",
+    "run",
+]
 
 
 class Concept(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):
@@ -51,6 +63,8 @@ class Coverage(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=
 
     concepts: tuple[Concept, ...]
     machines: tuple[Machine, ...]
+    expected: dict[str, tuple[str, ...]]
+    """For each command, parts of what it prints; `missing_parts` compares them."""
 
 
 class Row(NamedTuple):
@@ -73,25 +87,64 @@ class Outcome(NamedTuple):
     seconds: float
     said: str
     """The last line of its messages."""
+    missing: tuple[str, ...]
+    """What it should have printed, but did not."""
 
     @property
     def good(self) -> bool:
-        """Whether it ended as it is to."""
-        return self.status == self.wanted
+        """Whether it ended as it is to, and printed what it is to."""
+        return self.status == self.wanted and not self.missing
 
 
 @cache
-def coverage_rows() -> tuple[Row, ...]:
-    """The concepts, then the machines; every machine of the catalog is there, at least with nothing."""
+def _table() -> Coverage:
     path: Path = catalog_folder() / "coverage.toml"
 
     def fail(text: Message) -> CatalogError:
         return CatalogError("{path}: {problem}", path=path, problem=text)
 
     table = convert_document(load_document(path, fail), Coverage, fail)
-    told = {machine.id: machine.commands for machine in table.machines}
-    if strange := sorted(set(told) - set(entries())):
+    if strange := sorted({machine.id for machine in table.machines} - set(entries())):
         raise fail(message("machines: the catalog has no entry {machine!r}", machine=strange[0]))
+    return table
+
+
+def expected_parts(command: str) -> tuple[str, ...]:
+    """Parts of what a command of the table prints."""
+    return _table().expected.get(command, ())
+
+
+def missing_parts(output: str, parts: Sequence[str]) -> list[str]:
+    """The parts that an output does not have, word by word; numbers with decimals may differ by a tenth of a per mille.
+
+    >>> missing_parts("It swings through 79.84591°.", ["swings through 79.846°", "It turns"])
+    ['It turns']
+    """
+    words = _WORD.findall(output)
+    return [part for part in parts if not _has_part(words, _WORD.findall(part))]
+
+
+_WORD = re.compile(r"\d+(?:[.,]\d+)?(?:e[-+]\d+)?|[^\s\d]")
+_EXACTNESS = 1e-4  # relative: outputs have six digits and more, so that roundings of the last are no matter
+
+
+def _has_part(words: Sequence[str], part: Sequence[str]) -> bool:
+    places = (k for k in range(len(words) - len(part) + 1) if _same(words[k], part[0]))
+    return any(all(map(_same, words[k:], part)) for k in places)
+
+
+def _same(word: str, wanted: str) -> bool:
+    if word == wanted or wanted.isdecimal() or not (wanted[0].isdecimal() and word[0].isdecimal()):
+        return word == wanted
+    numbers = (float(text.replace(",", ".")) for text in (word, wanted))
+    return math.isclose(*numbers, rel_tol=_EXACTNESS)
+
+
+@cache
+def coverage_rows() -> tuple[Row, ...]:
+    """The concepts, then the machines; every machine of the catalog is there, at least with nothing."""
+    table = _table()
+    commands_of = {machine.id: machine.commands for machine in table.machines}
     concepts = [
         Row(
             concept.where,
@@ -103,7 +156,7 @@ def coverage_rows() -> tuple[Row, ...]:
         for concept in table.concepts
     ]
     machines = [
-        Row(entry.id, entry.name.en, entry.name.de, tuple((c, 0) for c in told.get(entry.id, ())), ())
+        Row(entry.id, entry.name.en, entry.name.de, tuple((c, 0) for c in commands_of.get(entry.id, ())), ())
         for entry in entries().values()
     ]
     return (*concepts, *machines)
@@ -134,9 +187,12 @@ def execute(command: str, wanted: int = 0) -> Outcome:
             status = main(shlex.split(command))
         except SystemExit as stop:
             status = stop.code if isinstance(stop.code, int) else 2
-    err.seek(0)
-    lines = err.read().strip().splitlines()
-    return Outcome(command, wanted, status, monotonic() - begun, lines[-1] if lines else "")
+    for stream in (out, err):
+        stream.seek(0)
+    printed, said = out.read(), err.read()
+    lines = said.strip().splitlines()
+    missing = missing_parts(printed if wanted == 0 else said, expected_parts(command))
+    return Outcome(command, wanted, status, monotonic() - begun, lines[-1] if lines else "", tuple(missing))
 
 
 # --- the command -----------------------------------------------------------------------------------
@@ -192,6 +248,7 @@ def _document(row: Row, outcomes: dict[str, Outcome], absent: set[str]) -> dict[
         entry: dict[str, Any] = {"command": f"gruebler {command}", "wanted": wanted}
         if (outcome := outcomes.get(command)) is not None:
             entry |= {"status": outcome.status, "seconds": round(outcome.seconds, 3), "said": outcome.said}
+            entry["missing"] = list(outcome.missing)
         commands.append(entry)
     functions = [{"function": name} | ({"there": name not in absent} if outcomes else {}) for name in row.functions]
     return {"where": row.where, "en": row.en, "de": row.de, "commands": commands, "functions": functions}
@@ -244,6 +301,10 @@ def _print(
 def _command_text(command: str, outcome: Outcome | None, lang: str) -> str:
     if outcome is None or outcome.good:
         return f"gruebler {command}"
+    if outcome.status == outcome.wanted:
+        return translate(
+            "gruebler {command}  (does not print {part!r})", lang, command=command, part=outcome.missing[0]
+        )
     return translate(
         "gruebler {command}  (status {status} instead of {wanted}: {output})",
         lang,

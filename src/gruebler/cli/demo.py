@@ -27,5 +27,5 @@ def run(arguments: argparse.Namespace) -> int:
     checked_entries = check_all()
     print_checked(checked_entries, arguments.lang)
     for id in _EXPLAINED:
-        print_text("\n" + explanation(check_entry(entry(id)), arguments.lang))
+        print_text("\n" + explanation(check_entry(entry(id).in_language(arguments.lang)), arguments.lang))
     return int(any(not checked_entry.holds for checked_entry in checked_entries))

@@ -168,12 +168,12 @@ def _figure(arguments: argparse.Namespace) -> Figure:
     has_sizes = _has_sizes(arguments.chain)
     if view is None and (has_sizes or asked):
         return _to_scale(arguments, moving)
-    record = entry_of(arguments.chain)
+    record = entry_of(arguments.chain, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
     if has_sizes:
-        thing: Chain | Mechanism = linkage_of(arguments.chain)[0].mechanism
+        thing: Chain | Mechanism = linkage_of(arguments.chain, arguments.lang)[0].mechanism
     else:
-        thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive)
+        thing = subject(arguments.chain, arguments.space, arguments.frame, arguments.drive, arguments.lang)
     if view is not None:
         return view(thing, lang=arguments.lang, name=name)
     return draw(thing, labels=arguments.labels, lang=arguments.lang, name=name, names=german(record, arguments.lang))
@@ -187,9 +187,9 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
             raise GrueblerError(
                 "a linkage with dimensions has its own frame and drives; leave out --{option}", option=option
             )
-    linkage, between = linkage_and_range(arguments.chain)
+    linkage, between = linkage_and_range(arguments.chain, arguments.lang)
     linkage = with_points(linkage, moving["curve"])
-    record = entry_of(arguments.chain)
+    record = entry_of(arguments.chain, arguments.lang)
     return draw_linkage(
         linkage,
         pose_of(moving["at"], linkage.mechanism) if moving["at"] else None,
@@ -206,9 +206,9 @@ def _to_scale(arguments: argparse.Namespace, moving: Mapping[str, Any]) -> Figur
     )
 
 
-def linkage_and_range(word: str) -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_and_range(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which it is shown, in radians where the drive turns."""
-    linkage, shown = linkage_of(word)
+    linkage, shown = linkage_of(word, lang)
     drives = linkage.mechanism.drives
     if shown is None or not drives or not drives[0].turning:
         return linkage, shown
@@ -222,9 +222,9 @@ def _has_sizes(word: str) -> bool:
     return ":" in word or Path(word).suffix.lower() in (".toml", ".json") or Path(word).is_file()
 
 
-def entry_of(word: str) -> Entry | None:
-    """The catalog entry of that name, if there is one."""
-    return None if is_structure_text(word) else entries().get(word)
+def entry_of(word: str, lang: str = "en") -> Entry | None:
+    """The catalog entry of that name, if there is one, its links by their names in the language."""
+    return None if is_structure_text(word) or word not in entries() else entries()[word].in_language(lang)
 
 
 def german(record: Entry | None, lang: str) -> Mapping[str, str]:
@@ -232,13 +232,13 @@ def german(record: Entry | None, lang: str) -> Mapping[str, str]:
     return record.links if record is not None and lang == "de" else {}
 
 
-def subject(word: str, space: str | None, frame: str | None, drives: list[str]) -> Chain | Mechanism:
+def subject(word: str, space: str | None, frame: str | None, drives: list[str], lang: str = "en") -> Chain | Mechanism:
     """What a word stands for: a mechanism if it, or an option, says which link stands still, else a chain."""
     record = None if is_structure_text(word) else entries().get(word)
     marked = ";" in word if record is None else record.frame is not None
     if marked and space is None:
-        return mechanism_of(word, frame, drives)
-    chain = chain_from_word(word, space)
+        return mechanism_of(word, frame, drives, lang)
+    chain = chain_from_word(word, space, lang)
     if frame is None and not drives:
         return chain
     return Mechanism(chain, chain.links[0] if frame is None else frame, drives)

@@ -242,12 +242,25 @@ def _list(
     ):
         if arguments.out is None:
             sys.stdout.flush()  # what follows goes past its buffer
-            _write(listings, form, request, sys.stdout.buffer)
+            number = _write(listings, form, request, sys.stdout.buffer)
+            if not number:
+                _say_none(request, arguments.lang)
             return 0
         with atomic_file(arguments.out) as file:
             number = _write(listings, form, request, file)
     say_written(arguments.out, arguments.lang, ", " + plural("{count} chain", "{count} chains", number, arguments.lang))
     return 0
+
+
+def _say_none(request: Request, lang: str) -> None:
+    values = {"links": request.links, "mobility": request.mobility}
+    if (request.links + request.mobility) % 2:
+        text = message("there is no such chain of {links} links with mobility {mobility}.")
+    else:
+        text = message(
+            "there is no chain of {links} links with mobility {mobility}: F = 3(n - 1) - 2 g1 makes n + F odd."
+        )
+    print(f"gruebler enumerate: {text.filled(**values).in_language(lang)}", file=sys.stderr)
 
 
 def _write(listings: Iterator[PieceListing], form: str, request: Request, file: BinaryIO) -> int:

@@ -21,12 +21,12 @@ from gruebler.exercises import (
     solution_as_dict,
     solution_text,
     solve,
-    source_text,
     task_as_dict,
     task_text,
     value_text,
 )
 from gruebler.formats import Exercise
+from gruebler.formats.catalog_records import source_text
 from gruebler.text import message, translate
 
 __all__ = ["add", "run"]

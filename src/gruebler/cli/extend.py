@@ -8,6 +8,7 @@ from typing import Any
 from gruebler.chain import Chain
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table, print_text
@@ -46,7 +47,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count the extensions, or explain how the chain is built."""
-    chain = chain_from_word(arguments.chain)
+    chain = chain_from_word(arguments.chain, lang=language_of_names(arguments))
     if arguments.derivation:
         _derive(chain, arguments)
         return 0

@@ -25,7 +25,7 @@ from gruebler.errors import GrueblerError
 from gruebler.formats.structures import is_structure_text
 from gruebler.isomorphism import code
 from gruebler.mechanism.inversion import family, inversions
-from gruebler.text import Message, message, plural, translate
+from gruebler.text import Message, message, plural, reason_of, translate
 
 __all__ = ["add", "run"]
 
@@ -109,7 +109,7 @@ def _lines(word: str) -> list[str]:
     try:
         text = sys.stdin.read() if word == "-" else path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise GrueblerError("{path}: cannot be read ({reason})", path=word, reason=error.strerror or error) from None
+        raise GrueblerError("{path}: cannot be read ({reason})", path=word, reason=reason_of(error)) from None
     except UnicodeDecodeError:
         raise GrueblerError("{path}: is not UTF-8 text", path=word) from None
     lines = [line.strip() for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]

@@ -26,7 +26,7 @@ from gruebler.gears import (
 )
 from gruebler.gears.assembly import axes
 from gruebler.gears.messages import fraction_text, writable
-from gruebler.text import message
+from gruebler.text import message, reason_of
 
 __all__ = ["add", "run"]
 
@@ -94,9 +94,7 @@ def _read(word: str) -> TrainReading:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
-        raise GrueblerError(
-            "{path}: cannot be read: {problem}", path=path, problem=getattr(error, "strerror", None) or error
-        ) from None
+        raise GrueblerError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
     return read_toml(text, word) if path.suffix == ".toml" else read_train(text)
 
 

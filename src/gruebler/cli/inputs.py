@@ -29,19 +29,19 @@ def _of_file(word: str) -> Mechanism | None:
     return read_any_linkage(path).mechanism
 
 
-def chain_from_word(word: str, space: str | None = None) -> Chain:
+def chain_from_word(word: str, space: str | None = None, lang: str = "en") -> Chain:
     """The chain of a text, a code (its marks left out), a graph6 code, a linkage file, or a catalog entry."""
     if (mechanism := _of_file(word)) is not None:
         return mechanism.chain
-    return chain_of_text(word, space) if is_structure_text(word) else entry(word).chain()
+    return chain_of_text(word, space) if is_structure_text(word) else entry(word).in_language(lang).chain()
 
 
-def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechanism:
+def mechanism_of(word: str, frame: str | None, drives: Sequence[str], lang: str = "en") -> Mechanism:
     """The mechanism of a text or code with its marks, a linkage file, or an entry; frame and drives given here win."""
     if (drawn := _of_file(word)) is not None:
         mechanism = drawn
     elif not is_structure_text(word):
-        record = entry(word)
+        record = entry(word).in_language(lang)
         chain = record.chain()
         mechanism = Mechanism(chain, record.frame or chain.links[0], record.drives)
     elif "(" in word and not (is_code(word) and ";frame=" not in word):
@@ -52,7 +52,7 @@ def mechanism_of(word: str, frame: str | None, drives: Sequence[str]) -> Mechani
     return Mechanism(mechanism.chain, mechanism.frame if frame is None else frame, drives or mechanism.drives)
 
 
-def outputs_of(word: str) -> tuple[str, ...]:
+def outputs_of(word: str, lang: str = "en") -> tuple[str, ...]:
     """The output links that a text's mark, a linkage file or a catalog entry names."""
     if _of_file(word) is not None:
         from gruebler.formats.screws import read_any_linkage
@@ -60,7 +60,7 @@ def outputs_of(word: str) -> tuple[str, ...]:
         linkage = read_any_linkage(Path(word))
         return linkage.outputs if isinstance(linkage, Linkage) else ()
     if not is_structure_text(word):
-        return entry(word).outputs
+        return entry(word).in_language(lang).outputs
     if is_code(word) or ";" not in word:
         return ()
     output = Mechanism.parse_with_output(word)[1]

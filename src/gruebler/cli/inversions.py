@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from gruebler.chain.pairs import Alphabet
 from gruebler.cli.inputs import chain_from_word
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json
 from gruebler.cli.parser import Parser
 from gruebler.cli.tables import print_table
@@ -52,7 +53,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """List or count the inversions of one chain."""
-    chain = chain_from_word(arguments.chain, arguments.space)
+    chain = chain_from_word(arguments.chain, arguments.space, language_of_names(arguments))
     if not arguments.drives:
         for option, given in (
             ("--with-output", arguments.with_output),

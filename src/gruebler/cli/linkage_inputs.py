@@ -11,8 +11,18 @@ from gruebler.cli.point_inputs import point_of
 from gruebler.errors import GrueblerError
 from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
 from gruebler.linkages import Linkage, LinkPoint
+from gruebler.text import translate
 
-__all__ = ["add_branch", "add_curves", "add_linkage", "is_lengths", "linkage_of", "size_of", "with_points"]
+__all__ = [
+    "add_branch",
+    "add_curves",
+    "add_linkage",
+    "is_lengths",
+    "linkage_of",
+    "linkage_of_lengths",
+    "size_of",
+    "with_points",
+]
 
 _BARE = re.compile(r"[-+.\deE]+(,[-+.\deE]+){3}")
 
@@ -76,19 +86,38 @@ def size_of(word: str) -> FourBar | SliderCrank | InvertedSliderCrank | None:
     return _of_lengths(kind or "four-bar", lengths)
 
 
-def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
+def linkage_of_lengths(size: FourBar | SliderCrank | InvertedSliderCrank, lang: str = "en") -> Linkage:
+    """The linkage of given lengths, its links by their names in a language.
+
+    >>> linkage_of_lengths(FourBar(25, 70, 40, 70), "de").mechanism.chain.links
+    ('Gestell', 'Kurbel', 'Koppel', 'Schwinge')
+    """
+    linkage = size.linkage()
+    return linkage.renamed({link: translate(link, lang) for link in linkage.mechanism.chain.links})
+
+
+def linkage_of(word: str, lang: str = "en") -> tuple[Linkage, tuple[float, float] | None]:
     """The linkage of a word, and the drive values between which a catalog entry shows it.
+
+    The links of lengths and of catalog entries have their names in the language.
 
     >>> linkage_of("slider-crank:25,70")[0].length("coupler", 1, 2)
     70.0
     """
     if (size := size_of(word)) is not None:
-        return size.linkage(), None
+        return linkage_of_lengths(size, lang), None
     kind, colon, _ = word.partition(":")
     path = Path(word)
     if path.suffix.lower() in (".toml", ".json") or len(path.parts) > 1 or path.is_file():
+        from gruebler.files import FORMATS
         from gruebler.formats.linkages import read_linkage
 
+        others = [ending for form in FORMATS if form.read is not None for ending in form.suffixes]
+        if path.name.lower().endswith(tuple(others)) and path.suffix.lower() not in (".toml", ".json"):
+            raise GrueblerError(
+                "{path}: another format; `gruebler convert {path} NAME.toml` makes a file that this command reads",
+                path=path,
+            )
         return read_linkage(path), None
     if "(" in word:
         raise GrueblerError(
@@ -101,7 +130,7 @@ def linkage_of(word: str) -> tuple[Linkage, tuple[float, float] | None]:
         raise GrueblerError(
             "{word!r}: expected {forms}{suggestion}", word=word, forms=_forms(), suggestion=nearest(kind, _KINDS)
         )
-    record = entry(word)
+    record = entry(word).in_language(lang)
     if record.dimensions is None:
         sized = ", ".join(each.id for each in entries().values() if each.dimensions is not None)
         if record.screws is None:

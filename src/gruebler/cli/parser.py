@@ -21,6 +21,44 @@ __all__ = ["Parser", "argparse_in_language", "wanted_language"]
 
 _PICTURES = (".svg", ".png", ".pdf", ".html", ".gif", ".webp")
 _FILE = r".+\.[A-Za-z]\w{1,4}"
+_PLACEHOLDERS = {
+    str(word): word
+    for word in (
+        message("FILE"),
+        message("LINK"),
+        message("JOINT"),
+        message("POINT"),
+        message("CHAIN"),
+        message("MECHANISM"),
+        message("LINKAGE"),
+        message("LENGTH"),
+        message("LENGTHS"),
+        message("VALUE"),
+        message("FROM"),
+        message("TO"),
+        message("STEP"),
+        message("LABELS"),
+        message("WORD"),
+        message("TASK"),
+        message("EXPRESSION"),
+        message("KEY"),
+        message("ANSWER"),
+        message("TRAIN"),
+        message("PAIR"),
+        message("PAIRS"),
+        message("PLACE"),
+        message("LIFT"),
+        message("WIDTH"),
+        message("INPUT"),
+        message("OUTPUT"),
+        message("DEG"),
+        message("RPM"),
+        message("ACTION"),
+        message("DIR"),
+    )
+}
+"""What stands for a value in the list of options."""
+_NAMES_A_LINK = re.compile(r"\b(LINK|JOINT|POINT)\b")
 _KINDS = {int: message("a whole number"), float: message("a number")}
 
 
@@ -33,6 +71,8 @@ class Parser(argparse.ArgumentParser):
     def __init__(self, *, lang: str = LANGUAGES[0], **settings: Any) -> None:
         super().__init__(formatter_class=partial(_HelpFormatter, lang=lang), **settings)
         self.lang = lang
+        self.names_of_links: list[str] | None = None
+        """The arguments that name links, joints or points, once some were read."""
         self._commands: Any = None
         self._replaced: dict[str, tuple[str, str]] = {}
         self.add_argument(
@@ -94,7 +134,11 @@ class Parser(argparse.ArgumentParser):
         self._replaced[old] = (new, like)
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
-        """As argparse; a former spelling is answered by the present one."""
+        """As argparse; a former spelling is answered by the present one, and placeholders are translated."""
+        if self.names_of_links is None:
+            self.names_of_links = [a.dest for a in self._actions if _NAMES_A_LINK.search(str(a.metavar))]
+            for action in self._actions:
+                action.metavar = _placeholder(action.metavar, self.lang)
         for word, following in pairwise([*(args or ()), ""]):
             if word == "--":
                 break
@@ -167,6 +211,17 @@ def _path_with_ending(text: str, endings: Sequence[str], lang: str) -> Path:
             )
         )
     return path
+
+
+def _placeholder(metavar: Any, lang: str) -> Any:
+    """A placeholder such as LINK:X,Y, or several, with the words translated."""
+
+    def word(match: re.Match[str]) -> str:
+        return _PLACEHOLDERS[match[0]].in_language(lang) if match[0] in _PLACEHOLDERS else match[0]
+
+    if isinstance(metavar, tuple):
+        return tuple(_placeholder(each, lang) for each in metavar)
+    return re.sub(r"[A-Z]{2,}", word, metavar) if metavar else metavar
 
 
 class _HelpFormatter(argparse.HelpFormatter):

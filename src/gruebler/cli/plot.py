@@ -69,9 +69,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Plot into a file, or as SVG on standard output."""
     suffix = picture_suffix(arguments.out, arguments.dark)
     _check(arguments)
-    linkage, between = linkage_and_range(arguments.linkage)
+    linkage, between = linkage_and_range(arguments.linkage, arguments.lang)
     linkage = with_points(linkage, arguments.point)
-    record = entry_of(arguments.linkage)
+    record = entry_of(arguments.linkage, arguments.lang)
     name = "" if record is None else record.name.in_language(arguments.lang)
     figure = _KINDS[arguments.kind](_Asked(linkage, between, name, german(record, arguments.lang), arguments))
     write_picture(figure, arguments.out, suffix, arguments.dark, arguments.lang)

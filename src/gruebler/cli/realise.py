@@ -7,8 +7,10 @@ import math
 from dataclasses import replace
 
 from gruebler.cli.inputs import mechanism_of, outputs_of
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.output import print_json, say_written
 from gruebler.cli.parser import Parser
+from gruebler.errors import GrueblerError
 from gruebler.formats.linkages import linkage_to_json, linkage_to_toml, write_linkage
 from gruebler.realisation import Realisation, realise
 
@@ -22,7 +24,11 @@ def add(parser: Parser) -> None:
         "wide range. Without --drive, revolute joints on the frame are driven if possible.",
         epilog="Exit status: 0 found, 1 none found or nothing can move, 2 wrong usage or unreadable input.",
     )
-    parser.add_argument("chain", metavar="CHAIN", help="a text, a code, g6:CODE or the id of a catalog entry")
+    parser.add_argument(
+        "chain",
+        metavar="CHAIN",
+        help="a chain such as 'R(0-1) R(1-2) R(2-3) R(3-0)', a code, g6:CODE or a catalog entry",
+    )
     parser.add_argument("--frame", metavar="LINK", help="the fixed link (default: the first)")
     parser.add_argument("--drive", action="append", default=[], metavar="JOINT", help="a driven joint; repeatable")
     parser.add_argument("--seed", type=int, default=0, metavar="S", help="seed of the random numbers (default: 0)")
@@ -35,9 +41,11 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Find dimensions and print or write them. Status 1: none were found."""
-    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive)
+    if arguments.tries < 1:
+        raise GrueblerError("--tries: expected a whole number of at least 1, but found {found}", found=arguments.tries)
+    mechanism = mechanism_of(arguments.chain, arguments.frame, arguments.drive, language_of_names(arguments))
     realisation = realise(mechanism, seed=arguments.seed, budget=arguments.tries)
-    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain)):
+    if realisation.linkage is not None and (outputs := outputs_of(arguments.chain, language_of_names(arguments))):
         realisation = replace(realisation, linkage=realisation.linkage.with_outputs(outputs))
     if realisation.linkage is not None and arguments.out is not None:
         write_linkage(arguments.out, realisation.linkage)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from gruebler.analysis.drive_cycle import drive_cycle
 from gruebler.cli.drive_rows import default_rows, given_rows, turning_drives
+from gruebler.cli.link_names import language_of_names
 from gruebler.cli.linkage_inputs import add_branch, add_linkage, linkage_of
 from gruebler.cli.output import print_json, write_file
 from gruebler.cli.parser import Parser
@@ -81,7 +82,7 @@ def add(parser: Parser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """A table over the rows, or all forces of one row; 1 if it stops or is not held somewhere."""
-    linkage, shown_range = linkage_of(arguments.linkage)
+    linkage, shown_range = linkage_of(arguments.linkage, language_of_names(arguments))
     turning, lang = turning_drives(linkage), arguments.lang
     loads = _loads(arguments)
     if not (loads.forces or loads.moments or loads.masses):
@@ -91,11 +92,12 @@ def run(arguments: argparse.Namespace) -> int:
         print(motion.message(lang))
         return 1
     held = statics(motion, loads)
-    table = statics_table(held, arguments.friction, lang)
+    columns_lang = language_of_names(arguments)
+    table = statics_table(held, arguments.friction, columns_lang)
     if is_csv(arguments.out):
-        write_file(arguments.out, as_csv([*table, *component_table(held, lang)]).encode("utf-8"), lang)
+        write_file(arguments.out, as_csv([*table, *component_table(held, columns_lang)]).encode("utf-8"), lang)
     if arguments.json:
-        print_json(_document(held, [*table, *component_table(held, lang)], lang))
+        print_json(_document(held, [*table, *component_table(held, columns_lang)], lang))
     elif not is_csv(arguments.out):
         _print(held, table.columns, lang)
     return 0 if motion.complete and not held.singular.any() else 1

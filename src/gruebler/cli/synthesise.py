@@ -30,13 +30,13 @@ from gruebler.synthesis import (
     synthesise_path,
     synthesise_positions,
 )
-from gruebler.synthesis.functions import Coordination, Minimax
-from gruebler.text import message, number, numbers, translate
+from gruebler.synthesis.structural_error import Minimax
+from gruebler.text import joined, message, number, numbers, translate
 
 __all__ = ["add", "run"]
 
 _COLUMNS = (
-    *(message("design"), message("drive"), message("full turn"), message("transmission")),
+    *(message("design"), message("drive"), message("full turn"), message("transmission angle")),
     message("pin distances, link by link"),
     message("error"),
 )
@@ -132,7 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
     task = _task(arguments)
     result = _solved(arguments, task, demands)
     best = result.designs[0] if result.designs else None
-    optimum = _minimax(arguments, result) if arguments.action == "function" and arguments.minimax else None
+    optimum = _minimax(result) if arguments.action == "function" and arguments.minimax else None
     if best is not None and arguments.out is not None:
         write_linkage(arguments.out, best.linkage)
         say_written(arguments.out, arguments.lang)
@@ -271,7 +271,7 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
             )
         )
     for note in result.notes:
-        print(note)
+        print(note.in_language(lang))
     accepted = len(result.designs)
     print(
         translate(
@@ -285,14 +285,16 @@ def _print(result: SynthesisResult, rejected: bool, lang: str) -> None:
     if (rejected or not result.designs) and result.rejected:
         print()
         designs = result.rejected if rejected else result.rejected[:5]
-        rows = [[design.form, "; ".join(design.verdict.reasons)] for design in designs]
+        rows: list[list[Cell]] = [
+            [design.form_in_language(lang), joined(design.verdict.reasons, "; ")] for design in designs
+        ]
         print_table((message("rejected"), message("reason")), rows, lang=lang)
 
 
 def _row(position: int, design: Design, lang: str) -> list[Cell]:
     verdict = design.verdict
     return [
-        f"{position} {design.form}",
+        f"{position} {design.form_in_language(lang)}",
         design.linkage.mechanism.drive_names("german" if lang == "de" else "international")[0],
         message("yes") if verdict.turns_fully else message("no"),
         "" if isnan(verdict.transmission) else number(degrees(verdict.transmission), lang, ".1f") + "°",
@@ -326,20 +328,20 @@ def _draw(path: Path, found: SynthesisResult, lang: str) -> None:
     write_file(path, text.encode("utf-8"), lang)
 
 
-def _minimax(arguments: argparse.Namespace, found: SynthesisResult) -> Minimax:
+def _minimax(found: SynthesisResult) -> Minimax:
     """The best minimax optimum from any four-bar or slider-crank of the list."""
-    from gruebler.synthesis import minimax
+    from gruebler.synthesis.structural_error import coordination_of, minimax
 
-    if Path(arguments.task).suffix.lower() in (".toml", ".json", ".csv"):
+    task = found.task
+    if not isinstance(task, FunctionTask) or task.law is None:
         raise SynthesisError("--minimax needs the function as an expression")
-    law = _law(arguments)
     best: Minimax | None = None
     for design in found.designs:
-        start = _coordination(design, found.task, law)
+        start = coordination_of(design, task, task.law)
         if start is None:
             continue
         try:
-            optimum = minimax(start, law)
+            optimum = minimax(start, task.law)
         except SynthesisError:
             continue
         if best is None or optimum.error < best.error:
@@ -349,14 +351,6 @@ def _minimax(arguments: argparse.Namespace, found: SynthesisResult) -> Minimax:
             "no accepted design follows the function over the whole interval: there is no optimum nearby"
         )
     return best
-
-
-def _coordination(design: Design, task: Task, law: FunctionLaw) -> Coordination | None:
-    """The lengths and starts of a design, if it is a four-bar or slider-crank that follows the law throughout."""
-    from gruebler.synthesis.functions import coordination_of
-
-    assert isinstance(task, FunctionTask)
-    return coordination_of(design, task, law)
 
 
 def _print_optimum(optimum: Minimax, lang: str) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 
 from gruebler.atomic_files import PARTIAL, atomic_file, remove_abandoned_files
 from gruebler.errors import RunError
+from gruebler.text import reason_of
 
 __all__ = ["Checkpoint", "PieceFiles", "RunError"]
 
@@ -54,7 +55,7 @@ class PieceFiles:
             return None
         except OSError as error:
             raise RunError(
-                "{path} cannot be read: {reason}", path=self._path(number), reason=error.strerror or error
+                "{path} cannot be read: {reason}", path=self._path(number), reason=reason_of(error)
             ) from None
         except (ValueError, RecursionError, LookupError, AttributeError, TypeError):
             return None  # no JSON, a number of thousands of digits, nested without end, no object, no seal
@@ -65,7 +66,7 @@ class PieceFiles:
             return self._path(number).read_bytes().partition(b"\n")[2]
         except OSError as error:
             raise RunError(
-                "{path} cannot be read: {reason}", path=self._path(number), reason=error.strerror or error
+                "{path} cannot be read: {reason}", path=self._path(number), reason=reason_of(error)
             ) from None
 
     def remove(self, number: int) -> None:
@@ -119,7 +120,7 @@ class Checkpoint(PieceFiles):
                     file.write(json.dumps(manifest, indent=2).encode())
         except OSError as error:
             raise RunError(
-                "{directory} cannot keep pieces of work: {reason}", directory=directory, reason=error.strerror or error
+                "{directory} cannot keep pieces of work: {reason}", directory=directory, reason=reason_of(error)
             ) from None
         except RunError:
             raise

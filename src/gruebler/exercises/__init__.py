@@ -8,7 +8,7 @@ and never stored as results. docs/theory/exercises.md has the conventions and th
 from gruebler.exercises.generation import KINDS, LEVELS, generate
 from gruebler.exercises.grading import Grade, Mark, ascii_key, grade, plain_name
 from gruebler.exercises.loader import all_exercises, exercise
-from gruebler.exercises.messages import lines_of_table, solution_text, source_text, task_text, value_text
+from gruebler.exercises.messages import lines_of_table, solution_text, task_text, value_text
 from gruebler.exercises.serialisation import grades_as_list, solution_as_dict, table_as_dict, task_as_dict
 from gruebler.exercises.solution import Check, Heading, Mistake, Result, Solution, SolutionStep, Table
 from gruebler.exercises.solving import Comparison, compare, methods, solve
@@ -41,7 +41,6 @@ __all__ = [
     "solution_as_dict",
     "solution_text",
     "solve",
-    "source_text",
     "table_as_dict",
     "task_as_dict",
     "task_text",

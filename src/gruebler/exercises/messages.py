@@ -9,9 +9,10 @@ from gruebler.exercises.grading import ascii_key
 from gruebler.exercises.solution import Check, Heading, Result, Solution, SolutionStep, Table, Value, figure
 from gruebler.exercises.solving import Comparison, compare
 from gruebler.formats import Exercise
-from gruebler.text import Readable, decimal_sign_in, message, number, translate
+from gruebler.formats.catalog_records import source_text
+from gruebler.text import Readable, decimal_sign_in, number, translate
 
-__all__ = ["lines_of_table", "solution_text", "source_text", "task_text", "value_text"]
+__all__ = ["lines_of_table", "solution_text", "task_text", "value_text"]
 
 _INDENT = "     "
 
@@ -29,27 +30,6 @@ def value_text(value: Value, unit: str, lang: str) -> str:
     if isinstance(value, str):
         return value
     return figure(value).in_language(lang) + (unit if unit in ("", "°") else f" {unit}")
-
-
-def source_text(source: str, lang: str) -> str:
-    """The source in the teaching documents.
-
-    >>> source_text("000/003, sections 2.3 and 2.6", "de")
-    '000/003, Abschnitte 2.3 und 2.6'
-    """
-    for term in _SOURCE_WORDS:
-        source = re.sub(rf"\b{term}\b", term.in_language(lang), source)
-    return source
-
-
-_SOURCE_WORDS = (
-    message("sections"),
-    message("section"),
-    message("first exercise"),
-    message("second exercise"),
-    message("exercise"),
-    message("and"),
-)
 
 
 def task_text(exercise: Exercise, lang: str = "en", solution: Solution | None = None) -> str:

@@ -15,7 +15,7 @@ from gruebler.fourbar import SliderCrank
 from gruebler.linkages.model import joint_number
 from gruebler.linkages.quantities import as_finite
 
-__all__ = ["SlideFriction", "SliderFriction", "slide_friction", "slider_friction"]
+__all__ = ["SlideFriction", "SliderFriction", "as_friction", "slide_friction", "slider_friction"]
 
 
 class SliderFriction(NamedTuple):
@@ -60,7 +60,7 @@ def slider_friction(size: SliderCrank, phi: npt.ArrayLike, load: float, coeffici
     >>> round(float(np.degrees(found.alpha)), 6), round(float(found.side / found.coupler), 9)
     (23.578178, 0.4)
     """
-    force, mu = as_finite("load", load), _coefficient(coefficient)
+    force, mu = as_finite("load", load), as_friction(coefficient)
     angles = np.asarray(phi, np.float64)
     sine = (size.a * np.sin(angles) - size.e) / size.b
     if not (np.abs(sine) < 1).all():
@@ -80,7 +80,7 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     Raises `LinkageError` for a joint that does not slide and for a linkage with several drives.
     """
     linkage = statics.motion.linkage
-    number, mu = joint_number(linkage.mechanism, joint), _coefficient(coefficient)
+    number, mu = joint_number(linkage.mechanism, joint), as_friction(coefficient)
     if linkage.mechanism.chain.joints[number].pair.name not in ("prismatic", "roll_slide"):
         raise LinkageError("{joint} does not slide along one line", joint=linkage.mechanism.chain.joint_names()[number])
     if len(linkage.mechanism.drives) != 1:
@@ -94,7 +94,8 @@ def slide_friction(statics: Statics, joint: str | int, coefficient: float) -> Sl
     return SlideFriction(side, mu * side, mu * side * rate)
 
 
-def _coefficient(value: float) -> float:
+def as_friction(value: float) -> float:
+    """A coefficient of friction; `LinkageError` for one that is negative or not finite."""
     mu = as_finite("coefficient", value)
     if mu < 0:
         raise LinkageError("a coefficient of friction is not negative, but found {found!r}", found=value)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from gruebler.arrays import Flags, Reals
-from gruebler.errors import LinkageError
+from gruebler.errors import LinkageError, expect
 from gruebler.forces.equilibrium import JointConnection, Reactions, joint_connections, reactions
 from gruebler.forces.loads import Loads, Rows, Wrench, loads_over_rows
 from gruebler.forces.motion_rates import drive_speed, with_velocities
@@ -157,7 +157,7 @@ class Statics(Brief):
 
 
 def statics(motion: Motion, loads: Loads) -> Statics:
-    """Drive efforts and joint forces that hold the loads at every row of a motion, by two independent ways.
+    """Drive efforts and joint forces that hold the loads at every row of a motion, by two independent methods.
 
     Equilibrium of every link gives all forces; the drives' efforts also come from virtual work, with the velocities of
     the loads' points for each drive alone. Error: that of the poses times the condition of the pose. Cost: some 20 us a
@@ -172,6 +172,8 @@ def statics(motion: Motion, loads: Loads) -> Statics:
     >>> held.drive.round(6).tolist(), held.work.round(6).tolist()  # the rocker turns 0.478521 times as fast
     ([[478.520528]], [[478.520528]])
     """
+    expect(motion, Motion)
+    expect(loads, Loads)
     if not motion.lower_linkage.mechanism.drives:
         raise LinkageError("no joint is driven: nothing holds the loads")
     if motion.plan.released:

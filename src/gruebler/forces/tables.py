@@ -8,7 +8,7 @@ import numpy as np
 
 from gruebler.chain.pairs import Alphabet
 from gruebler.columns import Column, Table
-from gruebler.forces.friction import slide_friction
+from gruebler.forces.friction import as_friction, slide_friction
 from gruebler.forces.solution import Statics
 from gruebler.text import translate
 
@@ -35,6 +35,8 @@ def statics_table(statics: Statics, friction: float | None = None, lang: str = "
     """
     linkage, motion = statics.motion.linkage, statics.motion
     mechanism = linkage.mechanism
+    if friction is not None:
+        friction = as_friction(friction)
     drives, efforts, forces = list[Column](), list[Column](), list[Column]()
     for k, (name, drive) in enumerate(
         zip(mechanism.drive_names(Alphabet.of_language(lang)), mechanism.drives, strict=True)

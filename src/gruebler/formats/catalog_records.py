@@ -7,12 +7,15 @@ here, so that an entry is sound or does not exist.
 
 from __future__ import annotations
 
+import re
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 import msgspec
 
 from gruebler.chain import Chain
+from gruebler.chain.notation import renamed_links
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import CatalogError, ChainError, GrueblerError, NotationError, PairError
 from gruebler.formats.linkage_records import Dimensions, linkage_from_record
@@ -20,7 +23,7 @@ from gruebler.formats.screws import ScrewsRecord, spatial_linkage_from_record
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import SpatialLinkage, has_only_lower_pairs
-from gruebler.text import Message, Text
+from gruebler.text import LANGUAGES, Message, Text, message, translate
 
 __all__ = [
     "Case",
@@ -33,7 +36,38 @@ __all__ = [
     "entry_of_data",
     "read_entry",
     "read_exercise",
+    "source_text",
 ]
+
+_SOURCE_WORDS = (
+    message("sections"),
+    message("section"),
+    message("the first of two with this number"),
+    message("first exercise"),
+    message("second exercise"),
+    message("exercise"),
+    message("figure"),
+    message("chapter"),
+    message("variant of"),
+    message("variant"),
+    message("classification"),
+    message("common machine, not in"),
+    message("numeric checks, bevel differential"),
+    message("and"),
+)
+
+
+def source_text(source: str | Text, lang: str) -> str:
+    """Where something stands in the teaching documents.
+
+    >>> source_text("000/003, sections 2.3 and 2.6", "de"), source_text("000, figure 6.12, variant", "de")
+    ('000/003, Abschnitte 2.3 und 2.6', '000, Bild 6.12, Variante')
+    """
+    if isinstance(source, Text):
+        return source.in_language(lang)
+    for term in _SOURCE_WORDS:
+        source = re.sub(rf"\b{term}\b", term.in_language(lang), source)
+    return source
 
 
 class ClaimedGroup(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
@@ -66,7 +100,7 @@ class Sizes(Dimensions, frozen=True, forbid_unknown_fields=True, kw_only=True):
 
     assumed: bool = False
     """Whether the seeds print none, so that the dimensions are chosen here."""
-    source: str = ""
+    source: str | Text = ""
     """Where they are printed."""
     drive: str | tuple[str, ...] | None = None
     """The driven joint of the example, or several, where the machine itself names none."""
@@ -120,6 +154,15 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
         mechanism = Mechanism(chain, self.frame or chain.links[0], self.dimensions.shown_drives or self.drives)
         return linkage_from_record(self.dimensions, mechanism, self.outputs)
 
+    def in_language(self, lang: str) -> Entry:
+        """The same entry, its links by their names in a language; the German ones are cut short where that is clear.
+
+        >>> from gruebler.catalog import entry
+        >>> entry("lambda").in_language("de").drives
+        ('R(Gestell-Kurbel)',)
+        """
+        return self if lang == LANGUAGES[0] else _with_link_names(self, _short_names(self.links, lang))
+
     def placed(self) -> Linkage | SpatialLinkage | None:
         """The machine with what dimensions it has: the screws of its joints, else the sizes of its links, else None."""
         if self.screws is not None:
@@ -127,6 +170,42 @@ class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=Tru
             return spatial_linkage_from_record(self.screws, Mechanism(chain, self.frame or chain.links[0], self.drives))
         linkage = None if self.dimensions is None else self.linkage()
         return linkage if linkage is not None and has_only_lower_pairs(linkage) else None
+
+
+def _short_names(full: Mapping[str, str], lang: str) -> dict[str, str]:
+    """Without "link" before a number, brackets, and what follows "with", if the names stay different."""
+    left_out = rf"^{translate('link', lang)} (?=\d)| \(.*| {translate('with', lang)} .*"
+    short = {link: re.sub(left_out, "", name) for link, name in full.items()}
+    return short if len(set(short.values())) == len(short) else dict(full)
+
+
+_NAME_LINKS: Mapping[str, tuple[str, ...]] = {
+    "dimensions": ("elements", "home", "places", "points", "drive"),
+    "screws": ("joints",),
+    "claims": ("idle",),
+}
+
+
+def _with_link_names(entry: Entry, names: Mapping[str, str]) -> Entry:
+    """The record with these names of its links wherever they stand in it."""
+
+    def renamed(value: Any) -> Any:
+        if isinstance(value, str):
+            return renamed_links(value, names)
+        if isinstance(value, Mapping) and "at" in value:  # a wheel, cam or point with keys of its own
+            return {key: renamed(item) if key == "link" else item for key, item in value.items()}
+        if isinstance(value, Mapping):
+            return {renamed(key): renamed(item) for key, item in value.items()}
+        return [renamed(item) for item in value] if isinstance(value, list | tuple) else value
+
+    plain = msgspec.to_builtins(entry)
+    for key in ("joints", "frame", "drives", "outputs"):
+        plain[key] = renamed(plain[key])
+    for part, keys in _NAME_LINKS.items():
+        if plain[part] is not None:
+            plain[part] |= {key: renamed(plain[part][key]) for key in keys if key in plain[part]}
+    plain["links"] = {names[link]: name for link, name in entry.links.items()}
+    return msgspec.convert(plain, Entry)
 
 
 class Case(msgspec.Struct, frozen=True, forbid_unknown_fields=True, kw_only=True):

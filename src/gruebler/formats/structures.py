@@ -18,6 +18,7 @@ from gruebler.isomorphism import decode
 from gruebler.linkages import Linkage
 from gruebler.mechanism import Mechanism
 from gruebler.screws import SpatialLinkage
+from gruebler.text import reason_of
 
 __all__ = [
     "STRUCTURE_ENDINGS",
@@ -91,17 +92,13 @@ def read_structures(path: Path, space: str | None = None) -> Iterator[Structure]
     try:
         text = path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        raise CatalogError("{path}: cannot be read ({reason})", path=path, reason=error.strerror or error) from None
+        raise CatalogError("{path}: cannot be read ({reason})", path=path, reason=reason_of(error)) from None
     except UnicodeDecodeError:
         raise CatalogError("{path}: is not UTF-8 text", path=path) from None
     if ending == ".json":
         yield from structures_of_json(text, str(path))
     elif ending == ".g6":
-        marks = ("g6:", "#")
-        lines = (
-            line if line.lstrip().startswith(marks) or not line.strip() else f"g6:{line}" for line in text.splitlines()
-        )
-        yield from structures_of_lines("\n".join(lines), str(path))
+        yield from structures_of_lines("".join(f"g6:{line}\n" for line in text.split()), str(path))
     else:
         yield from structures_of_lines(text, str(path), space)
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from gruebler import notebook
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.events import TransmissionExtremes
@@ -99,6 +100,10 @@ class FourBar:
         if not 0 < as_finite("swing", swing) < math.pi:
             raise LinkageError("the swing must lie between 0 and pi, not {swing!r}", swing=swing)
         return cls.central(a=as_positive("c", c) * math.sin(swing / 2), b=b, c=c, d=d)
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
         """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""

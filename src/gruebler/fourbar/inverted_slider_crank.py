@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from gruebler import notebook
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError
 from gruebler.events import TransmissionExtremes
@@ -76,6 +77,10 @@ class InvertedSliderCrank:
                 "the time ratio, slow by quick, must be above 1, not {time_ratio!r}", time_ratio=time_ratio
             )
         return cls(as_positive("d", d) * math.cos(math.pi / (1 + ratio)), d)
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
         """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""

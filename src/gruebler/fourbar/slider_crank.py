@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gruebler import notebook
 from gruebler.errors import LinkageError
 from gruebler.events import TransmissionExtremes
 from gruebler.fourbar.coupler_points import CouplerPoints, on_coupler
@@ -142,6 +143,10 @@ class SliderCrank:
             )
         a = math.sqrt((q + math.sqrt(q**2 - 4 * p * r)) / (2 * p))
         return cls(a, a / lam, e)
+
+    def _repr_svg_(self) -> str | None:
+        """The linkage to scale, for notebooks."""
+        return notebook.svg_of(self) if notebook.svg_of else None
 
     def linkage(self, points: Mapping[str, tuple[float, float]] | None = None, *, unit: str = "mm") -> Linkage:
         """The linkage of these lengths, with named coupler points (u from A along the coupler, v to its left)."""

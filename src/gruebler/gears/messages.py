@@ -68,16 +68,18 @@ def explain_train(reading: TrainReading, lang: str = "en") -> str:
     independent = len(train.meshes) - len(redundant)
     lines = [
         translate(
-            "{links} moving links, {meshes} independent meshes: mobility {mobility}.",
+            "{links}, {meshes}: mobility {mobility}.",
             lang,
-            links=links,
-            meshes=independent,
+            links=plural("{count} moving link", "{count} moving links", links, lang),
+            meshes=plural("{count} independent mesh", "{count} independent meshes", independent, lang),
             mobility=links - independent,
         )
     ]
     if redundant:
         lines.append(translate("Redundant meshes: {meshes}.", lang, meshes="; ".join(map(str, redundant))))
-    lines += [translate("Speeds: {relation} = 0", lang, relation=relation) for relation in _outer_relations(train)]
+    lines += [
+        translate("Speeds: {relation} = 0", lang, relation=relation) for relation in _outer_relations(train, lang)
+    ]
     if reading.drives:
         lines += _drive_lines(reading, links - independent, lang)
     for planet, count in reading.planets.items():
@@ -156,17 +158,17 @@ def _planets_line(placed: Assembly, lang: str) -> str:
     )
 
 
-def _outer_relations(train: Train) -> list[str]:
+def _outer_relations(train: Train, lang: str) -> list[str]:
     """The relations between the links that are not planets, where their speeds can be compared."""
     ends = Counter(link for mesh in train.meshes if mesh.carrier != FRAME for link in (mesh.a, mesh.b))
     outer = [link for link in train.links if ends[link] < 2]
     forms, units = train.relations(*outer), train.units()
-    return [_sum(form) for form in forms if comparable(units[link] for link in form)]
+    return [_sum(form, lang) for form in forms if comparable(units[link] for link in form)]
 
 
-def _sum(form: dict[str, int]) -> str:
+def _sum(form: dict[str, int], lang: str) -> str:
     terms = "".join(
-        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else fraction_text(Fraction(abs(k))) + ' '}{link}"
+        f" {'-' if k < 0 else '+'} {'' if abs(k) == 1 else fraction_text(Fraction(abs(k)), lang) + ' '}{link}"
         for link, k in form.items()
     )
     return terms.removeprefix(" + ")

@@ -239,7 +239,7 @@ class Train:
         """The link, if the train has it; otherwise an error that offers the nearest name."""
         if link not in self.links:
             raise GearError(
-                "the train has no moving link {link!r}: {links}{suggestion}",
+                "the train has no moving link {link!r}{suggestion}; its links are {links}",
                 link=link,
                 links=", ".join(self.links),
                 suggestion=nearest(link, self.links),

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import PAIRS
-from gruebler.errors import ChainError
+from gruebler.errors import ChainError, expect
 
 __all__ = ["ColouredGraph", "DriveMark", "coloured_graph"]
 
@@ -58,6 +58,7 @@ def coloured_graph(chain: Chain, frame: str | None = None, drives: Collection[in
 
     Raises `ChainError` for a frame or a joint number that the chain does not have. Cost O(joint elements).
     """
+    expect(chain, Chain)
     marks = [mark for mark in drives if isinstance(mark, DriveMark)]
     partly = {mark.joint for mark in marks}
     for number in (*partly, *(number for number in drives if isinstance(number, int))):

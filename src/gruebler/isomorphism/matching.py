@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from gruebler.chain import Chain
+from gruebler.errors import expect
 from gruebler.isomorphism.codes import canonical_order, code
 
 __all__ = ["Isomorphism", "find_isomorphism", "is_isomorphic"]
@@ -26,6 +27,8 @@ def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
     >>> find_isomorphism(Chain.parse("R(a-b) R(b-c) P(c-a)"), Chain.parse("P(0-1) R(1-2) R(2-0)")).links["b"]
     '2'
     """
+    for chain in (first, second):
+        expect(chain, Chain)
     if first.space is not second.space or first.n != second.n or len(first.joints) != len(second.joints):
         return None
     if code(first) != code(second):
@@ -37,7 +40,7 @@ def find_isomorphism(first: Chain, second: Chain) -> Isomorphism | None:
 
 
 def is_isomorphic(first: Chain, second: Chain) -> bool:
-    """Whether two chains have the same structure, names aside.
+    """Whether two chains have the same structure, whatever the links are called.
 
     >>> is_isomorphic(Chain.parse("R(a-b) R(b-c) P(c-a)"), Chain.parse("P(0-1) R(1-2) R(2-0)"))
     True

@@ -39,11 +39,11 @@ NEAR_REFERENCE = 0.05
 
 
 class Linkage:
-    """A planar mechanism whose links have sizes. A value: sound or not constructed, never changed.
+    """A planar mechanism with the dimensions of its links. Immutable, and checked when it is constructed.
 
-    Every link has coordinates of its own; those of the frame are the coordinates of the plane. A driven turning joint
-    has the angle of the second link's x axis against the first's, a driven slide the way from the first line's point to
-    the second's; "first" is the frame, or the link named first in the joint.
+    Every link has coordinates of its own; those of the frame are the coordinates of the plane. The drive value of a
+    turning joint is the angle of the second link's x axis against the first's, that of a slide the distance from the
+    first line's point to the second's; "first" is the frame, or the link named first in the joint.
 
     Args:
         mechanism: a planar mechanism.
@@ -51,8 +51,8 @@ class Linkage:
             line, `Wheel` or `Circle`, in the link's coordinates; angles in radians.
         points: further points by name: ``(link, x, y)``.
         unit: the unit of all lengths; a name only.
-        home: where the links lie in one position (``(x, y, angle)`` for each link), if the assembly mode is to be that
-            of a drawing.
+        reference_pose: where the links lie in one position, ``(x, y, angle)`` for each link, if the assembly mode is
+            to be that of a drawing.
         outputs: the links that a user looks at.
 
     Raises:
@@ -251,6 +251,24 @@ class Linkage:
     def with_reference_pose(self, reference_pose: Mapping[str, tuple[float, float, float]] | None) -> Linkage:
         """The same sizes with another home position: x, y and angle of every link, in radians; or without one."""
         return self._changed(reference_pose=reference_pose)
+
+    def renamed(self, names: Mapping[str, str]) -> Linkage:
+        """The same linkage with other link names; names that the mapping leaves out stay.
+
+        >>> quad = Mechanism.parse("R(0-1) R(1-2) R(2-3) R(0-3); drive=R(0-1)")
+        >>> drawn = Linkage.from_drawing(quad, {"R(0-1)": (0, 0), "R(1-2)": (0, 2), "R(2-3)": (6, 4), "R(0-3)": (6, 0)})
+        >>> drawn.renamed({"1": "crank"}).length("crank", "R(0-crank)", "R(crank-2)")
+        2.0
+        """
+        new = {link: names.get(link, link) for link in self.mechanism.chain.links}
+        pose = self.reference_pose
+        return self._changed(
+            mechanism=self.mechanism.renamed(names),
+            elements={new[link]: elements for link, elements in self._by_link().items()},
+            points={n: (new[p.link], p.x, p.y) for n, p in self.points.items()},
+            reference_pose=None if pose is None else {new[link]: place for link, place in pose.items()},
+            outputs=[new[link] for link in self.outputs],
+        )
 
     def scaled(self, factor: float) -> Linkage:
         """Every length times a positive factor."""

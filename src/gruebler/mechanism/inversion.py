@@ -16,7 +16,7 @@ from itertools import combinations
 from gruebler.chain import Chain
 from gruebler.chain.notation import link_text
 from gruebler.chain.pairs import Alphabet
-from gruebler.errors import ChainError
+from gruebler.errors import ChainError, expect
 from gruebler.isomorphism import Permutation, code, orbits, symmetry
 from gruebler.mechanism.drives import check_drives
 from gruebler.mechanism.model import Drive, Mechanism
@@ -50,7 +50,7 @@ class DrivenMechanism:
 
 
 def inversions(chain: Chain) -> list[Mechanism]:
-    """One mechanism for each orbit of links, without drives.
+    """The mechanisms of a chain, one for each orbit of links under its symmetry, without drives.
 
     >>> len(inversions(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)")))
     2
@@ -76,6 +76,7 @@ def driven_mechanisms(
     >>> len(list(driven_mechanisms(Chain.parse("R(0-1) R(1-2) R(2-3) R(3-0) R(2-4) R(4-5) R(5-3)"))))
     4
     """
+    expect(chain, Chain)
     if drives < 1:
         raise ChainError("a driven mechanism has at least one drive, not {drives}", drives=drives)
     freedoms = _freedoms(chain)

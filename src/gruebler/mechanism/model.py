@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from gruebler import notebook
@@ -146,6 +146,16 @@ class Mechanism:
         ('D(0-1)',)
         """
         return tuple(_drive_text(self.chain, drive, alphabet) for drive in self.drives)
+
+    def renamed(self, names: Mapping[str, str]) -> Mechanism:
+        """The same mechanism with other link names; names that the mapping leaves out stay.
+
+        >>> print(Mechanism.parse("R(0-1) R(1-2) R(2-0); drive=R(0-1)").renamed({"0": "base"}))
+        R(base-1) R(1-2) R(2-base); frame=base; drive=R(base-1)
+        """
+        new = {link: names.get(link, link) for link in self.chain.links}
+        drives = [replace(d, between=(new[d.between[0]], new[d.between[1]])) for d in self.drives]
+        return Mechanism(self.chain.renamed(names), new[self.frame], drives)
 
     def code(self) -> str:
         """The canonical code: equal exactly for mechanisms of one structure.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import combinations
 
 from gruebler.assur import decompose
-from gruebler.errors import LinkageError
+from gruebler.errors import LinkageError, expect
 from gruebler.mechanism import Drive, Mechanism
 from gruebler.mobility import generic
 from gruebler.realisation.finishing import finish_linkage
@@ -44,6 +44,7 @@ def realise(
     >>> result.full, result.quality > 0.4
     (True, True)
     """
+    expect(mechanism, Mechanism)
     _check("seed", seed, 0)
     _check("budget", budget, 1)
     if isinstance(target_quality, bool) or not isinstance(target_quality, int | float) or not 0 < target_quality <= 1:

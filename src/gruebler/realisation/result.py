@@ -75,7 +75,7 @@ class Realisation(Brief):
             return self.reason.in_language(lang)
         if self.linkage is None:
             return translate(
-                "No dimensions were found with which the drives move it: {tries} drawings tried (seed {seed}).",
+                "No dimensions were found with which the drives move it: {tries} layouts tried (seed {seed}).",
                 lang,
                 tries=self.tries,
                 seed=self.seed,
@@ -96,5 +96,5 @@ class Realisation(Brief):
                 sentences.append(text.filled(drive=name, low=low, high=high, unit=self.linkage.unit))
         text = message("Smallest measure of conditioning {quality:.2f} (1 is best, 0 singular).")
         sentences.append(text.filled(quality=self.quality))
-        sentences.append(message("Tried: {tries} drawings (seed {seed}).", tries=self.tries, seed=self.seed))
+        sentences.append(message("Tried: {tries} layouts (seed {seed}).", tries=self.tries, seed=self.seed))
         return joined(sentences, " ").in_language(lang)

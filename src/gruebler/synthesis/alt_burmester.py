@@ -22,16 +22,21 @@ from numpy.typing import NDArray
 from gruebler.arrays import Complexes, Integers
 from gruebler.errors import SynthesisError
 from gruebler.synthesis.discs import certified
+from gruebler.synthesis.endgame import path_ends
 
 __all__ = ["PROBLEMS", "Problem", "Solutions", "load_generic_solutions", "parameters", "solutions"]
 
 
 QUICK, CAREFUL = 1e-3, 1e-6
+_ASIDE = 1e-7  # from where a solution is looked for again; a task has the size 1, dyads may be a millionth apart
+_REGULAR = 1e-8  # the last relative step of Newton's method at a regular solution; far out rounding leaves so much
 """How far the corrector may change a prediction: at first, and when paths are followed again."""
 _BENDS = (0.02, 0.1, 0.4)
 """How far bent ways lead aside, relative to the task; the last is for all solutions, not only those that were lost."""
 _FEW = 0.05  # where more than this part of the paths is lost, the task itself is special, not the way to it
 _SAME = 1e-7  # relative: solutions nearer to each other are one
+_NEAR = 1e-4  # an end that arrived and one of the endgame are the same
+_TOGETHER = 1e-6  # the same for ends of the endgame, which knows singular ones to nine digits or so
 
 
 @dataclass(frozen=True)
@@ -116,19 +121,24 @@ class Solutions(NamedTuple):
     """The complex solutions of a task, one of each class."""
 
     z: Complexes
-    """(found, 8) finite ones."""
+    """(found, 8) finite and regular ones."""
     certified: NDArray[np.bool_]
     """(found,) which of them are proved to be solutions, each a different one."""
+    multiple: Complexes
+    """(distinct, 8) singular ones, known to about half the digits."""
     infinite: int
     """How many paths go to infinity."""
+    singular: int
+    """How many paths end at singular solutions: several at one of them, or at one of infinitely many."""
     missing: int
-    """How many solutions are not accounted for."""
+    """How many paths are not resolved: they could not be followed, and where they end is not known."""
 
     @property
     def real(self) -> Complexes:
         """(real, 8) those that are real linkages."""
-        gaps = np.abs(self.z[:, 1::2] - np.conj(self.z[:, ::2])).max(axis=1)
-        return np.asarray(self.z[gaps <= 1e-7 * (1 + np.abs(self.z).max(axis=1))])
+        z = np.concatenate([self.z, self.multiple])
+        gaps = np.abs(z[:, 1::2] - np.conj(z[:, ::2])).max(axis=1)
+        return np.asarray(z[gaps <= 1e-7 * (1 + np.abs(z).max(axis=1))])
 
 
 Progress = Callable[[int, int], None]
@@ -174,12 +184,11 @@ def solutions(
 ) -> Solutions:
     """All solutions of a task whose displacements are of the order of 1.
 
-    Paths that fail, and those whose ends coincide, are followed again with fine steps; what is still missing is sought
-    along other ways through the space of tasks. Cost: 1442 paths 1.5 s on one core.
+    Paths that fail, and those whose ends coincide, are followed again with fine steps, then to where an endgame says
+    how they end. What is still missing is sought along other ways through the space of tasks. Cost: 1442 paths 1.5 s on
+    one core.
     """
-    from gruebler._numeric.compiling import for_work
-    from gruebler._numeric.homotopy import ARRIVED, INFINITE, refine_solutions
-    from gruebler._numeric.work_estimates import refining
+    from gruebler._numeric.homotopy import ARRIVED
 
     base = load_generic_solutions(problem)
     ends, status = follow_from_generic(problem, base.z, base.parameters, p, QUICK, threads=threads, progress=progress)
@@ -189,24 +198,116 @@ def solutions(
             problem, base.z[again], base.parameters, p, CAREFUL, threads=threads
         )
     arrived = status == ARRIVED
-    finite = _distinct(problem, ends[arrived])
-    infinite = int(np.count_nonzero(status == INFINITE))
-    lost = base.z[(status != ARRIVED) | _repeated(problem, ends, arrived)]
+    lost = ~arrived | _repeated(problem, ends, arrived)
+    doubtful = ~lost
+    doubtful[doubtful] = ~certified(problem.poses, problem.points, ends[doubtful], p)
+    outcome = _outcome(problem, base, p, lost | doubtful, threads)
+    # What arrived, though it is not certified, is believed unless the endgame finds others, or branches, at its end.
+    near = np.abs(outcome.z - ends[lost | doubtful]).max(axis=1, initial=0.0) < _NEAR
+    single = doubtful[lost | doubtful] & ~(outcome.several & near)
+    lost |= doubtful
+    lost[np.flatnonzero(lost)[single]] = False
+    outcome = outcome.without(single)
+    regular = _distinct(problem, np.concatenate([ends[~lost], outcome.z[outcome.regular]]))
+    missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
     rng = np.random.default_rng(20_231_107)  # fixed: the same task has the same answer
     for bend in _BENDS:
-        if len(finite) + infinite >= problem.classes or len(lost) > _FEW * problem.classes:
+        if missing <= 0 or missing > _FEW * problem.classes:
             break
         # A way that is bent a little meets no singular task that the straight one passes too closely.
         middle = (base.parameters + p) / 2 + bend * _random_task(base.parameters, p, rng)
-        starts, loose = (base.z, QUICK) if bend == _BENDS[-1] else (lost, CAREFUL)
+        starts, loose = (base.z, QUICK) if bend == _BENDS[-1] else (base.z[lost], CAREFUL)
         halfway, status = follow_from_generic(problem, starts, base.parameters, middle, loose, threads=threads)
         ends, status = follow_from_generic(problem, halfway[status == ARRIVED], middle, p, loose, threads=threads)
-        finite = _distinct(problem, np.concatenate([finite, ends[status == ARRIVED]]))
-    infinite = min(infinite, problem.classes - len(finite))
-    steps = np.empty(len(finite))
-    for_work(refine_solutions, refining(len(finite)))(finite, p, problem.poses, problem.points, steps)
-    proved = certified(problem.poses, problem.points, finite, p)
-    return Solutions(finite, proved, infinite, problem.classes - len(finite) - infinite)
+        more = ends[status == ARRIVED]
+        regular = _distinct(problem, np.concatenate([regular, more[_regular(problem, more, p)]]))
+        missing = problem.classes - len(regular) - outcome.infinite - outcome.singular
+    _sharpened(problem, regular, p)
+    proved = certified(problem.poses, problem.points, regular, p)
+    multiple = _distinct(problem, outcome.multiple)
+    return Solutions(regular, proved, multiple, outcome.infinite, outcome.singular, max(missing, 0))
+
+
+class _Outcome(NamedTuple):
+    """How paths end that did not arrive, or may not have."""
+
+    z: Complexes
+    """(paths, 8)"""
+    resolved: NDArray[np.bool_]
+    """(paths,) whether the endgame knows how the path ends."""
+    at_infinity: NDArray[np.bool_]
+    regular: NDArray[np.bool_]
+    several: NDArray[np.bool_]
+    """(paths,) whether several paths, or several branches of one, end there."""
+
+    @property
+    def infinite(self) -> int:
+        return int(np.count_nonzero(self.at_infinity))
+
+    @property
+    def multiple(self) -> Complexes:
+        """The singular solutions where paths end, once for each path."""
+        return self.z[self.resolved & ~self.at_infinity & ~self.regular]
+
+    @property
+    def singular(self) -> int:
+        return len(self.multiple)
+
+    def without(self, paths: NDArray[np.bool_]) -> _Outcome:
+        kept = ~paths
+        return _Outcome(
+            self.z[kept], self.resolved[kept], self.at_infinity[kept], self.regular[kept], self.several[kept]
+        )
+
+
+def _outcome(
+    problem: Problem, base: GenericSolutions, p: Complexes, lost: NDArray[np.bool_], threads: int | None
+) -> _Outcome:
+    """The ends of paths by the endgame."""
+    from gruebler._numeric.homotopy import ARRIVED
+
+    def follow(starts: Complexes, begin: Complexes, end: Complexes) -> tuple[Complexes, NDArray[np.bool_]]:
+        ends, status = follow_from_generic(problem, starts, begin, end, CAREFUL, threads=threads)
+        return ends, status == ARRIVED
+
+    if not lost.any():
+        none = np.zeros(0, bool)
+        return _Outcome(base.z[:0], none, none, none, none)
+    ends = path_ends(base.z[lost], base.parameters, p, follow)
+    resolved = ends.winding > 0
+    finite = np.flatnonzero(resolved & ~ends.infinite)
+    regular = np.zeros(len(resolved), bool)
+    regular[finite] = _regular(problem, ends.z[finite], p)
+    together = np.zeros(len(resolved), bool)
+    together[finite[_pairs(problem, ends.z[finite], _TOGETHER).ravel()]] = True
+    several = resolved & ~ends.infinite & (together | (ends.winding > 1))
+    return _Outcome(ends.z, resolved, ends.infinite, regular, several)
+
+
+def _regular(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
+    """Which solutions are regular: from two places a little aside Newton's method comes to the same one.
+
+    To a double solution it comes too slowly, half the way with each step; on a curve of solutions it ends elsewhere.
+    """
+    aside = _ASIDE * np.exp(2j * np.pi * np.arange(z.size).reshape(z.shape) / 7)
+    first, second = z + aside, z - aside
+    converged = _sharpened(problem, first, p) & _sharpened(problem, second, p)
+    apart = np.abs(first - second).max(axis=1, initial=0.0)
+    return np.asarray(
+        converged & (apart <= 1e-3 * _ASIDE) & (np.abs(first - z).max(axis=1, initial=0.0) <= 10 * _ASIDE)
+    )
+
+
+def _sharpened(problem: Problem, z: Complexes, p: Complexes) -> NDArray[np.bool_]:
+    """Solutions by Newton's method, in place, and which of them are regular: it converges to the last digits."""
+    from gruebler._numeric.compiling import for_work
+    from gruebler._numeric.homotopy import refine_solutions
+    from gruebler._numeric.work_estimates import refining
+
+    steps = np.empty(len(z))
+    if len(z):
+        for_work(refine_solutions, refining(len(z)))(z, p, problem.poses, problem.points, steps)
+    return np.asarray(steps < _REGULAR)
 
 
 def _random_task(begin: Complexes, end: Complexes, rng: np.random.Generator) -> Complexes:
@@ -222,13 +323,13 @@ def _levelled(marks: Complexes) -> Complexes:
         return np.asarray(np.where(size > 0, marks / size * np.log1p(size), 0))
 
 
-def _pairs(problem: Problem, z: Complexes) -> Integers:
+def _pairs(problem: Problem, z: Complexes, near: float = _SAME) -> Integers:
     """Pairs of solutions of one class: (pairs, 2)."""
     from scipy.spatial import cKDTree
 
     marks = _levelled(problem.marks(z))
     flat = np.nan_to_num(np.concatenate([marks.real, marks.imag], axis=1), nan=9.0)
-    return np.asarray(cKDTree(flat).query_pairs(_SAME, output_type="ndarray"))
+    return np.asarray(cKDTree(flat).query_pairs(near, output_type="ndarray"))
 
 
 def _repeated(problem: Problem, z: Complexes, arrived: NDArray[np.bool_]) -> NDArray[np.bool_]:

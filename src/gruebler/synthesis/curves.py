@@ -24,6 +24,7 @@ from gruebler.synthesis.judging import Demands, Probe, Targets, best_of
 from gruebler.synthesis.positions import four_bar_linkages, linkage_of_dyads, ranked
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PathTask
+from gruebler.text import message
 
 __all__ = ["Atlas", "Fit", "atlas", "fit_curve", "fit_path"]
 
@@ -338,8 +339,12 @@ def fit_path(task: PathTask, demands: Demands, *, number: int = 6, progress: Pro
             break
     accepted, rejected = ranked(designs)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
-    note = f"So many points are met by least squares; accepted is what comes nearer than {limit:g} of the size."
-    return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", 0, len(fits), len(fits)), (note,))
+    note = message(
+        "So many points are met by least squares; designs that come nearer than {limit:g} of the size are accepted.",
+        limit=limit,
+    )
+    count = SolutionCount(message("linkages"), 0, len(fits), len(fits))
+    return SynthesisResult(task, accepted, rejected, count, (note,))
 
 
 def linkages_of(fit: Fit, *, unit: str = "mm") -> list[Linkage]:

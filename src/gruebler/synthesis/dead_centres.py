@@ -14,11 +14,19 @@ import numpy as np
 from gruebler.arrays import Reals
 from gruebler.errors import LinkageError, SynthesisError
 from gruebler.fourbar import FourBar, SliderCrank
-from gruebler.synthesis.judging import Demands, pivots_inside, size_ratio
+from gruebler.synthesis.judging import Demands, faults_of_size, pivots_inside, size_ratio, transmission_fault
 from gruebler.synthesis.results import Design, DesignVerdict, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import DeadCentreTask
+from gruebler.text import message
 
-__all__ = ["DeadCentreFamily", "FamilyMember", "dead_centre_family", "synthesise_dead_centres"]
+__all__ = [
+    "DeadCentreFamily",
+    "DeadCentrePlaces",
+    "FamilyMember",
+    "dead_centre_family",
+    "member_places",
+    "synthesise_dead_centres",
+]
 
 
 _SAMPLES = 720
@@ -128,22 +136,15 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
     if sizes is None or not 0 < sizes[0] < sizes[1]:
         return None
     a, b = sizes
-    # The pin B in its outer (b + a) and inner (b - a) dead centre, seen from the crank's pivot.
-    delta = task.angle - pi
-    outer, inner = complex(b + a), (b - a) * complex(cos(delta), sin(delta))
-    way = inner - outer
+    outer, inner, pivot = _places(task, a, b)
+    chord = inner - outer
     try:
         linkage: FourBar | SliderCrank
-        if task.swing is None:
-            e = (np.conj(way) * outer).imag / abs(way)
-            linkage = SliderCrank(a, b, float(e))
-            centres = linkage.dead_centres
+        if pivot is None:
+            linkage = SliderCrank(a, b, float((np.conj(chord) * outer).imag / abs(chord)))
         else:
-            # From the outer to the inner dead centre the rocker turns by the swing in the sense of the crank.
-            turn = complex(cos(task.swing), sin(task.swing))
-            centre = (inner - turn * outer) / (1 - turn)
-            linkage = FourBar(a, b, 1.0, abs(centre))
-            centres = linkage.dead_centres
+            linkage = FourBar(a, b, 1.0, abs(pivot))
+        centres = linkage.dead_centres
         if centres is None:
             return None
         if task.swing is None:
@@ -152,11 +153,34 @@ def _member(task: DeadCentreTask, parameter: float) -> FamilyMember | None:
             wanted, found = (task.swing, task.angle), (centres.travel, centres.phi_back)
         if max(abs(x - y) for x, y in zip(wanted, found, strict=True)) > _SAME:
             return None
-        if task.swing is not None and not _same_sense(centre, outer, inner):
+        if pivot is not None and not _same_sense(pivot, outer, inner):
             return None
         return FamilyMember(parameter, linkage, float(linkage.transmission_angle.smallest.mu))
     except LinkageError:
         return None
+
+
+class DeadCentrePlaces(NamedTuple):
+    """Where the pin B of rocker or slider lies in the dead centres, and the rocker's pivot; the crank's is 0."""
+
+    outer: complex
+    inner: complex
+    rocker_pivot: complex | None
+
+
+def member_places(task: DeadCentreTask, member: FamilyMember) -> DeadCentrePlaces:
+    """The dead centres of a member; rocker or stroke have the length 1."""
+    return _places(task, member.linkage.a, member.linkage.b)
+
+
+def _places(task: DeadCentreTask, a: float, b: float) -> DeadCentrePlaces:
+    delta = task.angle - pi
+    outer, inner = complex(b + a), (b - a) * complex(cos(delta), sin(delta))
+    if task.swing is None:
+        return DeadCentrePlaces(outer, inner, None)
+    # From the outer to the inner dead centre the rocker turns by the swing in the sense of the crank.
+    turn = complex(cos(task.swing), sin(task.swing))
+    return DeadCentrePlaces(outer, inner, (inner - turn * outer) / (1 - turn))
 
 
 def _same_sense(centre: complex, outer: complex, inner: complex) -> bool:
@@ -184,17 +208,33 @@ def synthesise_dead_centres(
     accepted = tuple(sorted((d for d in designs if d.verdict.accepted), key=lambda d: -d.verdict.transmission))
     rejected = tuple(d for d in designs if not d.verdict.accepted)
     low, high = family.range
-    what = "coupler length" if abs(task.angle - pi) < 1e-12 else "crank length"
-    unit = "rocker" if task.swing is not None else "stroke"
     scale = task.stroke or 1.0
-    note = (
-        f"There are infinitely many solutions, one for each {what} from {low * scale:.4g} to {high * scale:.4g}"
-        f"{f' ({unit} 1)' if task.swing is not None else ''}; the best minimum transmission angle is "
-        f"{degrees(family.best.transmission):.2f} degrees."
+    note = _NOTES[abs(task.angle - pi) < 1e-12, task.swing is not None].filled(
+        low=low * scale, high=high * scale, angle=degrees(family.best.transmission)
     )
-    return SynthesisResult(
-        task, accepted, rejected, SolutionCount("linkages", None, len(designs), len(designs)), (note,)
-    )
+    count = SolutionCount(message("linkages"), None, len(designs), len(designs))
+    return SynthesisResult(task, accepted, rejected, count, (note,))
+
+
+_NOTES = {
+    (False, False): message(
+        "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g}; the best minimum "
+        "transmission angle is {angle:.2f} degrees."
+    ),
+    (False, True): message(
+        "There are infinitely many solutions, one for each crank length from {low:.4g} to {high:.4g} (rocker 1); the "
+        "best minimum transmission angle is {angle:.2f} degrees."
+    ),
+    (True, False): message(
+        "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g}; the best "
+        "minimum transmission angle is {angle:.2f} degrees."
+    ),
+    (True, True): message(
+        "There are infinitely many solutions, one for each coupler length, here from {low:.4g} to {high:.4g} (rocker "
+        "1); the best minimum transmission angle is {angle:.2f} degrees."
+    ),
+}
+"""By whether the dead centres are half a turn apart, and whether the output is a rocker."""
 
 
 def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Design:
@@ -202,13 +242,9 @@ def _design(task: DeadCentreTask, member: FamilyMember, demands: Demands) -> Des
     if task.stroke is not None:
         linkage = linkage.scaled(task.stroke)
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = []
-    if not inside:
-        reasons.append("a fixed pivot lies outside the region")
-    if ratio > demands.size_ratio:
-        reasons.append(f"its lengths differ too much (ratio {ratio:.3g})")
+    reasons = faults_of_size(ratio, inside, demands)
     if member.transmission < demands.transmission:
-        reasons.append(f"the transmission angle falls to {degrees(member.transmission):.1f} degrees")
+        reasons.append(transmission_fault(member.transmission))
     centres = member.linkage.dead_centres
     assert centres is not None
     error = abs(centres.travel - (task.swing if task.swing is not None else 1.0))

@@ -214,7 +214,10 @@ def all_dyads(given: Displacements) -> Dyads:
     # The rank is decided far above rounding and far below what a general task has.
     _, values, basis = np.linalg.svd(cubics / scale if scale > 0 else cubics)
     if scale < 1e-13 or values[3] < 1e-12 * max(values[0], 1e-300):
-        raise SynthesisError(_FAMILY)
+        raise SynthesisError(
+            "there are infinitely many dyads: some of the positions are repeated, or they belong to a motion that "
+            "infinitely many dyads guide (such as a rotation or a translation)"
+        )
     kernel = np.conj(basis[4:].T)  # (8, 4): evaluations at the four solutions span it
     products = np.stack([_times(kernel, shift) for shift in ((1, 0), (0, 1), (0, 0))])
     one, other = np.tensordot(_FORMS, products, axes=1)
@@ -222,12 +225,6 @@ def all_dyads(given: Displacements) -> Dyads:
     found = [_point(products @ vectors[:, k]) for k in range(4)]
     real = tuple(dyad for x in found if (dyad := _real_dyad(given, x)) is not None)
     return Dyads(_different(real), len(found))
-
-
-_FAMILY = (
-    "there are infinitely many dyads: some of the positions are repeated, or they belong to a motion that "
-    "infinitely many dyads guide (such as a rotation or a translation)"
-)
 
 
 def _times(kernel: Complexes, shift: tuple[int, int]) -> Complexes:

@@ -59,14 +59,14 @@ class Formula:
             tree = ast.parse(self.text.strip().replace("^", "**"), mode="eval").body
         except (SyntaxError, ValueError, RecursionError, MemoryError):
             raise SynthesisError(
-                "the function {text_!r} cannot be read; write for example log10(x)", text_=self.text
+                "the function {function!r} cannot be read; write for example log10(x)", function=self.text
             ) from None
         self._check(tree, 0)
         object.__setattr__(self, "tree", tree)
 
     def _check(self, node: ast.AST, depth: int) -> None:
         if depth > _DEEPEST:
-            raise SynthesisError("the function {text_!r} is nested too deeply", text_=self.text[:40])
+            raise SynthesisError("the function {function!r} is nested too deeply", function=self.text[:40])
         match node:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool) and abs(value) < 1e100:
                 return
@@ -85,8 +85,8 @@ class Formula:
             case _:
                 part = ast.unparse(node)[:40]
                 raise SynthesisError(
-                    "the function {text_!r}: {part!r} is none of numbers, x, + - * / ^ and calls",
-                    text_=self.text,
+                    "the function {function!r}: {part!r} is none of numbers, x, + - * / ^ and calls",
+                    function=self.text,
                     part=part,
                 )
 
@@ -94,8 +94,8 @@ class Formula:
         known = ["x", *_CONSTANTS, *_FUNCTIONS]
         close = nearest(name, known)
         raise SynthesisError(
-            "the function {text_!r}: unknown name {name!r}{close}; known are {known}",
-            text_=self.text,
+            "the function {function!r}: unknown name {name!r}{close}; known are {known}",
+            function=self.text,
             name=name,
             close=close,
             known=", ".join(known),
@@ -168,9 +168,9 @@ class FunctionLaw:
         for name in ("input_swing", "output_swing"):
             if not np.isfinite(getattr(self, name)) or getattr(self, name) == 0:
                 raise SynthesisError(
-                    "{name}: expected a number that is not 0, but found {getattr!r}",
+                    "{name}: expected a number that is not 0, but found {value:g}",
                     name=name,
-                    getattr=getattr(self, name),
+                    value=getattr(self, name),
                 )
         values = formula(np.linspace(low, high, 1001))
         if not np.isfinite(values).all():

@@ -22,8 +22,19 @@ from gruebler.kinematics.motion import Motion
 from gruebler.linkages import Linkage, Pin
 from gruebler.linkages.elements import Line
 from gruebler.synthesis.results import Design, DesignVerdict
+from gruebler.text import Message, joined, message
 
-__all__ = ["Demands", "Probe", "Targets", "best_of", "judge_design", "point_targets", "position_targets"]
+__all__ = [
+    "Demands",
+    "Probe",
+    "Targets",
+    "best_of",
+    "faults_of_size",
+    "judge_design",
+    "point_targets",
+    "position_targets",
+    "transmission_fault",
+]
 
 
 EXACT = 1e-9
@@ -137,23 +148,16 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
     True
     """
     ratio, inside = size_ratio(linkage), pivots_inside(linkage, demands.region)
-    reasons = []
-    if not inside:
-        reasons.append("a fixed pivot lies outside the region")
-    if ratio > demands.size_ratio:
-        reasons.append(f"its lengths differ too much (ratio {ratio:.3g})")
+    reasons = faults_of_size(ratio, inside, demands)
     try:
         course = circuit(linkage, step=0.05)
         met = _met(course, targets, demands.tolerance)
     except LinkageError as error:
-        reasons.append(f"it cannot be followed from its first position: {error}")
+        reasons.append(message("it cannot be followed from its first position: {error}", error=error))
         return Design(linkage, DesignVerdict(size_ratio=ratio, inside=inside, reasons=tuple(reasons)), form)
     missed = [k + 1 for k, arcs in enumerate(met.arcs) if not len(arcs)]
     if missed:
-        named = ", ".join(map(str, missed[:9])) + (", ..." if len(missed) > 9 else "")
-        what = f"target{'s' if len(missed) > 1 else ''} {named}"
-        nearest = f"the circuit comes no nearer than {met.error:.3g} of the size"
-        reasons.append(f"{what} cannot be reached without taking the linkage apart: {nearest}")
+        reasons.append(_missed(missed, met.error))
         verdict = DesignVerdict(True, size_ratio=ratio, inside=inside, error=met.error, reasons=tuple(reasons))
         return Design(linkage, verdict, form)
     path = _path(course, met.arcs)
@@ -164,15 +168,15 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         drives, missed_by, transmission = _carried(linkage, course, path, targets)
     limit = demands.tolerance + _ROUNDING * linkage.size / targets.size
     if not path.in_order and demands.in_order:
-        reasons.append("the targets are met in another order")
+        reasons.append(message("the targets are met in another order"))
     if not path.one_branch and demands.one_branch:
-        reasons.append("the drive has to turn back between the targets (two branches)")
+        reasons.append(message("the drive has to turn back between the targets (two branches)"))
     if path.one_branch and not missed_by <= limit:
-        reasons.append(f"a target is missed by {missed_by:.3g} of the size")
+        reasons.append(message("a target is missed by {error:.3g} of the size", error=missed_by))
     if demands.crank and not full:
-        reasons.append("the drive does not turn fully")
+        reasons.append(message("the drive does not turn fully"))
     if demands.transmission > 0 and not transmission >= demands.transmission:
-        reasons.append(f"the transmission angle falls to {np.degrees(transmission):.1f} degrees")
+        reasons.append(transmission_fault(float(transmission)))
     verdict = DesignVerdict(
         True,
         True,
@@ -186,6 +190,38 @@ def judge_design(linkage: Linkage, targets: Targets, demands: Demands, form: str
         tuple(reasons),
     )
     return Design(linkage, verdict, form, drives)
+
+
+def faults_of_size(ratio: float, inside: bool, demands: Demands) -> list[Message]:
+    """What speaks against a linkage before it moves: the place of its pivots, the ratio of its lengths."""
+    faults = []
+    if not inside:
+        faults.append(message("a fixed pivot lies outside the region"))
+    if ratio > demands.size_ratio:
+        faults.append(message("its lengths differ too much (ratio {ratio:.3g})", ratio=ratio))
+    return faults
+
+
+def transmission_fault(transmission: float) -> Message:
+    """That a transmission angle, in radians, is too small."""
+    return message("the transmission angle falls to {angle:.1f} degrees", angle=np.degrees(transmission))
+
+
+def _missed(targets: list[int], error: float) -> Message:
+    """Which targets the circuit misses, at most nine by their numbers, and how near it comes to the worst."""
+    if len(targets) == 1:
+        return message(
+            "target {target} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
+            "{error:.3g} of the size",
+            target=targets[0],
+            error=error,
+        )
+    return message(
+        "targets {targets} cannot be reached without taking the linkage apart: the circuit comes no nearer than "
+        "{error:.3g} of the size",
+        targets=joined([*targets[:9], *(["..."] if len(targets) > 9 else [])]),
+        error=error,
+    )
 
 
 def size_ratio(linkage: Linkage) -> float:

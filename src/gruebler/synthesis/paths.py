@@ -21,6 +21,7 @@ from gruebler.synthesis.judging import Demands, Probe, Targets, best_of, judge_d
 from gruebler.synthesis.positions import four_bar_linkages, guiding_dyads, ranked, synthesise_positions
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import SAME, PathTask, PositionTask
+from gruebler.text import Message, message
 
 __all__ = ["four_bars_through", "synthesise_path"]
 
@@ -38,9 +39,10 @@ def synthesise_path(
 ) -> SynthesisResult:
     """All four-bars whose coupler point passes through the points of a task.
 
-    With nine points, five points and two fixed pivots, five points with crank angles, or the finite mixed tasks all
-    solutions are found; with fewer the task is completed, since it has infinitely many; with more, and for a closed
-    curve, the four-bars that come nearest are sought.
+    Nine points, five points and two fixed pivots, five points with crank angles, and the finite mixed tasks have
+    finitely many solutions, all of which are found. Fewer points have infinitely many: points on a smooth curve through
+    them are added until the number is finite. For more points, and for a closed curve, the four-bars that come nearest
+    are sought.
 
     Args:
         task: points, perhaps with coupler angles, crank angles or fixed pivots.
@@ -53,8 +55,9 @@ def synthesise_path(
     below 1 s, and 10 ms for each verdict.
 
     >>> task = PathTask([(0, 0), (1, 0.6), (2, 0.8), (3, 0.6), (4, 0.1)], fixed_pivots=[(0, -3), (4, -2)])
-    >>> synthesise_path(task).count
-    SolutionCount(what='four-bars', theorem=36, found=36, real=14)
+    >>> count = synthesise_path(task).count
+    >>> str(count.what), count.theorem, count.found, count.real
+    ('four-bars', 36, 36, 14)
     """
     wanted = demands or Demands()
     oriented = [k for k, angle in enumerate(task.angles) if angle is not None]
@@ -107,16 +110,18 @@ def _exact(
     progress: Progress | None,
 ) -> SynthesisResult:
     _check_general(task)
-    made, found = _best_reference(task, problem, oriented, threads, progress)
+    reduced, found = _best_reference(task, problem, oriented, threads, progress)
     designs: list[Design] = []
-    for guiding_dyad, two in _dyad_pairs(problem, found):
-        guiding_dyad, two = (d.moved(made.size, made.origin) for d in (guiding_dyad, two))  # noqa: PLW2901
-        designs += _judged(task, demands, guiding_dyad, two, made.first)
-    cognates = 3 if problem.poses == 0 and not problem.given_pivots else 1
-    what = "cognate triples" if cognates == 3 else "four-bars"
+    for pair in _dyad_pairs(problem, found):
+        first, second = (dyad.moved(reduced.size, reduced.origin) for dyad in pair)
+        designs += _judged(task, demands, first, second, reduced.first)
+    cognate = problem.poses == 0 and not problem.given_pivots
+    what = message("cognate triples") if cognate else message("four-bars")
     accepted, rejected = ranked(designs)
-    count = SolutionCount(what, problem.classes, len(found.z) + found.infinite, len(found.real))
-    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(found, made.added)))
+    count = SolutionCount(
+        what, None if reduced.added else problem.classes, problem.classes - found.missing, len(found.real)
+    )
+    return SynthesisResult(task, accepted, rejected, count, tuple(_notes(problem, found, reduced.added)))
 
 
 def _check_general(task: PathTask) -> None:
@@ -148,19 +153,28 @@ def _check_general(task: PathTask) -> None:
             )
 
 
-def _notes(found: Solutions, added: int) -> Iterator[str]:
+def _notes(problem: Problem, found: Solutions, added: int) -> Iterator[Message]:
     if added:
-        yield (
-            f"There are infinitely many solutions: to make them finite {added} more on a smooth curve through the "
-            "given points were added."
+        yield message(
+            "There are infinitely many solutions: {count} points on a smooth curve through the given ones were added; "
+            "with them there are {theorem} solutions.",
+            count=added,
+            theorem=problem.classes,
         )
     if found.infinite:
-        yield f"{found.infinite} solutions lie at infinity: the task is a special one."
+        yield message("{count} solutions lie at infinity: the task is a special one.", count=found.infinite)
+    if found.singular:
+        yield message(
+            "{count} solutions are singular, since some coincide or have coinciding pivots: the task is a special one.",
+            count=found.singular,
+        )
     if found.missing:
-        yield f"{found.missing} solutions are missing: their paths could not be followed to the end."
+        yield message(
+            "{count} solutions are not resolved: where their paths end could not be decided.", count=found.missing
+        )
     doubtful = int(np.count_nonzero(~found.certified))
     if doubtful:
-        yield f"{doubtful} solutions are not certified: they are singular or nearly so."
+        yield message("{count} solutions are not certified: they are singular or nearly so.", count=doubtful)
 
 
 def _best_reference(
@@ -172,11 +186,11 @@ def _best_reference(
     candidates.sort(key=lambda k: float(np.abs(z - z[k]).mean()))
     best: tuple[_Reduced, Solutions] | None = None
     for first in candidates[:2]:
-        made = _reduced(task, problem, oriented, first)
-        found = solutions(problem, made.parameters, threads=threads, progress=progress)
-        if best is None or len(found.z) > len(best[1].z):
-            best = made, found
-        if not found.missing + found.infinite:
+        reduced = _reduced(task, problem, oriented, first)
+        found = solutions(problem, reduced.parameters, threads=threads, progress=progress)
+        if best is None or found.missing < best[1].missing:
+            best = reduced, found
+        if not found.missing:
             break
     assert best is not None
     return best
@@ -259,11 +273,9 @@ def _targets(task: PathTask, first: int, linkage: Linkage) -> Targets:
 def four_bars_through(task: PathTask) -> list[tuple[GuidingDyad, GuidingDyad]]:
     """The real pairs of dyads through nine points, or five points with given pivots, without a verdict."""
     problem = PROBLEMS[4 if task.fixed_pivots else 0]
-    made, found = _best_reference(task, problem, [], None, None)
-    pairs = _dyad_pairs(problem, found)
-    return [
-        (guiding_dyad.moved(made.size, made.origin), two.moved(made.size, made.origin)) for guiding_dyad, two in pairs
-    ]
+    reduced, found = _best_reference(task, problem, [], None, None)
+    size, origin = reduced.size, reduced.origin
+    return [(first.moved(size, origin), second.moved(size, origin)) for first, second in _dyad_pairs(problem, found)]
 
 
 def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
@@ -296,10 +308,9 @@ def _timed(task: PathTask, demands: Demands, number: int) -> SynthesisResult:
             designs += _judged_timed(task, demands, own, other)
     accepted, rejected = ranked(designs)
     theorem = 12 if len(task) == 5 else None
-    notes = [] if theorem else ["There are infinitely many solutions; some dyads of each family were taken."]
-    return SynthesisResult(
-        task, accepted, rejected, SolutionCount("linkages", theorem, 12 if theorem else real, real), tuple(notes)
-    )
+    family = message("There are infinitely many solutions; some dyads of each family were taken.")
+    count = SolutionCount(message("linkages"), theorem, theorem or real, real)
+    return SynthesisResult(task, accepted, rejected, count, () if theorem else (family,))
 
 
 def _judged_timed(task: PathTask, demands: Demands, own: GuidingDyad, other: GuidingDyad) -> list[Design]:

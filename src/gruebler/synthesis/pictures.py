@@ -2,37 +2,24 @@
 
 from __future__ import annotations
 
-from math import degrees, isnan
+from math import degrees, isnan, pi
 
 from gruebler.drawing.canvas import gallery_html
 from gruebler.drawing.canvas.figure import Figure
 from gruebler.drawing.canvas.gallery import Item, Section
+from gruebler.drawing.linkage.animation import animated_svg
 from gruebler.drawing.linkage.picture import draw_linkage
+from gruebler.errors import LinkageError
 from gruebler.linkages import Linkage
+from gruebler.synthesis.alt_construction import STRAIGHT, construction_steps
+from gruebler.synthesis.dead_centres import DeadCentreFamily, FamilyMember, dead_centre_family
 from gruebler.synthesis.results import Design, SynthesisResult
-from gruebler.synthesis.tasks import PathTask, PositionTask, Task
+from gruebler.synthesis.tasks import DeadCentreTask, PathTask, PositionTask, Task
+from gruebler.text import Message, joined, message, translate
 
 __all__ = ["design_figure", "designs_page"]
 
 _MOST_MARKS = 12  # targets that get a name; of more every second, third, ... is shown
-_WORDS = {
-    "en": {
-        "title": "Designs",
-        "accepted": "Accepted",
-        "rejected": "Rejected",
-        "round": "full turn",
-        "mu": "minimum transmission angle {mu:.1f}°",
-        "note": "{accepted} accepted, {rejected} rejected",
-    },
-    "de": {
-        "title": "Entwürfe",
-        "accepted": "Angenommen",
-        "rejected": "Verworfen",
-        "round": "umlaufend",
-        "mu": "kleinster Übertragungswinkel {mu:.1f}°",
-        "note": "{accepted} angenommen, {rejected} verworfen",
-    },
-}
 
 
 def _marked(task: Task, linkage: Linkage) -> Linkage:
@@ -64,26 +51,54 @@ def design_figure(task: Task, design: Design, *, lang: str = "en") -> Figure:
     return draw_linkage(linkage, drive, curves=curves, lang=lang)
 
 
-def designs_page(found: SynthesisResult, *, lang: str = "en", most: int = 24) -> str:
-    """All accepted designs on one HTML page, so many at most; rejected ones if there are no others."""
-    words = _WORDS[lang]
-    shown, heading = (found.designs, "accepted") if found.designs else (found.rejected, "rejected")
+def designs_page(result: SynthesisResult, *, lang: str = "en", most: int = 24) -> str:
+    """All accepted designs on one HTML page, moving, so many at most; rejected ones if there are no others.
+
+    Of dead centres the construction stands before them, step by step.
+    """
+    shown, heading = (result.designs, message("Accepted")) if result.designs else (result.rejected, message("Rejected"))
     items = []
     for number, design in enumerate(shown[:most]):
-        figure = design_figure(found.task, design, lang=lang)
-        items.append(Item(figure, f"{number + 1} {_caption(design, lang)}"))
-    note = words["note"].format(accepted=len(found.designs), rejected=len(found.rejected))
-    return gallery_html(words["title"], [Section(words[heading], tuple(items))], lang=lang, note=note)
+        figure = design_figure(result.task, design, lang=lang)
+        items.append(Item(figure, f"{number + 1} {_caption(design, lang)}", moving=_moving(result.task, design, lang)))
+    totals = {"accepted": len(result.designs), "rejected": len(result.rejected)}
+    note = translate("Designs: {accepted} accepted, {rejected} rejected.", lang, **totals)
+    sections = [*_construction(result.task, lang), Section(heading.in_language(lang), tuple(items))]
+    return gallery_html(translate("Designs", lang), sections, lang=lang, note=note)
+
+
+def _moving(task: Task, design: Design, lang: str) -> str:
+    """A design that moves through its whole range, as SVG; empty where it cannot be followed."""
+    curves = ["P"] if "P" in design.linkage.points else []
+    try:
+        return animated_svg(_marked(task, design.linkage), curves=curves, lang=lang)
+    except LinkageError:
+        return ""
+
+
+def _construction(task: Task, lang: str) -> list[Section]:
+    """Alt's construction of the best linkage with given dead centres."""
+    if not isinstance(task, DeadCentreTask):
+        return []
+    steps = construction_steps(task, _shown_member(dead_centre_family(task)), lang=lang)
+    items = tuple(Item(step.figure, f"{k}. {step.caption.in_language(lang)}") for k, step in enumerate(steps, 1))
+    return [Section(translate("Alt's construction, step by step", lang), items, wide=True)]
+
+
+def _shown_member(family: DeadCentreFamily) -> FamilyMember:
+    """The best member; one of moderate size where the dead centres are half a turn apart: a longer one is better."""
+    if abs(family.task.angle - pi) > STRAIGHT:
+        return family.best
+    return min(family.members, key=lambda member: abs(member.linkage.b - 6 * member.linkage.a))
 
 
 def _caption(design: Design, lang: str) -> str:
-    words = _WORDS[lang]
-    verdict = design.verdict
+    verdict, form = design.verdict, design.form_in_language(lang)
     if verdict.reasons:
-        return f"{design.form}: {'; '.join(verdict.reasons)}"
-    parts = [design.form]
+        return f"{form}: {joined(verdict.reasons, '; ').in_language(lang)}"
+    parts: list[Message | str] = [form]
     if verdict.turns_fully:
-        parts.append(words["round"])
+        parts.append(message("full turn"))
     if not isnan(verdict.transmission):
-        parts.append(words["mu"].format(mu=degrees(verdict.transmission)))
-    return ", ".join(parts)
+        parts.append(message("minimum transmission angle {angle:.1f}°", angle=degrees(verdict.transmission)))
+    return joined(parts).in_language(lang)

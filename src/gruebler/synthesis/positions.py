@@ -32,6 +32,7 @@ from gruebler.synthesis.dyads import (
 from gruebler.synthesis.judging import Demands, Targets, best_of, position_targets
 from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.tasks import PositionTask
+from gruebler.text import Message, message
 
 __all__ = ["four_bar_linkages", "guiding_dyads", "linkage_of_dyads", "ranked", "synthesise_positions"]
 
@@ -41,6 +42,22 @@ _SIDES = {"RR": ("crank", "rocker"), "PR": ("slider", "second slider"), "RP": ("
 
 NEAR = 0.05
 """More than five positions are met if they are missed by less than this part of the size."""
+
+DYADS = message("dyads")
+_FAMILIES = {
+    2: message(
+        "There are infinitely many solutions: every point of the body and every point of the frame is a pivot of "
+        "infinitely many dyads; {count} dyads were taken."
+    ),
+    3: message(
+        "There are infinitely many solutions: every point of the body is the pivot of one dyad, likewise every point "
+        "of the frame; {count} dyads were taken."
+    ),
+    4: message(
+        "There are infinitely many solutions: the pivots lie on Burmester's cubics, one dyad for each point of them; "
+        "{count} dyads were taken."
+    ),
+}
 
 THEOREM = {2: None, 3: None, 4: None, 5: 4}
 """How many complex dyads a general task has, by the number of positions."""
@@ -73,9 +90,9 @@ def guiding_dyads(task: PositionTask, number: int = 24) -> tuple[GuidingDyad, ..
         displacements = Displacements(
             np.append(displacements.q, _halfway(displacements.q[0])), np.append(displacements.t, _halved(displacements))
         )
-    for made, pivot in chosen:
+    for construct, pivot in chosen:
         try:
-            out.append(made(displacements, (pivot - origin) / size).moved(size, origin))
+            out.append(construct(displacements, (pivot - origin) / size).moved(size, origin))
         except SynthesisError:
             if task.moving_pivots or task.fixed_pivots:
                 raise
@@ -114,28 +131,23 @@ def synthesise_positions(task: PositionTask, demands: Demands | None = None, *, 
     dyads = guiding_dyads(task, number)
     if len(task) > 5:
         return _approximate(task, wanted, dyads)
-    made = _judged_pairs(task, wanted, dyads)
-    notes = []
+    candidates = _judged_pairs(task, wanted, dyads)
+    notes: list[Message] = []
     found = len(dyads)
     if len(task) == 5:
         displacements, *_ = Displacements.of(task.origins, task.turns)
         found = all_dyads(displacements).found
     else:
-        family = {
-            2: "every point of the body and every point of the frame is a pivot of infinitely many dyads",
-            3: "every point of the body is the pivot of one dyad, likewise every point of the frame",
-            4: "the pivots lie on Burmester's cubics: one dyad for each point of them",
-        }[len(task)]
-        notes.append(f"There are infinitely many solutions: {family}; {len(dyads)} dyads were taken.")
+        notes.append(_FAMILIES[len(task)].filled(count=len(dyads)))
     if len(dyads) < 2:
-        notes.append("A linkage needs two dyads.")
-    designs, rejected = ranked(made)
+        notes.append(message("A linkage needs two dyads."))
+    designs, rejected = ranked(candidates)
     return SynthesisResult(
-        task, designs, rejected, SolutionCount("dyads", THEOREM[len(task)], found, len(dyads)), tuple(notes)
+        task, designs, rejected, SolutionCount(DYADS, THEOREM[len(task)], found, len(dyads)), tuple(notes)
     )
 
 
-def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
+def ranked(candidates: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ...]]:
     """Accepted designs, those with a full turn and the largest transmission angle first, and rejected ones."""
 
     def worth(design: Design) -> tuple[bool, float, float]:
@@ -143,9 +155,11 @@ def ranked(made: Iterable[Design]) -> tuple[tuple[Design, ...], tuple[Design, ..
         mu = verdict.transmission
         return not verdict.turns_fully, 0.0 if isnan(mu) else -mu, verdict.size_ratio
 
-    made = list(made)
-    accepted = sorted((d for d in made if d.verdict.accepted), key=worth)
-    rejected = sorted((d for d in made if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d)))
+    candidates = list(candidates)
+    accepted = sorted((d for d in candidates if d.verdict.accepted), key=worth)
+    rejected = sorted(
+        (d for d in candidates if not d.verdict.accepted), key=lambda d: (len(d.verdict.reasons), worth(d))
+    )
     return tuple(accepted), tuple(rejected)
 
 
@@ -278,7 +292,8 @@ def _approximate(task: PositionTask, demands: Demands, dyads: Sequence[GuidingDy
     designs = _judged_pairs(task, replace(demands, tolerance=tolerance), dyads)
     accepted, rejected = ranked(designs)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
-    note = (
-        f"More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted."
+    note = message(
+        "More than five positions are met by least squares; designs that come nearer than {tolerance:g} are accepted.",
+        tolerance=tolerance,
     )
-    return SynthesisResult(task, accepted, rejected, SolutionCount("dyads", 0, len(dyads), len(dyads)), (note,))
+    return SynthesisResult(task, accepted, rejected, SolutionCount(DYADS, 0, len(dyads), len(dyads)), (note,))

@@ -8,6 +8,7 @@ from typing import Any
 
 from gruebler.linkages import Linkage
 from gruebler.synthesis.tasks import Task
+from gruebler.text import Message, message, plural
 
 __all__ = ["Design", "DesignVerdict", "SolutionCount", "SynthesisResult"]
 
@@ -34,12 +35,21 @@ class DesignVerdict:
     """Whether the fixed pivots lie in the region."""
     error: float = float("nan")
     """The largest deviation from a target, relative to the size of the task."""
-    reasons: tuple[str, ...] = ()
+    reasons: tuple[Message, ...] = ()
 
     @property
     def accepted(self) -> bool:
         """Whether nothing speaks against it."""
         return not self.reasons
+
+
+FITTED = "fitted structure"
+"""The form of a design whose structure is neither that of a four-bar nor of a slider-crank."""
+_FORMS = {
+    "four-bar": message("four-bar"),
+    "slider-crank": message("slider-crank"),
+    "inverted-slider-crank": message("inverted slider-crank"),
+}
 
 
 @dataclass(frozen=True)
@@ -49,9 +59,15 @@ class Design:
     linkage: Linkage
     verdict: DesignVerdict
     form: str
-    """The two connections of coupler and frame, such as ``RR-RR``, or the name of the linkage."""
+    """The two connections of coupler and frame, such as ``RR-RR``, or the kind of linkage, such as ``four-bar``."""
     drives: tuple[float, ...] = ()
     """The drive value at each target."""
+
+    def form_in_language(self, lang: str = "en") -> str:
+        """The form in words, that of a fitted structure by its number of links."""
+        if self.form == FITTED:
+            return plural("{count} link", "{count} links", len(self.linkage.mechanism.chain.links), lang)
+        return _FORMS[self.form].in_language(lang) if self.form in _FORMS else self.form
 
     def to_json(self) -> dict[str, Any]:
         """Plain data: verdict, form, drive values in degrees (or the unit of length), linkage."""
@@ -61,7 +77,7 @@ class Design:
         verdict = self.verdict
         return {
             "accepted": verdict.accepted,
-            "reasons": list(verdict.reasons),
+            "reasons": [str(reason) for reason in verdict.reasons],
             "form": self.form,
             "assembles": verdict.assembles,
             "one_circuit": verdict.one_circuit,
@@ -85,8 +101,8 @@ def _or_none(value: float) -> float | None:
 class SolutionCount:
     """How many solutions there are."""
 
-    what: str
-    """What is counted, such as ``dyads`` or ``cognate triples``."""
+    what: Message
+    """What is counted, such as dyads or cognate triples."""
     theorem: int | None
     """How many complex solutions a general task has; None where there are infinitely many, 0 where none is exact."""
     found: int
@@ -108,7 +124,7 @@ class SynthesisResult:
     designs: tuple[Design, ...]
     rejected: tuple[Design, ...]
     count: SolutionCount
-    notes: tuple[str, ...] = field(default=())
+    notes: tuple[Message, ...] = field(default=())
     """What else has to be known: solutions at infinity, missing ones, families of infinitely many."""
 
     def __len__(self) -> int:
@@ -124,12 +140,12 @@ class SynthesisResult:
         return {
             "task": task_to_json(self.task),
             "count": {
-                "what": self.count.what,
+                "what": str(self.count.what),
                 "theorem": self.count.theorem,
                 "found": self.count.found,
                 "real": self.count.real,
             },
-            "notes": list(self.notes),
+            "notes": [str(note) for note in self.notes],
             "designs": [design.to_json() for design in self.designs],
             "rejected": [design.to_json() for design in self.rejected],
         }

@@ -25,9 +25,10 @@ from gruebler.synthesis.closure import DesignClosure
 from gruebler.synthesis.curve_matching import best_matches, drive_angles, resampled
 from gruebler.synthesis.judging import Demands, judge_design, point_targets
 from gruebler.synthesis.positions import ranked
-from gruebler.synthesis.results import Design, SolutionCount, SynthesisResult
+from gruebler.synthesis.results import FITTED, Design, SolutionCount, SynthesisResult
 from gruebler.synthesis.structure_atlas import dyad_structure, link_motions, structure_atlas
 from gruebler.synthesis.tasks import PathTask
+from gruebler.text import message
 
 __all__ = ["ParetoRow", "fit_structure", "pareto", "synthesise_structures"]
 
@@ -92,18 +93,29 @@ def synthesise_structures(
     for mechanism in mechanisms:
         if len(mechanism.drives) > 1:
             raise SynthesisError(
-                "a path is fitted with one drive, but {text_!r} has {count}",
-                text_=mechanism.text(),
+                "a path is fitted with one drive, but {mechanism!r} has {count}",
+                mechanism=mechanism.text(),
                 count=len(mechanism.drives),
             )
     jobs = [job for mechanism in mechanisms for job in _jobs(task, mechanism, starts, link)]
     work = partial(_fitted, task, wanted, link)
     found = list(map(work, jobs) if executor is None else executor.map(work, jobs))
-    made = [design for designs in found for design in designs]
-    accepted, rejected = ranked(made)
+    candidates = [design for designs in found for design in designs]
+    accepted, rejected = ranked(candidates)
     accepted = tuple(sorted(accepted, key=lambda design: design.verdict.error))
-    note = f"{len(jobs)} starts were improved by least squares; accepted is what comes nearer than the tolerance."
-    return SynthesisResult(task, accepted, rejected, SolutionCount("linkages", 0, len(made), len(made)), (note,))
+    note = message(
+        "{count} starts were improved by least squares; designs that come nearer than {limit:g} of the size are "
+        "accepted.",
+        count=len(jobs),
+        limit=_limit(wanted),
+    )
+    count = SolutionCount(message("linkages"), 0, len(candidates), len(candidates))
+    return SynthesisResult(task, accepted, rejected, count, (note,))
+
+
+def _limit(demands: Demands) -> float:
+    """How far a path may be missed, relative to its size: what the caller demands, if it is no exact task."""
+    return demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
 
 
 def pareto(found: SynthesisResult) -> tuple[ParetoRow, ...]:
@@ -211,9 +223,8 @@ def _judged(
         linkage = closure.with_sizes(state.p, {"P": (state.link, state.u, state.v)}, state.q[0]).with_outputs(outputs)
     except LinkageError:
         return None
-    limit = demands.tolerance if demands.tolerance > 1e-6 else ACCEPTED
     targets = point_targets("P", task.z, float(max(np.ptp(task.z.real), np.ptp(task.z.imag))))
-    return judge_design(linkage, targets, replace(demands, tolerance=limit), f"{len(closure.links) + 1} links")
+    return judge_design(linkage, targets, replace(demands, tolerance=_limit(demands)), FITTED)
 
 
 def fit_structure(

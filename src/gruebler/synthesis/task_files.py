@@ -18,7 +18,8 @@ from gruebler.atomic_files import atomic_file
 from gruebler.documents import convert_document, load_document
 from gruebler.errors import SynthesisError
 from gruebler.formats.angles import in_degrees, in_radians
-from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task
+from gruebler.synthesis.formulas import FunctionLaw
+from gruebler.synthesis.tasks import DeadCentreTask, FunctionTask, PathTask, PositionTask, Task, function_task
 
 __all__ = ["read_task", "task_from_json", "task_to_json", "write_task"]
 
@@ -49,6 +50,17 @@ class _Function(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
     start_output: bool = True
 
 
+class _Law(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
+    function: str
+    interval: tuple[float, float]
+    input_swing: Any
+    output_swing: Any
+    input_start: Any = None
+    output_start: Any = None
+    precision_points: int = 5
+    output: str = "angle"
+
+
 class _DeadCentres(_Record, frozen=True, forbid_unknown_fields=True, kw_only=True):
     swing: Any = None
     stroke: float | None = None
@@ -57,6 +69,7 @@ class _DeadCentres(_Record, frozen=True, forbid_unknown_fields=True, kw_only=Tru
 
 
 _KINDS: dict[str, type[_Record]] = {
+    "function": _Law,
     "positions": _Positions,
     "points": _Path,
     "inputs": _Function,
@@ -88,7 +101,7 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
     kind = next((record for key, record in _KINDS.items() if key in document), None)
     if kind is None:
         raise SynthesisError(
-            "a task has positions, points, inputs and outputs, or a swing or stroke; found none of them"
+            "a task has positions, points, inputs and outputs, a function, or a swing or stroke; found none of them"
         )
     given = dict(document)
     for key, short in (("angles", None), ("crank_angles", None)):  # null stands for a free angle in JSON, "" in TOML
@@ -101,7 +114,9 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
             for k, row in enumerate(record.positions):
                 if len(row) != 3:
                     raise SynthesisError(
-                        "positions {k}: expected [x, y, degrees], but found {count} values", k=k + 1, count=len(row)
+                        "positions {number}: expected [x, y, degrees], but found {count} values",
+                        number=k + 1,
+                        count=len(row),
                     )
             rows = [(row[0], row[1], _radians(row[2], f"positions {k + 1}")) for k, row in enumerate(record.positions)]
             return PositionTask(**{**data, "positions": rows})
@@ -114,10 +129,33 @@ def task_from_json(document: Mapping[str, Any]) -> Task:
             turning = record.output == "angle"
             outputs = [_radians(a, f"outputs {k + 1}") if turning else a for k, a in enumerate(record.outputs)]
             return FunctionTask(**{**data, "inputs": tuple(inputs), "outputs": tuple(outputs)})
+        case _Law():
+            return _function_task(record)
         case _:
             for key in ("swing", "crank_angle"):
                 data[key] = None if data[key] is None else _radians(data[key], key)
             return DeadCentreTask(**data)
+
+
+def _function_task(record: _Law) -> FunctionTask:
+    def output(value: Any, where: str) -> float:
+        return _radians(value, where) if record.output == "angle" else _length(value, where)
+
+    law = FunctionLaw(
+        record.function,
+        record.interval,
+        _radians(record.input_swing, "input_swing"),
+        output(record.output_swing, "output_swing"),
+        None if record.input_start is None else _radians(record.input_start, "input_start"),
+        None if record.output_start is None else output(record.output_start, "output_start"),
+    )
+    return function_task(law, record.precision_points, output=record.output, unit=record.unit)
+
+
+def _length(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise SynthesisError("{where}: expected a number, but found {value!r}", where=where, value=str(value)[:40])
+    return float(value)
 
 
 def task_to_json(task: Task) -> dict[str, Any]:
@@ -135,6 +173,21 @@ def task_to_json(task: Task) -> dict[str, Any]:
                 "fixed_pivots": [list(p) for p in task.fixed_pivots],
                 "closed": task.closed,
             }
+        case FunctionTask(law=FunctionLaw() as law):
+
+            def output(value: float) -> float | str:
+                return in_degrees(value) if task.output == "angle" else value
+
+            more = {
+                "function": law.function,
+                "interval": list(law.interval),
+                "input_swing": in_degrees(law.input_swing),
+                "output_swing": output(law.output_swing),
+                "input_start": None if law.input_start is None else in_degrees(law.input_start),
+                "output_start": None if law.output_start is None else output(law.output_start),
+                "precision_points": len(task),
+                "output": task.output,
+            }
         case FunctionTask():
             turning = task.output == "angle"
             out["inputs"] = [in_degrees(a) for a in task.inputs]
@@ -148,7 +201,7 @@ def task_to_json(task: Task) -> dict[str, Any]:
                 "crank_angle": None if task.crank_angle is None else in_degrees(task.crank_angle),
                 "time_ratio": task.time_ratio,
             }
-    return out | {key: value for key, value in more.items() if value not in (None, [], False)}
+    return out | {key: value for key, value in more.items() if value is not None and value is not False and value != []}
 
 
 _PIVOTS = ("moving_pivots", "fixed_pivots")
@@ -179,20 +232,26 @@ def _text(path: Path) -> str:
     try:
         return path.read_bytes()[:1_000_001].decode("utf-8-sig")
     except OSError as error:
-        raise SynthesisError("cannot be read ({value})", value=error.strerror or error) from None
+        raise SynthesisError("cannot be read ({reason})", reason=error.strerror or error) from None
     except UnicodeDecodeError:
         raise SynthesisError("is not UTF-8 text") from None
 
 
 def _from_csv(text: str) -> Task:
-    lines = [row for row in csv.reader(io.StringIO(text)) if any(cell.strip() for cell in row)]
+    try:
+        lines = [row for row in csv.reader(io.StringIO(text)) if any(cell.strip() for cell in row)]
+    except csv.Error as error:
+        raise SynthesisError("is no table: {reason}", reason=error) from None
     if not lines:
         raise SynthesisError("is empty")
     header = [cell.strip().lower() for cell in lines[0]]
     for k, row in enumerate(lines[1:]):
         if len(row) != len(header):
             raise SynthesisError(
-                "line {k}: expected {count} columns, but found {count_2}", k=k + 2, count=len(header), count_2=len(row)
+                "line {line}: expected {expected} columns, but found {count}",
+                line=k + 2,
+                expected=len(header),
+                count=len(row),
             )
     columns = {name: [row[c].strip() for row in lines[1:]] for c, name in enumerate(header)}
 
@@ -203,7 +262,7 @@ def _from_csv(text: str) -> Task:
                 out.append(float(cell))
             except ValueError:
                 raise SynthesisError(
-                    "line {k}, {name}: expected a number, but found {cell!r}", k=k + 2, name=name, cell=cell[:40]
+                    "line {line}, {name}: expected a number, but found {cell!r}", line=k + 2, name=name, cell=cell[:40]
                 ) from None
         return out
 
@@ -302,9 +361,7 @@ def _to_csv(document: Mapping[str, Any]) -> str:
                 "a CSV file has no columns for {keys}: write .toml or .json", keys=", ".join(sorted(keys))
             )
     if document["unit"] != "mm":
-        raise SynthesisError(
-            "a CSV file does not name the unit {document!r}: write .toml or .json", document=document["unit"]
-        )
+        raise SynthesisError("a CSV file does not name the unit {unit!r}: write .toml or .json", unit=document["unit"])
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerows(
         [header, *([f"{v}°" if isinstance(v, str) and v else v for v in row] for row in rows)]

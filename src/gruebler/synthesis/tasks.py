@@ -13,19 +13,24 @@ import numpy as np
 
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import SynthesisError
+from gruebler.synthesis.formulas import FunctionLaw, chebyshev_spacing
+from gruebler.text import Message, joined_by_and, message
 
-__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task"]
+__all__ = ["DeadCentreTask", "FunctionTask", "PathTask", "PositionTask", "Task", "function_task"]
 
 Pair = tuple[float, float]
+_Pairs = tuple[tuple[float, ...], tuple[float, ...], bool, bool]  # inputs, outputs, whether their starts are given
 
 SAME = 1e-9
 """Two points nearer than this part of the task's size are one: designs are held to the same bound."""
 LARGEST = 1e100
+MOST_PAIRS = 5
+"""Precision pairs that a linkage coordinates exactly, with both starts free."""
 MOST_POINTS = 9
 """A coupler curve of a four-bar passes through nine general points; more are met as well as possible."""
 
 
-def _number(value: object, where: str) -> float:
+def _number(value: object, where: Message | str) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):
         raise SynthesisError("{where}: expected a number, but found {value!r}", where=where, value=str(value)[:40])
     number = float(value)
@@ -34,12 +39,17 @@ def _number(value: object, where: str) -> float:
     return number
 
 
-def _row(row: object, where: str, count: int) -> tuple[float, ...]:
+def _row(row: object, where: Message, count: int) -> tuple[float, ...]:
     if isinstance(row, str) or not isinstance(row, Sequence | np.ndarray) or len(row) != count:
         raise SynthesisError(
             "{where}: expected {count} numbers, but found {row!r}", where=where, count=count, row=str(row)[:40]
         )
     return tuple(_number(value, where) for value in row)
+
+
+def _numbered(key: str, k: int) -> Message:
+    """An entry of a key of a task file."""
+    return message("{key} {number}", key=key, number=k + 1)
 
 
 def _size(z: Complexes) -> float:
@@ -67,10 +77,10 @@ class PositionTask:
     unit: str = "mm"
 
     def __post_init__(self) -> None:
-        rows = tuple(_row(row, f"position {k + 1}", 3) for k, row in enumerate(self.positions))
+        rows = tuple(_row(row, message("position {number}", number=k + 1), 3) for k, row in enumerate(self.positions))
         object.__setattr__(self, "positions", rows)
         for name in ("moving_pivots", "fixed_pivots"):
-            pairs = tuple(_row(row, f"{name} {k + 1}", 2) for k, row in enumerate(getattr(self, name)))
+            pairs = tuple(_row(row, _numbered(name, k), 2) for k, row in enumerate(getattr(self, name)))
             object.__setattr__(self, name, pairs)
         if len(rows) < 2:
             raise SynthesisError("positions: expected at least two, but found {count}", count=len(rows))
@@ -128,23 +138,23 @@ class PathTask:
     unit: str = "mm"
 
     def __post_init__(self) -> None:
-        rows = tuple(_row(row, f"point {k + 1}", 2) for k, row in enumerate(self.points))
+        rows = tuple(_row(row, message("point {number}", number=k + 1), 2) for k, row in enumerate(self.points))
         object.__setattr__(self, "points", rows)
-        pivots = tuple(_row(row, f"fixed_pivots {k + 1}", 2) for k, row in enumerate(self.fixed_pivots))
+        pivots = tuple(_row(row, _numbered("fixed_pivots", k), 2) for k, row in enumerate(self.fixed_pivots))
         object.__setattr__(self, "fixed_pivots", pivots)
-        angles = tuple(None if a is None else _number(a, f"angle {k + 1}") for k, a in enumerate(self.angles))
+        angles = tuple(None if a is None else _number(a, _numbered("angles", k)) for k, a in enumerate(self.angles))
         object.__setattr__(self, "angles", angles)
-        timing = tuple(_number(a, f"crank_angle {k + 1}") for k, a in enumerate(self.crank_angles))
+        timing = tuple(_number(a, _numbered("crank_angles", k)) for k, a in enumerate(self.crank_angles))
         object.__setattr__(self, "crank_angles", timing)
         if len(rows) < 2:
             raise SynthesisError("points: expected at least two, but found {count}", count=len(rows))
-        for name, given in (("angles", angles), ("crank_angles", timing)):
-            if given and len(given) != len(rows):
+        for name, values in (("angles", angles), ("crank_angles", timing)):
+            if values and len(values) != len(rows):
                 raise SynthesisError(
-                    "{name}: expected one for each of the {count} points, but found {count_2}",
+                    "{name}: expected one for each of the {points} points, but found {count}",
                     name=name,
-                    count=len(rows),
-                    count_2=len(given),
+                    points=len(rows),
+                    count=len(values),
                 )
         if len(pivots) not in (0, 2):
             raise SynthesisError("fixed_pivots: expected two, but found {count}", count=len(pivots))
@@ -168,8 +178,8 @@ class PathTask:
         """Whether the coupler has different angles at two points, so that these may coincide."""
         if not self.angles:
             return False
-        one, two = self.angles[m], self.angles[k]
-        return one is not None and two is not None and abs(np.exp(1j * one) - np.exp(1j * two)) > SAME
+        first, second = self.angles[m], self.angles[k]
+        return first is not None and second is not None and abs(np.exp(1j * first) - np.exp(1j * second)) > SAME
 
     def _check_timing(self) -> None:
         steps = np.diff(self.crank_angles)
@@ -211,14 +221,19 @@ class FunctionTask:
     start_input: bool = True
     start_output: bool = True
     unit: str = "mm"
+    law: FunctionLaw | None = None
+    """The function whose values at Chebyshev's spacing the pairs are; `function_task` makes such a task."""
 
     def __post_init__(self) -> None:
         for name in ("inputs", "outputs"):
-            values = tuple(_number(v, f"{name} {k + 1}") for k, v in enumerate(getattr(self, name)))
+            values = tuple(_number(v, _numbered(name, k)) for k, v in enumerate(getattr(self, name)))
             object.__setattr__(self, name, values)
         if len(self.inputs) != len(self.outputs):
-            found = f"{len(self.inputs)} inputs and {len(self.outputs)} outputs"
-            raise SynthesisError("a function task needs as many inputs as outputs, but found {found}", found=found)
+            raise SynthesisError(
+                "a function task needs as many inputs as outputs, but found {inputs} inputs and {outputs} outputs",
+                inputs=len(self.inputs),
+                outputs=len(self.outputs),
+            )
         if len(self.inputs) < 2:
             raise SynthesisError("inputs: expected at least two, but found {count}", count=len(self.inputs))
         if self.output not in ("angle", "travel"):
@@ -227,9 +242,35 @@ class FunctionTask:
             for m in range(k):
                 if abs(value - self.inputs[m]) <= SAME:
                     raise SynthesisError("inputs {m} and {k} are equal", m=m + 1, k=k + 1)
+        if self.law is not None and _pairs_of(self.law, len(self)) != self._pairs:
+            raise SynthesisError("the pairs are not those of the function at Chebyshev's spacing")
+
+    @property
+    def _pairs(self) -> _Pairs:
+        return self.inputs, self.outputs, self.start_input, self.start_output
 
     def __len__(self) -> int:
         return len(self.inputs)
+
+
+def _pairs_of(law: FunctionLaw, count: int) -> _Pairs:
+    x = chebyshev_spacing(*law.interval, count)
+    starts = law.input_start is not None, law.output_start is not None
+    return (tuple(law.inputs(x).tolist()), tuple(law.outputs(x).tolist()), *starts)
+
+
+def function_task(law: FunctionLaw, count: int = 5, *, output: str = "angle", unit: str = "mm") -> FunctionTask:
+    """The precision pairs of a function at Chebyshev's spacing.
+
+    >>> function_task(FunctionLaw("log10(x)", (1, 2), 1.0, 1.0, 0.8, 0.9), 3).inputs
+    (0.866987..., 1.3, 1.733012...)
+    """
+    if isinstance(count, bool) or not isinstance(count, int) or not 2 <= count <= MOST_PAIRS:
+        raise SynthesisError(
+            "precision_points: expected 2 to {most} precision points, but found {count!r}", most=MOST_PAIRS, count=count
+        )
+    inputs, outputs, start_input, start_output = _pairs_of(law, count)
+    return FunctionTask(inputs, outputs, output, start_input, start_output, unit, law)
 
 
 @dataclass(frozen=True)
@@ -252,27 +293,29 @@ class DeadCentreTask:
 
     def __post_init__(self) -> None:
         for names in (("swing", "stroke"), ("crank_angle", "time_ratio")):
-            given = [name for name in names if getattr(self, name) is not None]
-            if len(given) != 1:
+            present = [name for name in names if getattr(self, name) is not None]
+            if len(present) != 1:
                 raise SynthesisError(
-                    "expected one of {names}, but found {value}",
-                    names=" and ".join(names),
-                    value=" and ".join(given) or "none",
+                    "expected one of {names}, but found {present}",
+                    names=joined_by_and(names),
+                    present=joined_by_and(present) if present else message("none"),
                 )
-            object.__setattr__(self, given[0], _number(getattr(self, given[0]), given[0]))
+            object.__setattr__(self, present[0], _number(getattr(self, present[0]), present[0]))
         if self.swing is not None and not 0 < self.swing < pi:
             raise SynthesisError(
-                "swing: expected an angle between 0 and 180 degrees, but found {deg}", deg=_deg(self.swing)
+                "swing: expected an angle between 0 and 180 degrees, but found {angle:g} degrees",
+                angle=np.degrees(self.swing),
             )
         if self.stroke is not None and not self.stroke > 0:
-            raise SynthesisError("stroke: expected a positive length, but found {stroke!r}", stroke=self.stroke)
+            raise SynthesisError("stroke: expected a positive length, but found {stroke:g}", stroke=self.stroke)
         if self.time_ratio is not None and not self.time_ratio >= 1:
             raise SynthesisError(
-                "time_ratio: expected slow to quick, at least 1, but found {time_ratio!r}", time_ratio=self.time_ratio
+                "time_ratio: expected slow to quick, at least 1, but found {time_ratio:g}", time_ratio=self.time_ratio
             )
         if self.crank_angle is not None and not 0 < self.crank_angle < 2 * pi:
             raise SynthesisError(
-                "crank_angle: expected an angle between 0 and 360 degrees, but found {deg}", deg=_deg(self.crank_angle)
+                "crank_angle: expected an angle between 0 and 360 degrees, but found {angle:g} degrees",
+                angle=np.degrees(self.crank_angle),
             )
 
     @property
@@ -282,10 +325,6 @@ class DeadCentreTask:
             return self.crank_angle
         assert self.time_ratio is not None
         return 2 * pi * self.time_ratio / (1 + self.time_ratio)
-
-
-def _deg(angle: float) -> str:
-    return f"{np.degrees(angle):g} degrees"
 
 
 Task = PositionTask | PathTask | FunctionTask | DeadCentreTask

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from gruebler.chain import Chain
 from gruebler.chain.pairs import pair
-from gruebler.errors import GrueblerError
+from gruebler.errors import GrueblerError, expect
 from gruebler.mechanism import Mechanism, check_drives
 from gruebler.mechanism.inversion import DrivenMechanism, driven_mechanisms, inversions
 from gruebler.type_synthesis.assignment import assignments, every_joint_moves
@@ -50,6 +50,7 @@ def variants(requirements: Requirements) -> Iterator[Chain | DrivenMechanism]:
 
     Drives fix the motion: as many as the mobility, none against another.
     """
+    expect(requirements, Requirements)
     for chain in typed_chains(requirements):
         if not requirements.about_mechanisms:
             yield chain

@@ -21,6 +21,8 @@ class Item:
     figure: Figure
     caption: str
     code: str = ""
+    moving: str = ""
+    """SVG that moves, shown on a page instead of the figure."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -29,6 +31,8 @@ class Section(Brief):
 
     heading: str
     items: tuple[Item, ...]
+    wide: bool = False
+    """Pictures with much to read in them: a few side by side."""
 
 
 def gallery_html(title: str, sections: Iterable[Section], *, lang: str = "en", note: str = "") -> str:
@@ -52,12 +56,14 @@ def gallery_html(title: str, sections: Iterable[Section], *, lang: str = "en", n
 
 def _section(section: Section) -> str:
     heading = f"<h2>{escape(section.heading)}</h2>\n" if section.heading else ""
-    return f'<section>\n{heading}<div class="row">\n{"".join(map(_item, section.items))}</div>\n</section>'
+    row = "row wide" if section.wide else "row"
+    return f'<section>\n{heading}<div class="{row}">\n{"".join(map(_item, section.items))}</div>\n</section>'
 
 
 def _item(item: Item) -> str:
     code = f"<code>{escape(item.code)}</code>" if item.code else ""
-    return f"<figure>{svg(item.figure, styled=False)}<figcaption>{escape(item.caption)}{code}</figcaption></figure>\n"
+    picture = item.moving or svg(item.figure, styled=False)
+    return f"<figure>{picture}<figcaption>{escape(item.caption)}{code}</figcaption></figure>\n"
 
 
 _PAGE = """<!DOCTYPE html>
@@ -74,14 +80,17 @@ h1{{font-size:1.4rem;margin:0 0 .3rem}}
 h2{{font-size:1.05rem;margin:1.2rem 0 .4rem;break-after:avoid}}
 p{{margin:0 0 .6rem}}
 .row{{display:grid;grid-template-columns:repeat(auto-fill,minmax(11rem,1fr));gap:.8rem;align-items:end}}
+.wide{{grid-template-columns:repeat(auto-fill,minmax(20rem,1fr))}}
 figure{{margin:0;text-align:center;break-inside:avoid}}
 figure svg{{max-width:100%;max-height:14rem;height:auto}}
+.wide figure svg{{max-height:22rem}}
 figcaption{{font-size:.85rem}}
 code{{display:block;font-size:.62rem;color:{faint[0]};overflow-wrap:anywhere}}
 @media(prefers-color-scheme:dark){{body{{color:{ink[1]};background:{paper[1]}}}code{{color:{faint[1]}}}}}
 @page{{size:A4;margin:14mm}}
 @media print{{body{{margin:0;color:#000;background:#fff}}
-.row{{grid-template-columns:repeat(5,1fr)}}figure svg{{max-height:36mm}}}}
+.row{{grid-template-columns:repeat(5,1fr)}}figure svg{{max-height:36mm}}
+.wide{{grid-template-columns:repeat(2,1fr)}}.wide figure svg{{max-height:80mm}}}}
 </style>
 </head>
 <body>

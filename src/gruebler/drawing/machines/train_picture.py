@@ -134,13 +134,15 @@ def _cycle(motion: TrainMotion, lang: str) -> str:
     def turns(link: str, time: Fraction) -> str:
         if link in motion.slides:
             return translate("{link} moves", lang, link=link)
-        return translate("{link} {turns} turn(s)", lang, link=link, turns=fraction_text(motion.rates[link] * time))
+        return translate(
+            "{link} {turns} turn(s)", lang, link=link, turns=fraction_text(motion.rates[link] * time, lang)
+        )
 
     shown = ", ".join(turns(link, motion.time) for link in motion.rates)
     if motion.slides:
         return translate("To and fro: {turns}.", lang, turns=shown)
     if motion.time != motion.cycle:
-        whole = fraction_text(abs(motion.rates[motion.drive]) * motion.cycle)
+        whole = fraction_text(abs(motion.rates[motion.drive]) * motion.cycle, lang)
         cycle = translate("{link} {turns} turn(s)", lang, link=motion.drive, turns=whole)
         return translate("It repeats only after {cycle}; shown: {turns}.", lang, cycle=cycle, turns=shown)
     return translate("Until everything repeats: {turns}.", lang, turns=shown)

@@ -1,0 +1,333 @@
+"""Addresses of PMKS+: a mechanism in the part of the address behind the question mark.
+
+Version 2: ``flags.decimals.integers.units.joints..links..forces..selected`` and a checking character; newer addresses
+have a digest of the whole behind an asterisk. Numbers are thousandths in base 64, a leading 0 for the minus. A joint is
+``flags id,name,x,y,angle[,link,joint,joint]``: bits 1 slider, 2 input, 4 ground, 8 welded, 16 traced; a slider turns
+about its pin unless it is welded, its slot is fixed, or runs through two joints of a link. A link is
+``flag kind id,name,mass,inertia,x,y,colour,joints,,parts``; parts of a welded link follow it and are not links.
+
+Version 1: ``j=id,x,y,links|,type,ground,angle,friction,input`` in lines, and ``l=id,mass,inertia,x,y,joints|,...``.
+Masses, forces and colours are not part of a linkage. Sources: the program's transcoder and its published addresses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import repeat
+from math import atan2, cos, pi, remainder, sin
+from typing import NamedTuple
+from urllib.parse import parse_qs, unquote
+
+from gruebler.errors import GrueblerError
+from gruebler.formats.pin_drawings import DrawnDrive, DrawnJoint, PinDrawing, one_drive_a_joint
+from gruebler.formats.text_files import read_number
+from gruebler.text import Message, message
+
+__all__ = ["drawing_from_pmks", "pmks_from_drawing"]
+
+_ADDRESS = "https://app.pmksplus.com/?"
+_FRAME = "ground"
+_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+_CHECKS = _DIGITS[:62]
+_UNITS = ("in", "cm", "m")
+_UNITS_OF_VERSION_1 = {"cm": "cm", "in": "in", "m": "m"}
+_SLIDER, _INPUT, _GROUND, _WELDED, _TRACED = 1, 2, 4, 8, 16
+_ROOTS = "YAMG0123"  # flags of links that are not parts of another one
+_LONGEST = 200_000  # characters of an address
+_DIGEST = 6
+_ROUND = 1e-9  # radians
+
+
+def drawing_from_pmks(text: str, left_out: list[Message]) -> PinDrawing:
+    """The drawing of an address, or of the part behind its question mark.
+
+    >>> left_out = []
+    >>> slider_crank = drawing_from_pmks("2v.Ay,1E8.5,0.1011.6A,A,0,VG,0.0B,B,Fe,VG,0.5C,C,oa,0,0..YRAB,AB,Fe,Fe,7q,VG,"
+    ...     "c5cae9,A,B,,.YRBC,BC,Fe,Fe,X6,Fe,303e9f,B,C,,...N_3*3QLfN7", left_out)
+    >>> [(joint.name, joint.x, joint.y, joint.links) for joint in slider_crank.joints][-1]
+    ('C', 3.236, 0.0, ('ground', 'BC'))
+    """
+    address = text.strip()
+    if len(address) > _LONGEST:
+        raise GrueblerError(
+            "an address of {count:,} characters is longer than {most:,}", count=len(address), most=_LONGEST
+        )
+    if len(address.split("\n", 1)) > 1:
+        raise GrueblerError("expected one line with an address of PMKS+")
+    query = address.partition("?")[2] if "?" in address else address
+    return _version_1(query, left_out) if query.startswith("j=") else _version_2(unquote(query), left_out)
+
+
+def _version_2(query: str, left_out: list[Message]) -> PinDrawing:
+    body = _checked(query)
+    sections = body.split(".")
+    if len(sections) < 8:
+        raise GrueblerError("is not an address of PMKS+: the parts between dots are missing")
+    units = sections[3]
+    unit = _UNITS[_integer(units[:1])] if units[:1] in ("0", "1", "2") else "cm"
+    records, rest = _groups(sections[4:])
+    joints = [_joint(record) for record in records[0]]
+    links = [_link(record) for record in records[1] if record[:1] in _ROOTS]
+    for forces in records[2]:
+        left_out.append(message("the force {name}", name=forces.split(",")[0][1:]))
+    if rest:
+        left_out.append(message("locks and notes of the drawing"))
+    return _drawing(joints, links, unit, left_out)
+
+
+def _checked(query: str) -> str:
+    """The address without its checks; `GrueblerError` if a character was changed or lost."""
+    body, mark, digest = query.rpartition("*")
+    if mark and len(digest) == _DIGEST:
+        if digest != _digest(body):
+            raise GrueblerError("the digest at the end of the address does not fit: it was changed or cut off")
+        query = body
+    if not query or query[-1] != _CHECKS[(len(query) - 1) % 62]:
+        raise GrueblerError("the checking character at the end of the address does not fit: it was changed or cut off")
+    return query[:-1]
+
+
+def _digest(body: str) -> str:
+    """FNV-1a of 32 bits in six characters of base 62."""
+    value = 0x811C9DC5
+    for letter in body:
+        value = ((value ^ ord(letter)) * 0x01000193) % 2**32
+    out = ""
+    for _ in range(_DIGEST):
+        value, digit = divmod(value, 62)
+        out = _CHECKS[digit] + out
+    return out
+
+
+def _groups(sections: list[str]) -> tuple[list[list[str]], list[str]]:
+    """Joints, links and forces, each ended by an empty part, and what follows the selected object."""
+    records: list[list[str]] = [[]]
+    while sections and len(records) <= 3:
+        part, *sections = sections
+        if part:
+            records[-1].append(part)
+        else:
+            records.append([])
+    while len(records) < 3:
+        records.append([])
+    return records, sections[1:]
+
+
+def _integer(text: str) -> int:
+    digits = text[1:] if text[:1] == "0" else text
+    value = 0
+    for letter in digits[:_LONGEST_NUMBER]:
+        place = _DIGITS.find(letter)
+        if place < 0:
+            raise GrueblerError("{text!r} is not a number of base 64", text=text)
+        value = value * 64 + place
+    return -value if text[:1] == "0" else value
+
+
+_LONGEST_NUMBER = 12  # digits: thousandths up to 1e18
+
+
+class _Joint(NamedTuple):
+    flags: int
+    id: str
+    x: float
+    y: float
+    angle: float
+    carrier: str
+    slot: tuple[str, str]
+
+
+class _Link(NamedTuple):
+    id: str
+    joints: tuple[str, ...]
+    piston: bool = False
+
+
+def _joint(record: str) -> _Joint:
+    fields = record[1:].split(",")
+    if len(fields) < 5:
+        raise GrueblerError("joint {record!r}: expected id, name, x, y and angle", record=record)
+    fields += [""] * (8 - len(fields))
+    flags = _DIGITS.find(record[0])
+    x, y, angle = (_integer(field) / 1000 for field in fields[2:5])
+    return _Joint(flags, fields[0], x, y, angle, fields[5], (fields[6], fields[7]))
+
+
+def _link(record: str) -> _Link:
+    fields = record[2:].split(",")
+    if len(fields) < 8:
+        raise GrueblerError(
+            "link {record!r}: expected id, name, mass, inertia, centre, colour and joints", record=record
+        )
+    joints = fields[7:]
+    end = joints.index("") if "" in joints else len(joints)
+    return _Link(fields[0], tuple(joints[:end]), record[1] == "P")
+
+
+def _version_1(query: str, left_out: list[Message]) -> PinDrawing:
+    parts = parse_qs(query, keep_blank_values=True, max_num_fields=20)
+    joints: list[_Joint] = []
+    for line in parts.get("j", [""])[0].splitlines():
+        fields = line.split(",")
+        if not line.strip():
+            continue
+        if len(fields) < 9:
+            raise GrueblerError("joint {record!r}: expected nine values", record=line)
+        what = message("joint {joint}", joint=fields[0])
+        x, y, angle = (read_number(fields[k], what) for k in (1, 2, 6))
+        flags = _SLIDER * (fields[4] == "P") + _INPUT * (fields[8] == "t") + _GROUND * (fields[5] == "t")
+        joints.append(_Joint(flags, fields[0], x, y, angle, "", ("", "")))
+    links = []
+    for line in parts.get("l", [""])[0].splitlines():
+        fields = line.split(",")
+        if len(fields) > 5:
+            links.append(_Link(fields[0], tuple(fields[5].split("|"))))
+    for line in parts.get("f", [""])[0].splitlines():
+        if line.strip():
+            left_out.append(message("the force {name}", name=line.split(",")[0]))
+    settings = parts.get("s", [""])[0].split(",")
+    return _drawing(joints, links, _UNITS_OF_VERSION_1.get(settings[-1], "cm"), left_out)
+
+
+def _drawing(joints: list[_Joint], links: list[_Link], unit: str, left_out: list[Message]) -> PinDrawing:
+    by_id = {joint.id: joint for joint in joints}
+    links_of: dict[str, list[str]] = {joint.id: [] for joint in joints}
+    for link in links:
+        for member in link.joints:
+            if member not in by_id:
+                raise GrueblerError(
+                    "link {link!r} has the joint {joint!r}, which is not there", link=link.id, joint=member
+                )
+            links_of[member].append(link.id)
+    drawn, drives = [], []
+    for joint in joints:
+        mine = links_of[joint.id]
+        slot: float | None = None
+        turns = True
+        if joint.flags & _SLIDER:
+            base, slot = _slot(joint, links, by_id)
+            mine = [base, *(link for link in mine if link != base)]
+            pistons = {link.id for link in links if link.piston}
+            turns = not joint.flags & _WELDED and pistons.isdisjoint(mine)
+        elif joint.flags & _GROUND:
+            mine = [_FRAME, *mine]
+        if not mine:
+            continue
+        drawn.append(DrawnJoint(joint.id, joint.x, joint.y, tuple(dict.fromkeys(mine)), slot, turns))
+        if joint.flags & _INPUT and len(mine) > 1:
+            drives.append(DrawnDrive(joint.id, mine[0], mine[1]))
+    if any(link.joints for link in links):
+        left_out.append(message("masses, colours and speeds"))
+    return PinDrawing(_FRAME, tuple(drawn), tuple(drives), unit)
+
+
+def _slot(joint: _Joint, links: list[_Link], by_id: dict[str, _Joint]) -> tuple[str, float]:
+    """The link that has the slot of a slider, and its direction."""
+    if not joint.carrier:
+        return _FRAME, joint.angle
+    carriers = [link.id for link in links if set(joint.slot) <= set(link.joints)]
+    if joint.carrier in [link.id for link in links]:
+        carriers.insert(0, joint.carrier)
+    start, end = (by_id.get(each) for each in joint.slot)
+    if not carriers or start is None or end is None:
+        raise GrueblerError("slider {joint!r}: the slot is in no link", joint=joint.id)
+    return carriers[0], atan2(end.y - start.y, end.x - start.x)
+
+
+def pmks_from_drawing(drawing: PinDrawing, left_out: list[Message]) -> str:
+    """The address that opens a drawing in PMKS+; millimetres become centimetres, places thousandths of the unit.
+
+    The slot of a link that moves runs through two further joints of the link. Raises `GrueblerError` for a pin of the
+    frame in the slot of another link.
+    """
+    scale, unit = (0.1, "cm") if drawing.unit == "mm" else (1.0, drawing.unit)
+    if unit not in _UNITS:
+        left_out.append(message("the unit {unit}", unit=unit))
+        unit = "cm"
+    driven = one_drive_a_joint(drawing, left_out)
+    _say_rounded(drawing, left_out)
+    moved = [drive.moved for drive in driven.values()]
+    links = sorted(
+        dict.fromkeys(link for joint in drawing.joints for link in joint.links), key=lambda k: k not in moved
+    )
+    ids = {link: f"L{number}" for number, link in enumerate(link for link in links if link != drawing.frame)}
+    members: dict[str, list[str]] = {link: [] for link in ids}
+    xs, ys = [joint.x for joint in drawing.joints], [joint.y for joint in drawing.joints]
+    reach = max(max(xs) - min(xs), max(ys) - min(ys)) / 2 or 1.0
+    records: list[str] = []
+    off = 0.0
+
+    def put(flags: int, name: str, x: float, y: float, angle: float, links: Sequence[str], slot: str = "") -> str:
+        nonlocal off
+        number = f"J{len(records)}"
+        for link in links:
+            if link in members:
+                members[link].append(number)
+        off = max(off, *(abs(round(value * scale, 3) - value * scale) for value in (x, y)))
+        values = ",".join(_base_64(round(value * 1000)) for value in (x * scale, y * scale, angle))
+        records.append(f"{_DIGITS[flags]}{number},{_plain(name) or number},{values}{slot}")
+        return number
+
+    undriven = set(driven)
+    for joint in map(_slot_on_the_frame, drawing.joints, repeat(drawing.frame)):
+        flags, slot, angle = 0, "", 0.0
+        base = joint.links[0]
+        drive = driven.get(joint.name)
+        if joint.slot is not None:
+            flags = (
+                _SLIDER + _WELDED * (not joint.turns) + _GROUND * (base == drawing.frame) + _INPUT * (drive is not None)
+            )
+            undriven.discard(joint.name)
+            if base == drawing.frame:
+                angle = joint.slot % pi
+            else:
+                dx, dy = reach * cos(joint.slot), reach * sin(joint.slot)
+                ends = [put(0, "", joint.x + side * dx, joint.y + side * dy, 0.0, (base,)) for side in (-1, 1)]
+                slot = f",{ids[base]},{','.join(ends)}"
+        elif drawing.frame in joint.links:
+            flags = _GROUND
+            if drive is not None and drive.fixed == drawing.frame:
+                flags += _INPUT
+                undriven.discard(joint.name)
+        put(flags, joint.name, joint.x, joint.y, angle, joint.links[joint.slot is not None :], slot)
+    if undriven:
+        left_out.append(message("drives of joints {joints}", joints=", ".join(sorted(undriven))))
+    if off * 1e9 > reach * scale:
+        left_out.append(message("digits of places beyond 0.001 {unit}", unit=unit))
+    bodies = [
+        f"YR{number},{_plain(link)},Fe,Fe,0,0,c5cae9,{''.join(f'{member},' for member in members[link])},"
+        for link, number in ids.items()
+    ]
+    head = f"2v.Ay,1E8.A,0.{_UNITS.index(unit)}011."
+    body = f"{head}{''.join(f'{record}.' for record in records)}.{''.join(f'{each}.' for each in bodies)}..N_"
+    checked = body + _CHECKS[len(body) % 62]
+    return f"{_ADDRESS}{checked}*{_digest(checked)}\n"
+
+
+def _say_rounded(drawing: PinDrawing, left_out: list[Message]) -> None:
+    if any(abs(remainder(joint.slot, 0.001)) > _ROUND for joint in drawing.joints if joint.slot is not None):
+        left_out.append(message("digits of directions beyond 0.001 radians"))
+
+
+def _slot_on_the_frame(joint: DrawnJoint, frame: str) -> DrawnJoint:
+    """A slide on the frame with the slot in the frame; `GrueblerError` for a pin of the frame in a slot that moves."""
+    if joint.slot is None or frame not in joint.links[1:]:
+        return joint
+    if joint.turns:
+        raise GrueblerError("the format holds no pin of the frame in the slot of another link")
+    return replace(joint, links=(frame, joint.links[0]))
+
+
+def _base_64(value: int) -> str:
+    digits, rest = "", abs(value)
+    while True:
+        rest, digit = divmod(rest, 64)
+        digits = _DIGITS[digit] + digits
+        if not rest:
+            return f"0{digits}" if value < 0 else digits
+
+
+def _plain(name: str) -> str:
+    """A name without the signs that have a meaning in an address."""
+    return "".join(letter if letter.isalnum() or letter in " -_" else " " for letter in name).strip()

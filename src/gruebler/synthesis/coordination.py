@@ -1,0 +1,193 @@
+"""Linkages that coordinate pairs exactly: linear conditions in numbers of the linkage, after Freudenstein.
+
+docs/theory/synthesis-functions.md: each kind is linear in as many numbers of its own; one start that is free adds one
+pair and makes the condition quadratic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from gruebler.arrays import Reals
+from gruebler.fourbar import FourBar, InvertedSliderCrank, SliderCrank
+from gruebler.synthesis.tasks import FunctionTask
+
+__all__ = [
+    "KINDS",
+    "Coordination",
+    "CoordinationKind",
+    "Coordinations",
+    "coordinations_with_fixed_starts",
+    "coordinations_with_one_free_start",
+    "pair_arrays",
+]
+
+_SMALL = 1e-9  # a length smaller than this part of the frame (or of the travel) is none
+
+
+class Coordination(NamedTuple):
+    """A linkage by its lengths, and where its input and output begin."""
+
+    kind: str
+    """``four-bar``, ``slider-crank`` or ``inverted-slider-crank``."""
+    lengths: tuple[float, ...]
+    """a, b, c, d; a, b, e; a, d, e. Lengths of links are positive."""
+    input_start: float
+    """The crank angle of the first pair."""
+    output_start: float
+    """The angle or travel of the output in the first pair."""
+    branch: int
+    """The assembly branch of the first pair."""
+
+    def linkage(self) -> FourBar | SliderCrank | InvertedSliderCrank:
+        """The linkage by its usual lengths."""
+        made = {"four-bar": FourBar, "slider-crank": SliderCrank, "inverted-slider-crank": InvertedSliderCrank}
+        return made[self.kind](*self.lengths)  # type: ignore[no-any-return]
+
+
+@dataclass(frozen=True)
+class CoordinationKind:
+    """A kind of linkage: linear conditions in some numbers of its own."""
+
+    name: str
+    output: str
+    unknowns: int
+    columns: Callable[[Reals, Reals], Reals]
+    """(pairs, unknowns + 1): the conditions say that a combination of the first columns is the last one."""
+    lengths: Callable[[Reals], tuple[float, ...] | None]
+    """From the factors of that combination to signed lengths."""
+    input_degree: int = 2
+    """In how many columns the input enters: the degree of the condition for a free input start."""
+
+
+def _four_bar_columns(phi: Reals, psi: Reals) -> Reals:
+    return np.stack([np.cos(psi), -np.cos(phi), np.ones_like(phi), np.cos(phi - psi)], axis=1)
+
+
+def _four_bar_lengths(k: Reals) -> tuple[float, ...] | None:
+    if min(abs(k[0]), abs(k[1])) < _SMALL or max(abs(k[0]), abs(k[1])) > 1 / _SMALL:
+        return None
+    a, c = 1 / k[0], 1 / k[1]
+    square = a * a + c * c + 1 - 2 * a * c * k[2]
+    return (a, float(np.sqrt(square)), c, 1.0) if square > _SMALL**2 else None
+
+
+def _slider_columns(phi: Reals, s: Reals) -> Reals:
+    return np.stack([s * np.cos(phi), np.sin(phi), np.ones_like(phi), s * s], axis=1)
+
+
+def _slider_lengths(k: Reals) -> tuple[float, ...] | None:
+    if abs(k[0]) < _SMALL:
+        return None
+    a = k[0] / 2
+    e = k[1] / k[0]
+    square = k[2] + a * a + e * e
+    return (a, float(np.sqrt(square)), e) if square > 0 else None
+
+
+def _inverted_columns(phi: Reals, psi: Reals) -> Reals:
+    return np.stack([np.sin(phi - psi), np.ones_like(phi), -np.sin(psi)], axis=1)
+
+
+def _inverted_lengths(k: Reals) -> tuple[float, ...] | None:
+    return (k[0], 1.0, k[1]) if abs(k[0]) > _SMALL else None
+
+
+KINDS = (
+    CoordinationKind("four-bar", "angle", 3, _four_bar_columns, _four_bar_lengths),
+    CoordinationKind("slider-crank", "travel", 3, _slider_columns, _slider_lengths),
+    CoordinationKind("inverted-slider-crank", "angle", 2, _inverted_columns, _inverted_lengths, 1),
+)
+
+
+class Coordinations(NamedTuple):
+    """The linkages of one kind for a task."""
+
+    real: tuple[Coordination, ...]
+    complex: int
+    """How many complex solutions there are."""
+
+
+def pair_arrays(task: FunctionTask) -> tuple[Reals, Reals]:
+    """(pairs,) inputs and outputs."""
+    return np.array(task.inputs), np.array(task.outputs)
+
+
+def coordinations_with_fixed_starts(kind: CoordinationKind, task: FunctionTask) -> Coordinations:
+    """As many pairs as the kind has unknowns: one solution, if its lengths are real."""
+    phi, out = pair_arrays(task)
+    return Coordinations(tuple(_solved(kind, phi, out)), 1)
+
+
+def coordinations_with_one_free_start(kind: CoordinationKind, task: FunctionTask) -> Coordinations:
+    """One start is free: the determinant of the conditions is a quadratic in its tangent, or in the travel itself."""
+    phi, out = pair_arrays(task)
+    travel = kind.output == "travel" and not task.start_output
+
+    def shifted(start: float) -> tuple[Reals, Reals]:
+        return (phi, out + start) if task.start_input else (phi + start, out)
+
+    if travel:
+        size = float(np.ptp(out)) or 1.0
+        at = size * np.array([-1.0, 0.0, 1.0])
+
+        def plain(start: float) -> float:
+            return float(np.linalg.det(kind.columns(*shifted(start)) / np.array([size, 1, 1, size**2])))
+
+        starts = np.roots(np.polyfit(at, [plain(v) for v in at], 2))
+    elif not task.start_input and kind.input_degree == 1:
+        one, other = (np.linalg.det(kind.columns(*shifted(v))) for v in (0.0, np.pi / 2))
+        starts = np.array([np.arctan2(-one, other)])
+    else:
+        # A quadratic form in cosine and sine of the start: constant, cos 2t, sin 2t, from three values.
+        angles = np.pi * np.arange(3) / 3
+        values = np.array([np.linalg.det(kind.columns(*shifted(v))) for v in angles])
+        mean, c, s = np.linalg.solve(np.stack([np.ones(3), np.cos(2 * angles), np.sin(2 * angles)], axis=1), values)
+        reach = np.hypot(c, s)
+        if reach < 1e-14 * abs(mean):
+            return Coordinations((), 0)
+        if abs(mean) > reach * (1 + 1e-10):  # less is a double root with rounding
+            return Coordinations((), 2)
+        middle, half = np.arctan2(s, c), np.arccos(np.clip(-mean / reach, -1, 1))
+        starts = np.array([(middle + half) / 2, (middle - half) / 2])
+    real = []
+    for start in starts:
+        if abs(start.imag) < 1e-9 * (1 + abs(start)):
+            real += _solved(kind, *shifted(float(start.real)))
+    return Coordinations(tuple(real), len(starts))
+
+
+def _solved(kind: CoordinationKind, phi: Reals, out: Reals) -> list[Coordination]:
+    """The linkage of these pairs, negative lengths turned round; none if a length is zero or not real."""
+    columns = kind.columns(phi, out)
+    scale = np.abs(columns).max(axis=0).clip(1e-300)
+    factors, *_ = np.linalg.lstsq(columns[:, :-1] / scale[:-1], columns[:, -1], rcond=1e-14)
+    if np.abs(columns[:, :-1] / scale[:-1] @ factors - columns[:, -1]).max() > 1e-8 * scale[-1]:
+        return []
+    signed = kind.lengths(factors / scale[:-1])
+    if signed is None:
+        return []
+    return [_coordination(kind.name, signed, float(phi[0]), float(out[0]))]
+
+
+def _coordination(kind: str, signed: tuple[float, ...], phi: float, out: float) -> Coordination:
+    a = signed[0]
+    crank = phi + (np.pi if a < 0 else 0.0)
+    point = a * np.exp(1j * phi)
+    if kind == "four-bar":
+        b, c, d = signed[1:]
+        rocker = out + (np.pi if c < 0 else 0.0)
+        gap = d + c * np.exp(1j * out) - point
+        branch = 1 if np.imag(np.conj(d - point) * gap) >= 0 else -1
+        return Coordination(kind, (abs(a), b, abs(c), d), crank, rocker, branch)
+    if kind == "slider-crank":
+        branch = 1 if out - point.real >= 0 else -1
+        return Coordination(kind, (abs(a), signed[1], signed[2]), crank, out, branch)
+    # The guide has the direction psi; B0 lies on it towards the block for branch +1.
+    d, e = signed[1:]
+    way = float(np.real((d - point) * np.exp(-1j * out)))
+    return Coordination(kind, (abs(a), d, e), crank, out, 1 if way >= 0 else -1)

@@ -1,0 +1,62 @@
+"""`gruebler convert`: files of other programs on the command line."""
+
+from pathlib import Path
+
+import pytest
+
+from gruebler.cli import main
+from gruebler.files import FORMATS, read, write
+from gruebler.fourbar import FourBar
+
+FILES = Path(__file__).parents[1] / "formats" / "files"
+
+
+def test_a_leg_goes_through_three_programs(tmp_path, capsys):
+    assert main(["convert", str(FILES / "klann.linkage2"), str(tmp_path / "klann.toml")]) == 0
+    said = capsys.readouterr().err
+    assert "Left out: speeds of drives: 15 rpm" in said
+    assert main(["convert", str(tmp_path / "klann.toml"), str(tmp_path / "klann.json"), "--to", "pylinkage"]) == 0
+    assert main(["convert", str(tmp_path / "klann.json"), str(tmp_path / "klann.pyslvs")]) == 0
+    leg, other = read(tmp_path / "klann.toml"), read(tmp_path / "klann.pyslvs", left_out=[])
+    assert other.mechanism.code() == leg.mechanism.code()
+
+
+def test_the_formats_are_listed(capsys):
+    assert main(["convert", "--formats"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert len(lines) == len(FORMATS) + 1
+    assert [line.split()[0] for line in lines[1:]] == [form.name for form in FORMATS]
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["a.linkage2"], "name the file to read and the file to write"),
+        (["a.linkage2", "b.toml"], "cannot be read"),
+        (["a.bmp", "b.toml"], "expected .toml"),
+        (["a.toml", "b.toml", "--from", "pyslv"], "did you mean 'pyslvs'?"),
+    ],
+)
+def test_wrong_usage_is_one_sentence(words, said, capsys):
+    assert main(["convert", *words]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_file_is_not_written_over_itself(tmp_path, capsys):
+    path = tmp_path / "a.txt"
+    path.write_text("R(0-1) R(1-2) R(2-3) R(3-0)\n", encoding="utf-8")
+    assert main(["convert", str(path), str(path)]) == 2
+    assert "over itself" in capsys.readouterr().err
+    assert path.read_text(encoding="utf-8").startswith("R(0-1)")
+
+
+def test_other_commands_name_the_conversion(capsys):
+    assert main(["analyse", str(FILES / "klann.linkage2")]) == 2
+    assert "gruebler convert" in capsys.readouterr().err
+
+
+def test_a_linkage_with_points_is_no_task(tmp_path):
+    """The key ``points`` is of tasks, too."""
+    linkage = FourBar(25, 70, 40, 70).linkage({"K": (45, 40)})
+    for suffix in (".toml", ".json"):
+        assert read(write(linkage, tmp_path / f"a{suffix}")) == linkage
