@@ -100,6 +100,8 @@ def test_the_environment_decides(tier: str, monkeypatch: pytest.MonkeyPatch) -> 
 
 COMMANDS = [
     "analyse four-bar:25,70,40,70",
+    "analyse crankrocker",
+    "analyse wiper",
     "draw vcomp -o picture.svg",
     "enumerate --links 8 --count",
     "enumerate --links 10 --count",

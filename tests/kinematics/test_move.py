@@ -372,6 +372,26 @@ def test_a_slide_through_two_pins_that_meet_goes_straight_on(scale: float) -> No
         assert np.ptp(motion.angle("platform")) < 1e-7
 
 
+@pytest.mark.parametrize("scale", [1, 2.54, 1e-6, 1e6])
+@pytest.mark.parametrize("order", [0, 1])
+def test_arms_of_a_scissor_lift_where_they_are_in_line(scale: float, order: int) -> None:
+    """There a dyad lies on itself, and any direction closes: it has the one that it comes through, from both sides.
+
+    arm1 and arm3 stand at the drive's angle, arm2 and arm4 at its supplement, also if the motion starts or ends there.
+    """
+    lift = entry("scissor2").linkage().scaled(scale)
+    step = ([60, 90, 120], np.arange(60, 121), np.arange(60, 121, 0.5), [30, 90, 150], [89.99, 90, 90.00001])
+    turn = ([80, 90, 80], [80, 90, 90, 100], [89.9999999, 90.0000001])
+    end = ([90], [90, 91], [90, 120], [90, 60], [60, 90], [120, 90])
+    for drives in (*step, *turn, *end):
+        motion = move(lift, np.radians(drives), order=order)
+        assert motion.complete
+        drive = np.radians(drives)
+        for arm, expected in {"arm1": drive, "arm2": pi - drive, "arm3": drive, "arm4": pi - drive}.items():
+            np.testing.assert_allclose(motion.angle(arm), expected, rtol=0, atol=1e-9)
+        assert motion.closure_error < 1e-9
+
+
 @pytest.mark.parametrize("scale", [1, 3, 1e-6])
 def test_the_change_points_of_a_scissor_lift_in_any_unit(scale: float) -> None:
     found = measures(entry("scissor2").linkage().scaled(scale))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import os
 import re
-from cmath import rect
+from cmath import phase, rect
 from collections.abc import Callable
 
 import numpy as np
@@ -21,6 +21,7 @@ from gruebler.analysis import measures
 from gruebler.analysis.measures import Measures
 from gruebler.catalog import entries
 from gruebler.errors import LinkageError
+from gruebler.fourbar import FourBar
 from gruebler.kinematics import move
 from gruebler.kinematics.reference_pose import pose_at_reference
 from gruebler.kinematics.solve import cached_plan
@@ -253,6 +254,26 @@ def test_offset_coordinates_do_not_move_the_ends_of_a_larger_group() -> None:
     linkage = random_linkage(86)
     result, other = measures(linkage), measures(in_other_coordinates(linkage, 2.2, 1.4 * linkage.size))
     assert other.travel == pytest.approx(result.travel, rel=0, abs=1e-8)
+
+
+@pytest.mark.parametrize("seed", [392, 1809])
+def test_transmission_angle_at_sharp_limits_of_a_larger_group(seed: int) -> None:
+    """At a limit the output can move while the drive stands, so that the leg pushes across its way: the angle is 0."""
+    linkage = random_linkage(seed)
+    for other in (linkage, in_other_coordinates(linkage, 2.2, 1.4 * linkage.size)):
+        found = measures(other)
+        ends = [e.mu for e in found.transmission.extremes if e.drive in (found.span.low, found.span.high)]
+        assert ends == pytest.approx([0, 0], rel=0, abs=2e-7)
+
+
+@pytest.mark.parametrize("gap", [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
+def test_output_at_the_limits_of_a_crank_that_all_but_goes_round(gap: float) -> None:
+    """At the limit coupler and rocker are in line, along the line from the crank pin to the rocker's pivot."""
+    pin, pivot, coupler = rect(3, math.pi - gap), 4, 2.9
+    found = measures(FourBar(a=3, b=coupler, c=abs(pin - pivot) - coupler, d=pivot).linkage())
+    (lowest,) = found.dead_centres
+    assert found.span.high == pytest.approx(math.pi - gap, rel=0, abs=1e-9)
+    assert lowest.output + found.travel == pytest.approx(phase(pin - pivot), rel=0, abs=1e-8)
 
 
 @pytest.mark.parametrize("seed", [1523, 1566])

@@ -6,7 +6,7 @@ docs/theory/events.md.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import degrees, pi
 from typing import NamedTuple
@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike
 from gruebler._numeric.motion.closure import MESH, POLAR
 from gruebler.arrays import Complexes, Reals
 from gruebler.errors import LinkageError
-from gruebler.kinematics.change_point_rates import set_change_point_rates
+from gruebler.kinematics.change_point_rows import set_change_point_rows
 from gruebler.kinematics.contacts import Condition
 from gruebler.kinematics.drive_rows import drive_path
 from gruebler.kinematics.kernel_calls import follow_path
 from gruebler.kinematics.motion import Motion, Stop
 from gruebler.kinematics.plan import Plan
-from gruebler.kinematics.reference_pose import pose_at_reference
+from gruebler.kinematics.reference_pose import ReferencePose, pose_at_reference
 from gruebler.kinematics.root_finding import FunctionSamples, bracketed_root
 from gruebler.kinematics.solve import cached_plan, motion_from_rows, move
 from gruebler.linkages import Linkage
@@ -42,6 +42,8 @@ _BACK = 1e-7  # how near it is then
 _WELL = 1e-3  # a start with a root below it is near a change point or limit
 _END = 0.3  # how far from an end (of pi for the range) the nodes for values at it lie
 _END_OF_GROUP = 2e-4  # radians or sizes: the same for larger groups, whose limits are known to 1e-10 and may be sharp
+_END_NEAREST = 1e-10  # radians or sizes: nodes lie no nearer to a limit; one of a larger group is known no better
+_END_CLOSE = 1e-9  # of the function's size: values at an end that agree; rounding leaves 1e-10 at dyads, 1e-9 at groups
 _NODES = 10
 _NEWTON = 5  # steps, from a place that is nearer to the extremum than a hundredth of the nodes' range
 _NARROW = 2e-6  # radians or sizes: limits are seen at a square of -1e-13, so that a single position is as wide as this
@@ -52,6 +54,8 @@ _LAW_NOISE = (
     1e-6,
     1e-3,
 )  # of the usual size: errors of the pieces of laws and their derivatives, and room
+_MANY = 64  # poses that are worth keeping
+_KEPT = 3  # motions: those on the grid, on the grid with the joints of laws, on parts of it
 _OFFSET = 0.3819660112501051  # of a cell: grids avoid round angles, where the special positions are
 
 
@@ -95,6 +99,8 @@ class DriveCycle(Brief):
     span: CycleSpan
     grid: Reals
     """Drive values, ascending, finer where the motion bends; of a full turn the first comes once more at the end."""
+    _kept: dict[bytes, Motion] = field(default_factory=dict, compare=False, kw_only=True)
+    """The last motions of many poses, by their drive values."""
 
     @property
     def linkage(self) -> Linkage:
@@ -134,37 +140,81 @@ class DriveCycle(Brief):
     def at(self, drives: Reals, order: int = 3) -> Motion:
         """The poses at drive values within the span, in any order, reached along the branch; rates for speed 1.
 
-        Raises `LinkageError` if one of them cannot be reached.
+        Many poses are kept for the next call with these drive values. Raises `LinkageError` if one cannot be reached.
         """
         order_of = np.argsort(drives, kind="stable")
-        first = self.start.drives[0]
-        path = np.concatenate([first, np.asarray(drives, np.float64)[order_of]])
-        motion, rows = _run(self.plan, path, order, self.start)
+        ascending = np.asarray(drives, np.float64)[order_of]
+        key = ascending.tobytes()
+        motion = self._kept.get(key)
+        if motion is None or motion.order < order:
+            motion = self._along(ascending, order)
+            if len(ascending) >= _MANY:
+                self._kept.pop(key, None)
+                self._kept[key] = motion
+            if len(self._kept) > _KEPT:
+                self._kept.pop(next(iter(self._kept)))
+        return _rows(motion, np.argsort(order_of, kind="stable"), order)
+
+    def _along(self, drives: Reals, order: int) -> Motion:
+        """The poses at ascending drive values."""
+        start = self._nearest(drives[0])
+        motion, rows = _run(self.plan, np.concatenate([start.drives[0], drives]), order, start)
         if not motion.complete:
             raise LinkageError("the branch is lost within its range. {reason}", reason=motion.reason)
-        return _rows(motion, rows[1 + np.argsort(order_of, kind="stable")])
+        motion.whole[:] += start.whole[0]
+        return _rows(motion, rows[1:], order)
 
-    def end(self, function: Callable[[Motion], Reals], upper: bool) -> float:
-        """The value of a function of the poses at an end of the range, where poses themselves are ill-conditioned.
+    def _nearest(self, drive: float) -> Motion:
+        """The start, or a nearer pose that is kept; none next to a change point or an end of the range."""
+        branching = [dyad.number for dyad in self.plan.dyads if dyad.branching]
+        best, margin = self.start, 0.0 if self.span.full else _WELL * self.span.width
+        for motion in self._kept.values():
+            at = motion.drives[:, 0]
+            well = np.abs(motion.roots[:, branching]).min(axis=1, initial=1.0) > _WELL
+            well &= ((at >= self.span.low + margin) & (at <= self.span.high - margin)) | self.span.full
+            far = np.where(well, np.abs(at - drive), np.inf)
+            row = int(far.argmin())
+            if far[row] < abs(best.drives[0, 0] - drive):
+                best = _rows(motion, np.array([row]), 0)
+        return best
+
+    def end(self, function: Callable[[Motion], Reals | Complexes], upper: bool, size: float = 1.0) -> complex:
+        """The value of a function of that size at an end of the range, where poses themselves are ill-conditioned.
 
         In t, drive = middle - cos t times half the width, it is analytic: it is extrapolated by a polynomial of degree
-        9 from t up to 0.3; at the limit of a larger group from drive values within 2e-4 (radians or sizes) of it. Error
-        of the order of 1e-10 of the function's size.
+        9 through ten poses with t up to 0.3, at the limit of a larger group with drive values within 2e-4 (radians or
+        sizes) of it. The interval of t is halved until two such values agree within 1e-9 of the function's size, or as
+        long as they come nearer to one another and the poses are known: no nearer than 1e-10 to the limit.
         """
-        half = self.span.width / 2
         limit, inward = (self.span.high, -1.0) if upper else (self.span.low, 1.0)
         stop = self.span.stops[int(upper)]
         if stop is None:
-            return float(function(self.at(np.array([limit])))[0])
-        of_group = stop.reason == "singular"
-        from_end = _from_end(min(_END, (2 * _END_OF_GROUP * self.drive_size / half) ** 0.5) if of_group else _END, half)
-        motion = self.at(limit + inward * from_end)
-        if of_group:
-            from_end = from_end - _limit_error(motion, from_end)
-        t = 2 * np.arcsin(np.sqrt(from_end / (2 * half)))
+            return complex(function(self.at(np.array([limit])))[0])
+        most, half = _END, self.span.width / 2
+        if stop.reason == "singular":
+            most = min(_END, (2 * _END_OF_GROUP * self.drive_size / half) ** 0.5)
+            from_end = _from_end(most, half)
+            limit += inward * _limit_error(self.at(limit + inward * from_end), from_end)
         others = ~np.eye(_NODES, dtype=bool)
-        weights = np.prod(-t / np.where(others, t[:, None] - t, 1.0), axis=1, where=others)
-        return float(weights @ function(motion))
+        values: list[complex] = []
+        while True:
+            from_end = _from_end(most / 2 ** len(values), half)
+            if values and from_end[0] < _END_NEAREST * self.drive_size:
+                return values[-1]
+            try:
+                motion = self.at(limit + inward * from_end)
+            except LinkageError:
+                if not values:
+                    raise
+                return values[-1]  # In coordinates with large offsets a larger group is lost a little farther away.
+            t = 2 * np.arcsin(np.sqrt(from_end / (2 * half)))
+            weights = np.prod(-t / np.where(others, t[:, None] - t, 1.0), axis=1, where=others)
+            values.append(complex(weights @ function(motion)))
+            changes = np.abs(np.diff(values[-3:]))
+            if len(changes) and changes[-1] > changes[0]:
+                return values[-2]
+            if len(changes) and changes[-1] <= _END_CLOSE * size:
+                return values[-1]
 
 
 def _from_end(most: float, half: float) -> Reals:
@@ -241,16 +291,15 @@ class PathCycle(DriveCycle):
         """The drive values at parts of the path; (n, drives)."""
         return np.asarray(self.ends[0] + np.asarray(parts, np.float64)[:, None] * (self.ends[1] - self.ends[0]))
 
-    def at(self, drives: Reals, order: int = 3) -> Motion:
-        """The poses at parts of the path, in any order; rates by the part."""
-        order_of = np.argsort(drives, kind="stable")
-        parts = np.concatenate([[0.0], np.asarray(drives, np.float64)[order_of]])
+    def _along(self, drives: Reals, order: int) -> Motion:
+        """The poses at ascending parts of the path; rates by the part."""
+        parts = np.concatenate([[0.0], drives])
         motion = move(
             self.plan, self.values(parts), speed=self.ends[1] - self.ends[0], order=order, branch=self.start.branch
         )
         if not motion.complete:
             raise LinkageError("{reason}", reason=motion.reason)
-        return _rows(motion, 1 + np.argsort(order_of, kind="stable"))
+        return _rows(motion, np.arange(1, len(parts)), order)
 
 
 def path_cycle(linkage: Linkage, path: ArrayLike, branch: str | Iterable[str] | None = None) -> PathCycle:
@@ -283,18 +332,17 @@ def _run(plan: Plan, places: Reals, order: int, start: Motion) -> tuple[Motion, 
     speeds[:1] = 1
     signs = np.where(start.roots[0] < 0, -1.0, 1.0)
     motion = motion_from_rows(plan, path, follow_path(plan, path, speeds, order, signs, start.unknowns[0]))
-    if order:
-        set_change_point_rates(plan, motion, path, speeds, signs)
+    set_change_point_rows(plan, motion, path, speeds, ReferencePose(path[0], signs, start.unknowns[0]))
     return motion, rows
 
 
-def _rows(motion: Motion, rows: np.ndarray) -> Motion:
+def _rows(motion: Motion, rows: np.ndarray, order: int) -> Motion:
     return replace(
         motion,
         drives=motion.drives[rows],
-        places=motion.places[:, rows],
+        places=motion.places[: order + 1, rows],
         turns=motion.turns[rows],
-        rates=motion.rates[:, rows],
+        rates=motion.rates[:order, rows],
         whole=motion.whole[rows],
         roots=motion.roots[rows],
         unknowns=motion.unknowns[rows],
@@ -335,15 +383,19 @@ def _span(plan: Plan, start: Motion) -> CycleSpan:
     q = float(start.drives[0, 0])
     turning = _turns(plan)
     most = _MOST_WITH_WHEELS if plan.wheels else _MOST_TURNS
-    longest = 2 * pi * most if turning else _FAR * plan.lower.size
-    steps = np.linspace(0, longest, (most if turning else 40) + 1)
-    above, rows = _run(plan, q + steps, 0, start)
-    back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
-    if back:
-        return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
+    turns = 1 if turning else 0
+    while True:  # Most linkages are back after one turn, or have stopped.
+        steps = np.linspace(0, 2 * pi * turns if turning else _FAR * plan.lower.size, (turns if turning else 40) + 1)
+        above, rows = _run(plan, q + steps, 0, start)
+        back = [k for k in range(1, len(rows)) if turning and rows[k] < len(above) and _same(plan, above, int(rows[k]))]
+        if back:
+            return CycleSpan(q, q + 2 * pi * back[0], True, back[0], (None, None))
+        if not above.complete or not turning or turns == most:
+            break
+        turns = min(2 * turns, most)
     short = steps[: _MOST_TURNS + 1] if turning else steps
     if above.complete:
-        above = _rows(above, rows[: len(short)])
+        above = _rows(above, rows[: len(short)], 0)
     below, _ = _run(plan, q - short, 0, start)
     low, high = (motion.stop.drives[0] if motion.stop else float(motion.drives[-1, 0]) for motion in (below, above))
     return CycleSpan(low, high, False, 0, (below.stop, above.stop))
@@ -368,21 +420,22 @@ def _grid(cycle: DriveCycle) -> Reals:
 
     least = _STILL / cycle.drive_size
     suspect = np.ones(len(s) - 1, bool)
+    speed, change = np.empty((2, 0, len(cycle.plan.lower.mechanism.chain.links)))
     for _ in range(_LEVELS):
         middles = (s[:-1] + s[1:])[suspect] / 2
-        rates = cycle.at(drive(np.concatenate([s, middles])), 2).rates
-        speed, change, between = rates[0, : len(s)], rates[1, : len(s)], rates[0, len(s) :]
-        usual = np.quantile(np.abs(speed), 0.9, axis=0)
+        new = middles if len(speed) else np.concatenate([s, middles])
+        rates = cycle.at(drive(new), 3).rates  # of the order that the search for zeros asks for
+        speed, change = (np.concatenate([before, now]) for before, now in zip((speed, change), rates[:2], strict=True))
+        between = speed[len(s) :]
+        usual = np.quantile(np.abs(speed[: len(s)]), 0.9, axis=0)
         width = np.diff(drive(s))[:, None]
-        cubic = (speed[:-1] + speed[1:]) / 2 + width / 8 * (change[:-1] - change[1:])
+        cubic = (speed[: len(s) - 1] + speed[1 : len(s)]) / 2 + width / 8 * (change[: len(s) - 1] - change[1 : len(s)])
         off = np.abs(between - cubic[suspect]) > _BEND * (usual + np.abs(between)) + least
         bent = np.zeros(len(s) - 1, bool)
         bent[suspect] = off.any(axis=1)
         order = np.argsort(np.concatenate([s, middles]), kind="stable")
-        halved = np.flatnonzero(suspect)
-        parts = np.ones(len(s) - 1, int)
-        parts[halved] = 2
-        s = np.concatenate([s, middles])[order]
+        parts = np.where(suspect, 2, 1)
+        s, speed, change = np.concatenate([s, middles])[order], speed[order], change[order]
         suspect = np.repeat(bent, parts)
         if not suspect.any():
             break

@@ -382,7 +382,8 @@ def measures(
     span = cycle.span
     ends = None
     if not span.full:
-        low, high = (cycle.end(looked_at.values, upper) for upper in (False, True))
+        size = 1.0 if looked_at.turning else cycle.size
+        low, high = (cycle.end(looked_at.values, upper, size).real for upper in (False, True))
         ends = low, high
     centres, rests = stops(cycle, looked_at)
     turns = output_turns(cycle, looked_at)

@@ -284,9 +284,6 @@ def _stationary(cycle: DriveCycle, leg: PushingLink) -> tuple[Reals, list[tuple[
         return np.array(places or [cycle.span.low]), []
     ends = []
     for upper, at in ((False, cycle.span.low), (True, cycle.span.high)):
-        z = complex(
-            cycle.end(lambda motion: product(motion).real, upper),
-            cycle.end(lambda motion: product(motion).imag, upper),
-        )
+        z = cycle.end(product, upper)
         ends.append((at, float(np.arctan2(abs(z.real), abs(z.imag)))))
     return np.array(places), ends

@@ -19,12 +19,12 @@ from gruebler.kinematics.branches import (
     read_branch,
     starting_state,
 )
-from gruebler.kinematics.change_point_rates import set_change_point_rates
+from gruebler.kinematics.change_point_rows import set_change_point_rows
 from gruebler.kinematics.drive_rows import drive_path, drive_speeds
 from gruebler.kinematics.kernel_calls import SolvedRows, follow_path, run_rows, without_first
 from gruebler.kinematics.motion import Motion, Stop, joint_openings
 from gruebler.kinematics.plan import Dyad, HigherGroup, Plan, plan
-from gruebler.kinematics.reference_pose import check_reference, pose_at_reference
+from gruebler.kinematics.reference_pose import ReferencePose, check_reference, pose_at_reference
 from gruebler.linkages import Linkage
 from gruebler.linkages.conversion import LinkageLike, as_linkage
 
@@ -86,21 +86,16 @@ def move(
         signs, unknowns = starting_configuration(made, path[0], branch)
     except Unassembled as found:
         return _never(made, path, upto, found)
+    home = branch is None and made.lower.reference_pose is not None
     rows = follow_path(made, path, speeds, upto, signs, unknowns)
-    if not rows.reached and made.higher_groups and branch is None and made.lower.reference_pose is not None:
+    if home and (_in_change_point(made, rows) if rows.reached else made.higher_groups):
         rows = _from_home(made, path, speeds, upto)
     motion = motion_from_rows(made, path, rows)
-    if (
-        motion.stop is not None
-        and motion.stop.reason == "open"
-        and branch is None
-        and made.lower.reference_pose is not None
-    ):
+    if motion.stop is not None and motion.stop.reason == "open" and home:
         # the start may be a change point of the independent part: the way from home tells the way on
         motion = motion_from_rows(made, path, _from_home(made, path, speeds, upto))
-    if upto:
-        motion = replace(motion, unbounded=set_change_point_rates(made, motion, path, speeds, signs))
-    return motion
+    start = pose_at_reference(made, path[0]) if home else ReferencePose(path[0], signs, unknowns)
+    return replace(motion, unbounded=set_change_point_rows(made, motion, path, speeds, start))
 
 
 def starting_configuration(plan: Plan, first: Reals, branch: str | Iterable[str] | None) -> tuple[Reals, Reals]:
@@ -130,6 +125,12 @@ def _other_signs(plan: Plan, signs: Reals, labels: tuple[str, ...]) -> Reals:
         if out[part.number] != signs[part.number] and any(isinstance(p, HigherGroup) and p.contacts for p in behind):
             raise LinkageError("branch: what wheels depend on is assembled as in the home, where their teeth are known")
     return out
+
+
+def _in_change_point(plan: Plan, rows: SolvedRows) -> bool:
+    """Whether the first row is a change point of a dyad, where its sign does not tell the branch."""
+    branching = [dyad.number for dyad in plan.dyads if dyad.branching]
+    return bool((np.abs(rows.roots[0, branching]) < _DOUBTFUL).any())
 
 
 def _from_home(plan: Plan, path: Reals, speeds: Reals, order: int) -> SolvedRows:
